@@ -37,12 +37,6 @@ has_cholmod() {
         cc -x c - -I/usr/include/suitesparse -o /dev/null -lcholmod >/dev/null 2>&1
 }
 
-# Optional in the build, for proofs in exact arithmetic; here it is always wanted.
-has_flint() {
-    printf '#include <flint/nmod_mat.h>\nint main(void) { return !n_is_prime(7); }\n' |
-        cc -x c - -o /dev/null -lflint >/dev/null 2>&1
-}
-
 has_python_headers() {
     "$python" - <<'PYTHON'
 import os, sys, sysconfig
@@ -69,7 +63,6 @@ missing_packages() {
     { has_command gfortran && has_lapack; } || echo libopenblas-dev
     { has_command cc && has_metis; } || echo libmetis-dev
     [ "$purpose" != test ] || { has_command cc && has_cholmod; } || echo libsuitesparse-dev
-    { has_command cc && has_flint; } || echo libflint-dev
     "$python" -c 'import venv, ensurepip' >/dev/null 2>&1 || echo python3-venv
     has_python_headers || echo python3-dev
 }

@@ -154,8 +154,8 @@ contains
    !> The reduced echelon form of D(c) modulo a prime. wishes: number of the prime, 1 if numbers
    !> are no decimals, 1 for the transpose. pivot: of each of its columns 1 where some row begins.
    !> place: for the other entries that are not zero the column, the one where their row
-   !> begins, and the residue in two parts of 31 bits. facts: the prime in two parts (0 where
-   !> there is no FLINT), 1 if of decimals, columns, and entries, of which as many as fit are given.
+   !> begins, and the residue in two parts of 31 bits. facts: the prime in two parts,
+   !> 1 if of decimals, columns, and entries, of which as many as fit are given.
    subroutine give_echelon(nodes, places, elements, vectors, wishes, pivot, place, facts)
       integer, intent(in) :: nodes(:, :), elements(:, :)
       real(wp), intent(in) :: places(:, :), vectors(:, :)

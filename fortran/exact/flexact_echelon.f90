@@ -5,7 +5,7 @@ module flexact_echelon
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix
    use flexact_exact_number, only: modular_arithmetic
-   use flexact_flint, only: flint_is_there, flint_prime, flint_echelon
+   use flexact_modular, only: random_prime, modular_echelon
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
    use flexact_proof, only: all_typed, seed_of
@@ -14,7 +14,6 @@ module flexact_echelon
    public :: echelon_t, find_echelon
 
    type :: echelon_t
-      !> 0 where the build has no FLINT; then there is nothing else.
       integer(int64) :: prime = 0
       !> Of the decimals as typed, or of the doubles as stored.
       logical :: as_typed = .true.
@@ -36,12 +35,11 @@ contains
       integer :: i
 
       allocate (echelon%pivot(0), echelon%entry(0, 0))
-      if (flint_is_there() == 0) return
-      echelon%prime = flint_prime(ieor(seed_of(model), int(number, int64)))
+      echelon%prime = random_prime(ieor(seed_of(model), int(number, int64)))
       echelon%as_typed = all_typed(model) .and. .not. as_stored
       call make_dense(model, echelon)
       if (is_transposed) echelon%entry = transpose(echelon%entry)
-      echelon%rank = flint_echelon(size(echelon%entry, 2), size(echelon%entry, 1), echelon%entry, echelon%prime)
+      echelon%rank = modular_echelon(size(echelon%entry, 2), size(echelon%entry, 1), echelon%entry, echelon%prime)
       echelon%pivot = [(first_of(echelon%entry(:, i)), i=1, echelon%rank)]
    end subroutine find_echelon
 

@@ -4,7 +4,7 @@
 !> are made from is a number of a model, as it was typed or as it is stored.
 module flexact_exact_number
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_flint, only: flint_inverse, flint_times
+   use flexact_modular, only: modular_inverse, modular_product
    use flexact_kinds, only: wp, qp
    use flexact_rounding, only: typed_t, typed
    implicit none
@@ -60,10 +60,10 @@ contains
       base = merge(10_int64, 2_int64, as_typed)
       arithmetic%power(0) = 1
       arithmetic%power(1) = base
-      arithmetic%power(-1) = flint_inverse(base, prime)
+      arithmetic%power(-1) = modular_inverse(base, prime)
       do i = 2, kept
-         arithmetic%power(i) = flint_times(arithmetic%power(i - 1), base, prime)
-         arithmetic%power(-i) = flint_times(arithmetic%power(1 - i), arithmetic%power(-1), prime)
+         arithmetic%power(i) = modular_product(arithmetic%power(i - 1), base, prime)
+         arithmetic%power(-i) = modular_product(arithmetic%power(1 - i), arithmetic%power(-1), prime)
       end do
    end function modular_arithmetic
 
@@ -83,7 +83,7 @@ contains
       number%residue = modulo(parts%mantissa, arithmetic%modulus)
       do while (parts%place /= 0 .and. number%residue /= 0)
          associate (step => min(kept, max(-kept, parts%place)))
-            number%residue = flint_times(number%residue, arithmetic%power(step), arithmetic%modulus)
+            number%residue = modular_product(number%residue, arithmetic%power(step), arithmetic%modulus)
             parts%place = parts%place - step
          end associate
       end do
@@ -164,7 +164,7 @@ contains
       if (c%modulus == 0) then
          c%value = a%value*b%value
       else if (a%residue > 0 .and. b%residue > 0) then
-         c%residue = flint_times(a%residue, b%residue, c%modulus)
+         c%residue = modular_product(a%residue, b%residue, c%modulus)
       end if
    end function times
 end module flexact_exact_number

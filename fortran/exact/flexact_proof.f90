@@ -8,7 +8,7 @@ module flexact_proof
    use flexact_components, only: components_t, component_of_columns, shape_of
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix
    use flexact_exact_number, only: arithmetic_t, modular_arithmetic
-   use flexact_flint, only: flint_is_there, flint_prime
+   use flexact_modular, only: random_prime
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_modular_rank, only: modular_rank, limits_t, too_much_work
@@ -92,7 +92,7 @@ contains
 
       call no_proof(problem%components%count, proof)
       proof%as_typed = all_typed(model) .and. .not. as_stored
-      if (wish == prove_never .or. flint_is_there() == 0) return
+      if (wish == prove_never) return
       associate (rows => problem%partition%count%rows, columns => problem%partition%count%columns)
          proof%is_too_large = bytes_of_row*rows > memory .or. (wish == prove_by_cost .and. rows + columns > cheap_size)
       end associate
@@ -103,7 +103,7 @@ contains
       component_of = component_of_columns(problem%components)
       bits_of_row = row_bits(model, proof%as_typed)
       proof%primes = 1
-      arithmetic = modular_arithmetic(flint_prime(seed_of(model)), proof%as_typed)
+      arithmetic = modular_arithmetic(random_prime(seed_of(model)), proof%as_typed)
       do i = 1, problem%components%count
          associate (sides => shape_of(problem%components, i))
             call prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)

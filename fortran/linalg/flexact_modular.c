@@ -1,18 +1,58 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arithmetic modulo a prime, for flexact_flint.f90 where the build has no FLINT: the same
- * functions, and the same answers. Primes are below 2**61, so that four times one fits. */
+/* Arithmetic modulo a prime, for flexact_modular.f90. Primes are below 2**61, so that four times
+ * one fits. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* So many entries are copied to the stack instead of the heap, where there may be no room. */
+enum { few = 64 * 64 };
+
+static uint64_t below(uint64_t x, uint64_t bound) { return x < bound ? x : x - bound; }
 
 #ifdef __SIZEOF_INT128__
 
 __extension__ typedef unsigned __int128 wide;
 
-/* So many entries are copied to the stack instead of the heap, where there may be no room. */
-enum { few = 64 * 64 };
-
 static uint64_t times(uint64_t a, uint64_t b, uint64_t modulus) { return (uint64_t)((wide)a * b % modulus); }
+
+/* The upper half of a product. */
+static uint64_t times_high(uint64_t a, uint64_t b) { return (uint64_t)((wide)a * b >> 64); }
+
+/* a * 2**64 by the modulus, which a is below. */
+static uint64_t quotient_of(uint64_t a, uint64_t modulus) { return (uint64_t)(((wide)a << 64) / modulus); }
+
+#else
+
+/* The same bit by bit, on processors without integers of 128 bits. */
+static uint64_t times(uint64_t a, uint64_t b, uint64_t modulus)
+{
+    uint64_t product = 0;
+    a = below(a, modulus);
+    for (; b > 0; b >>= 1) {
+        if (b & 1) product = below(product + a, modulus);
+        a = below(2 * a, modulus);
+    }
+    return product;
+}
+
+static uint64_t times_high(uint64_t a, uint64_t b)
+{
+    const uint64_t low = UINT32_MAX, middle = (a >> 32) * (b & low) + ((a & low) * (b & low) >> 32);
+    return (a >> 32) * (b >> 32) + (middle >> 32) + (((a & low) * (b >> 32) + (middle & low)) >> 32);
+}
+
+static uint64_t quotient_of(uint64_t a, uint64_t modulus)
+{
+    uint64_t quotient = 0;
+    for (int bit = 0; bit < 64; bit++) {
+        quotient = 2 * quotient + (2 * a >= modulus);
+        a = below(2 * a, modulus);
+    }
+    return quotient;
+}
+
+#endif
 
 static uint64_t power(uint64_t a, uint64_t exponent, uint64_t modulus)
 {
@@ -44,8 +84,6 @@ static int is_prime(uint64_t n)
     return 1;
 }
 
-int flexact_flint_is_there(void) { return 1; }
-
 /* The next number of a generator by Steele, Lea and Flood, OOPSLA 2014 ("splitmix"). */
 static uint64_t next_of(uint64_t *state)
 {
@@ -55,7 +93,7 @@ static uint64_t next_of(uint64_t *state)
     return z ^ (z >> 31);
 }
 
-int64_t flexact_flint_prime(int64_t seed)
+int64_t flexact_random_prime(int64_t seed)
 {
     uint64_t state = (uint64_t)seed, candidate;
     do
@@ -64,13 +102,13 @@ int64_t flexact_flint_prime(int64_t seed)
     return (int64_t)candidate;
 }
 
-int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
+int64_t flexact_modular_product(int64_t a, int64_t b, int64_t modulus)
 {
     return (int64_t)times((uint64_t)a, (uint64_t)b, (uint64_t)modulus);
 }
 
 /* Euclid's algorithm, with the multiple of a that each remainder is. */
-int64_t flexact_flint_inverse(int64_t a, int64_t prime)
+int64_t flexact_modular_inverse(int64_t a, int64_t prime)
 {
     int64_t older = prime, newer = a, before = 0, now = 1;
     while (newer != 0) {
@@ -82,16 +120,14 @@ int64_t flexact_flint_inverse(int64_t a, int64_t prime)
     return before < 0 ? before + prime : before;
 }
 
-static uint64_t below(uint64_t x, uint64_t bound) { return x < bound ? x : x - bound; }
-
 /* row := row + factor * pivot, all below twice the modulus, which factor is below. Products with
  * one factor need no division: its quotient by the modulus is known beforehand (Shoup; see
  * Harvey, Journal of Symbolic Computation 60, 2014). */
 static void add_multiple(uint64_t *row, const uint64_t *pivot, int count, uint64_t factor, uint64_t modulus)
 {
-    const uint64_t quotient = (uint64_t)(((wide)factor << 64) / modulus);
+    const uint64_t quotient = quotient_of(factor, modulus);
     for (int j = 0; j < count; j++) {
-        const uint64_t turns = (uint64_t)((wide)quotient * pivot[j] >> 64);
+        const uint64_t turns = times_high(quotient, pivot[j]);
         row[j] = below(row[j] + (factor * pivot[j] - turns * modulus), 2 * modulus);
     }
 }
@@ -121,7 +157,7 @@ static int eliminate(int rows, int columns, uint64_t *entry, uint64_t modulus, i
             if (below(entry[(int64_t)i * columns + j], modulus) != 0) break;
         if (i == rows) continue;
         if (i != rank) swap(pivot, entry + (int64_t)i * columns + j, columns - j);
-        scale(pivot, columns - j, (uint64_t)flexact_flint_inverse((int64_t)below(*pivot, modulus), (int64_t)modulus),
+        scale(pivot, columns - j, (uint64_t)flexact_modular_inverse((int64_t)below(*pivot, modulus), (int64_t)modulus),
               modulus);
         for (int k = is_reduced ? 0 : rank + 1; k < rows; k++) {
             uint64_t *row = entry + (int64_t)k * columns + j;
@@ -134,7 +170,7 @@ static int eliminate(int rows, int columns, uint64_t *entry, uint64_t modulus, i
 }
 
 /* The rank; -1 where there is no room. */
-int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
+int flexact_dense_modular_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
 {
     uint64_t small[few], *copy = small;
     const size_t count = (size_t)rows * (size_t)columns;
@@ -147,47 +183,10 @@ int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modu
     return rank;
 }
 
-int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
+int flexact_modular_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
 {
     uint64_t *row = (uint64_t *)entry;
     const int rank = eliminate(rows, columns, row, (uint64_t)modulus, 1);
     for (int64_t k = 0; k < (int64_t)rows * columns; k++) row[k] = below(row[k], (uint64_t)modulus);
     return rank;
 }
-
-#else
-
-/* Without integers of 128 bits there are no proofs. */
-int flexact_flint_is_there(void) { return 0; }
-
-int64_t flexact_flint_prime(int64_t seed)
-{
-    (void)seed;
-    return 0;
-}
-
-int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
-{
-    (void)a, (void)b, (void)modulus;
-    return 0;
-}
-
-int64_t flexact_flint_inverse(int64_t a, int64_t prime)
-{
-    (void)a, (void)prime;
-    return 0;
-}
-
-int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
-{
-    (void)rows, (void)columns, (void)entry, (void)modulus;
-    return -1;
-}
-
-int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
-{
-    (void)rows, (void)columns, (void)entry, (void)modulus;
-    return -1;
-}
-
-#endif

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The rank of a sparse matrix modulo a prime: what needs no arithmetic first, then
 !> elimination by the shortest row and its rarest column (Markowitz, Management
-!> Science 3, 1957), and the rest, once it has filled in, by FLINT; theory.md (17).
+!> Science 3, 1957), and the rest, once it has filled in, as a dense matrix; theory.md (17).
 module flexact_modular_rank
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_flint, only: flint_inverse, flint_rank
+   use flexact_modular, only: modular_inverse, dense_modular_rank
    use flexact_kinds, only: wp
    use flexact_modular_rows, only: matrix_t, make_matrix, unlink, subtract
    use flexact_singletons, only: take_singletons
@@ -18,7 +18,7 @@ module flexact_modular_rank
    real(wp), parameter :: filled = 0.2_wp
    !> So often it is asked how full the matrix is.
    integer, parameter :: now_and_then = 32
-   !> Multiplications that FLINT does in the time of one here.
+   !> Multiplications of a dense matrix in the time of one here.
    real(wp), parameter :: faster = 8.0_wp
 
    !> Multiplications that may be spent, and entries of a dense matrix that may be held.
@@ -76,7 +76,7 @@ contains
             if (is_column_left(column(at))) dense(number(column(at)), k) = entry(at)
          end do
       end do
-      rank = flint_rank(size(dense, 2), size(dense, 1), dense, modulus)
+      rank = dense_modular_rank(size(dense, 2), size(dense, 1), dense, modulus)
    end function rank_of_small
 
    !> Whether the rest is best dealt with as a whole, or nothing is left.
@@ -103,7 +103,7 @@ contains
       associate (row => matrix%row(pivot))
          at = minloc(matrix%in_column(row%column(:row%count)), 1)
          j = row%column(at)
-         scale = flint_inverse(row%value(at), matrix%modulus)
+         scale = modular_inverse(row%value(at), matrix%modulus)
          matrix%is_left(pivot) = .false.
          matrix%rows_left = matrix%rows_left - 1
          matrix%columns_left = matrix%columns_left - 1
@@ -143,6 +143,6 @@ contains
             dense(number(row%column(:row%count)), k) = row%value(:row%count)
          end associate
       end do
-      rank = flint_rank(rows, columns, dense, matrix%modulus)
+      rank = dense_modular_rank(rows, columns, dense, matrix%modulus)
    end function rank_of_dense
 end module flexact_modular_rank

@@ -3,7 +3,7 @@
 !> column rarest, is at hand at any time.
 module flexact_modular_rows
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_flint, only: flint_times
+   use flexact_modular, only: modular_product
    use flexact_kinds, only: wp
    implicit none
    private
@@ -137,11 +137,11 @@ contains
          end do
          if (matrix%place(j) > 0) then
             call unlink(matrix, i)
-            factor = modulus - flint_times(row%value(matrix%place(j)), scale, modulus)
+            factor = modulus - modular_product(row%value(matrix%place(j)), scale, modulus)
             call make_room(row, row%count + matrix%row(pivot)%count)
             do k = 1, matrix%row(pivot)%count
                call add_entry(matrix, i, matrix%row(pivot)%column(k), &
-                              flint_times(factor, matrix%row(pivot)%value(k), modulus))
+                              modular_product(factor, matrix%row(pivot)%value(k), modulus))
             end do
             matrix%work = matrix%work + matrix%row(pivot)%count + row%count
             matrix%place(row%column(:row%count)) = 0

@@ -17,7 +17,7 @@ if _typing.TYPE_CHECKING:
     from .advice.advice import Advice
     from .advice.step import Step
     from .analysis.exact import ExactBases
-    from .analysis.modes import Motion, SelfStress
+    from .analysis.result import Motion, SelfStress
     from .analysis.verdict import (
         Alternative,
         AnalysisError,
@@ -26,7 +26,6 @@ if _typing.TYPE_CHECKING:
         Counts,
         Gap,
         Margin,
-        Nearly,
         Proof,
         Verdict,
     )
@@ -52,7 +51,7 @@ if _typing.TYPE_CHECKING:
     from .model.sections import Material
     from .show.notebook.output import viewer
     from .show.notebook.rows import Results
-    from .sweeps.crossing import Crossing, Crossings
+    from .sweeps.crossings import Crossing, Crossings
     from .sweeps.parameters import grid
     from .sweeps.sweep import sweep
     from .sweeps.table import Table
@@ -67,7 +66,7 @@ _HOMES = {
     "advice.advice": ("Advice",),
     "advice.step": ("Step",),
     "analysis.exact": ("ExactBases",),
-    "analysis.modes": (
+    "analysis.result": (
         "Motion",
         "SelfStress",
     ),
@@ -79,7 +78,6 @@ _HOMES = {
         "Counts",
         "Gap",
         "Margin",
-        "Nearly",
         "Proof",
         "Verdict",
     ),
@@ -137,7 +135,7 @@ _HOMES = {
     "model.sections": ("Material",),
     "show.notebook.output": ("viewer",),
     "show.notebook.rows": ("Results",),
-    "sweeps.crossing": (
+    "sweeps.crossings": (
         "Crossing",
         "Crossings",
     ),
@@ -186,7 +184,6 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
-    "Nearly",
     "Node",
     "Notch",
     "Place",

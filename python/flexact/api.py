@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .advice.describe import MOST_MODES, describe
-from .analysis.decomposition import AccuracyGiven
+from .analysis.decomposition import AccuracyGiven, asked_for
 from .analysis.json import dictionary_of, text_of
 from .analysis.result import Result, result_of
-from .analysis.spaces import asked_for
 from .analysis.verdict import AnalysisError
 from .analysis.verdict_words import margin_in_short, warning_of, warnings_of
 from .core.arrays import FloatArray
@@ -25,8 +24,9 @@ from .model.model import Model
 from .model.reading import read
 from .show.mesh import to_meshio
 from .show.page import broken_page, page
-from .show.saving import as_bytes, save
+from .show.saving import save
 from .show.window import InWords, is_displayed, is_taken, open_page, page_path, write_page
+from .show.writers import as_bytes
 from .util.loading import load
 from .util.partial import attempted
 from .util.records import cached_property
@@ -168,8 +168,8 @@ class Analysis(Result):
         words = describe(self, most=MOST_MODES)
         if self.over_constrained and self.given.properties is not None:
             # It takes a while to load.
-            glance, told = load("flexact.costs.quick_cost"), words
-            words = attempted("", lambda: str(glance.with_glance(told, self)), words, None)
+            quick, told = load("flexact.costs.quick_cost"), words
+            words = attempted("", lambda: str(quick.with_quick_cost(told, self)), words, None)
         return words
 
     def __repr__(self) -> str:

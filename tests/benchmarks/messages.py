@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "python"))
 from commands import in_turn
 from dask_cluster import running_cluster
 
-from flexact.sweeps import running as chunks
+from flexact.sweeps import chunks
 from flexact.sweeps.running import results_of
 
 #: Items, and what one of them takes [s].

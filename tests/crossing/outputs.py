@@ -23,21 +23,19 @@ from flexact.apps.editor.document import Document, Position
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import folds_of, outline_of
 from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
-from flexact.apps.watch.edit_session import Editor
+from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.messages import Job, Shown
 from flexact.apps.watch.scene import Stage
 from flexact.apps.watch.worker import answer_of
-from flexact.costs.saving import SUFFIXES as COSTS
+from flexact.costs.cost import COSTS
 from flexact.show.drawing import QUANTITIES
-from flexact.show.mesh.collection import SUFFIX as CYCLE
+from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
-from flexact.show.picture import STILLS, SUFFIXES
-from flexact.show.saving import PAGES
-from flexact.tracing.output import SUFFIXES as TRACES
+from flexact.show.writers import PAGES, PICTURES, STILLS
+from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.
 WITHOUT_DECK = {"bench", "completion", "help"}
-MESHES = (*(f".{form}" for form in FORMATS), ".vtp", CYCLE)
 #: Of suffixes that mean the same the first.
 PAGE, TABLE = PAGES[0], TABLES[0]
 
@@ -102,21 +100,21 @@ def _commands() -> Iterator[str]:
         yield f"advise DECK -o OUT/advice{suffix}"
     yield "cost DECK"
     yield "cost DECK --json"
-    for suffix in COSTS:
+    for suffix in COSTS.suffixes:
         yield f"cost DECK -o OUT/cost{suffix} --beams 1 --release none"
     yield "declare DECK -o OUT/declared.dat"
     yield "regress DECK DECK2 --against OUT --store"
-    for suffix in SUFFIXES:
+    for suffix in PICTURES:
         yield f"picture DECK -o OUT/picture{suffix} {decision}"
     for which in ("motion", "freedom", "stress"):
         yield f"picture DECK --{which} 1 -o OUT/{which}{STILLS[0]}"
     yield f"picture DECK --held -o OUT/held{STILLS[0]}"
     for quantity in QUANTITIES:
         yield f"picture DECK --quantity {quantity.replace(' ', '-')} -o OUT/quantity.svg"
-    for suffix in MESHES:
+    for suffix in MESHES.suffixes:
         yield f"export DECK -o OUT/mesh{suffix}"
         yield f"export DECK --freedom 1 -o OUT/mesh{suffix}"
-    for suffix in TRACES:
+    for suffix in TRACES.suffixes:
         yield f"trace DECK --steps 6 -o OUT/trace{suffix}"
         yield f"trace DECK --freedom 1 --steps 6 -o OUT/trace{suffix}"
     yield f"view DECK --no-browser -o OUT/view{PAGE}"
@@ -173,19 +171,19 @@ def _watch(deck: Path, folder: Path) -> str:
     told: list[Any] = []
     answer = answer_of(Job(str(deck), is_script=False), told.append)
     stage = Stage(deck.name)
-    editor = Editor(str(deck), stage)
-    words = [editor.renewed(answer), json.dumps(stage.scene.event(), allow_nan=False)]
+    session = Session(deck, stage)
+    words = [session.renewed(answer), json.dumps(stage.scene.event(), allow_nan=False)]
     if isinstance(answer, Shown):
         pickle.loads(answer.result)
-        for request in ({"do": "tell"}, _first_choice(editor), {"do": "undo"}):
+        for request in ({"do": "tell"}, _first_choice(session), {"do": "undo"}):
             if request is not None:
-                _, content = editor.post(json.dumps(request).encode())
+                _, content = session.post(json.dumps(request).encode())
                 words.append(json.dumps(content, allow_nan=False))
     return "\n".join(words)
 
 
-def _first_choice(editor: Editor) -> dict[str, Any] | None:
-    _, content = editor.post(b'{"do": "tell"}')
+def _first_choice(session: Session) -> dict[str, Any] | None:
+    _, content = session.post(b'{"do": "tell"}')
     for proposal in content["told"]["proposals"]:
         for item in proposal["items"]:
             return {"do": "set", "set": item["choices"][0]["set"]}

@@ -8,7 +8,7 @@ program test_exact
    use flexact_exact_number, only: arithmetic_t, number_t, modular_arithmetic, many_digits, number_of, whole, &
                                    operator(+), operator(-), operator(*)
    use flexact_echelon, only: echelon_t, find_echelon
-   use flexact_flint, only: flint_is_there, flint_prime, flint_rank, flint_times
+   use flexact_modular, only: random_prime, dense_modular_rank, modular_product
    use flexact_jacobian, only: jacobian_t, make_jacobian
    use flexact_kinds, only: wp, qp
    use flexact_model, only: model_t
@@ -29,18 +29,14 @@ program test_exact
    call numbers_of_many_digits()
    call rows_of_every_kind()
    call nothing_is_proven_unasked()
-   if (flint_is_there() /= 0) then
-      call numbers_modulo_a_prime()
-      call doubles_modulo_a_prime()
-      call primes()
-      call ranks_modulo_a_prime()
-      call proof_of_twelve_trusses()
-      call collinear_decimals()
-      call collinear_doubles()
-      call echelon_of_collinear_decimals()
-   else
-      write (*, '(a)') 'skipped: this build has no FLINT'
-   end if
+   call numbers_modulo_a_prime()
+   call doubles_modulo_a_prime()
+   call primes()
+   call ranks_modulo_a_prime()
+   call proof_of_twelve_trusses()
+   call collinear_decimals()
+   call collinear_doubles()
+   call echelon_of_collinear_decimals()
    call tally%finish()
 
 contains
@@ -134,10 +130,10 @@ contains
       integer :: i, base
 
       do i = 1, size(seeds)
-         prime = flint_prime(seeds(i))
+         prime = random_prime(seeds(i))
          found(i) = prime
          call tally%check(prime > 2_int64**60 .and. prime < 2_int64**61, 'from 2**60 to 2**61')
-         call tally%check(flint_prime(seeds(i)) == prime, 'the same for the same seed')
+         call tally%check(random_prime(seeds(i)) == prime, 'the same for the same seed')
          do base = 2, 7
             call tally%check(power(int(base, int64), prime - 1, prime) == 1, 'a prime')
          end do
@@ -153,8 +149,8 @@ contains
       power = 1
       square = base
       do bit = 0, 62
-         if (btest(exponent, bit)) power = flint_times(power, square, modulus)
-         square = flint_times(square, square, modulus)
+         if (btest(exponent, bit)) power = modular_product(power, square, modulus)
+         square = modular_product(square, square, modulus)
       end do
    end function power
 
@@ -164,12 +160,12 @@ contains
       integer :: i
 
       entry = reshape([(int(i, int64), i=1, 9)], [3, 3])
-      call tally%check(flint_rank(3, 3, entry, mersenne) == 2, 'nine numbers in a row')
+      call tally%check(dense_modular_rank(3, 3, entry, mersenne) == 2, 'nine numbers in a row')
       entry(3, 3) = entry(3, 3) + 1
-      call tally%check(flint_rank(3, 3, entry, mersenne) == 3, 'one of them another')
-      call tally%check(flint_rank(2, 3, entry, mersenne) == 2, 'the first rows')
+      call tally%check(dense_modular_rank(3, 3, entry, mersenne) == 3, 'one of them another')
+      call tally%check(dense_modular_rank(2, 3, entry, mersenne) == 2, 'the first rows')
       entry = mersenne - 1
-      call tally%check(flint_rank(3, 3, entry, mersenne) == 1, 'all the same')
+      call tally%check(dense_modular_rank(3, 3, entry, mersenne) == 1, 'all the same')
    end subroutine ranks_modulo_a_prime
 
    !> Elements of every kind between points of a few digits, with vectors where they take any,

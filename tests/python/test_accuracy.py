@@ -26,8 +26,8 @@ from flexact.apps.cli.main import main
 from flexact.apps.editor.deck import Deck
 from flexact.apps.editor.document import Document
 from flexact.apps.editor.problems import opinion_on
-from flexact.apps.watch.live_edit import Session
-from flexact.apps.watch.messages import told_of
+from flexact.apps.watch.edit_session import Session
+from flexact.apps.watch.messages import summary_of
 from flexact.show.notebook.output import html_of
 from flexact.show.page import entry_of, page
 from flexact.show.page.content import verdict_of_side
@@ -273,7 +273,7 @@ def stated(name: str, analysis: Analysis) -> dict[str, str]:
         "side": side_of(analysis).words,
         "stored side": stored_side(analysis.to_json().encode(), "").words,
         "index": entry_of(analysis, "deck", "deck.html").words,
-        "watch, headline": told_of(analysis).verdict,
+        "watch, headline": summary_of(analysis).verdict,
         "watch, panel": session.told()["verdict"],
         "picture": picture_words(analysis)[1].partition(":")[0],
         "log": re.findall("Flexact: (.*)", spacar_log(analysis))[0],

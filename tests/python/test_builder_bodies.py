@@ -79,13 +79,13 @@ def test_mass_and_inertia_are_at_the_first_point() -> None:
     model = Model()
     body = model.body(POINTS, name="stage", mass=0.2, inertia=(1, 2, 3))
     first = body.nodes[0]
-    assert model._change().properties.node_mass == {
+    assert model._change().node_mass == {
         first.position: (0.2,),
         first.orientation: (1.0, 0.0, 0.0, 2.0, 0.0, 3.0),
     }
     flat = Model(planar=True)
     node = flat.body([(0, 0), (1, 0)], mass=0.2, inertia=3).nodes[0]
-    assert flat._change().properties.node_mass == {node.position: (0.2,), node.orientation: (3.0,)}
+    assert flat._change().node_mass == {node.position: (0.2,), node.orientation: (3.0,)}
 
 
 def test_one_point_with_a_mass_is_a_body_without_links() -> None:

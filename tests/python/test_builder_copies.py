@@ -74,8 +74,8 @@ def test_parts_of_a_copy_keep_sections_material_and_classes() -> None:
     model = leg()
     model.pattern(3, "z")
     draft = model._change()
-    assert len(draft.properties.stiffness) == len(draft.properties.mass) == 6
-    assert len(set(draft.properties.stiffness.values())) == 1
+    assert len(draft.stiffness) == len(draft.mass) == 6
+    assert len(set(draft.stiffness.values())) == 1
     assert model.deformation_classes.tolist() == [[1, 2, 1, 1, 2, 3], [1, 2, 1, 1, 2, 2]] * 3
     assert (model.data.appearance.dimensions == [2e-4, 0.02]).all()
 
@@ -303,7 +303,7 @@ def test_inertia_turns_with_its_body() -> None:
     model = Model()
     model.body([(1, 0, 0), (2, 0, 0)], name="body", mass=3, inertia=(1, 0.5, 0, 2, 0, 4))
     copy = model.pattern(4, "z")[1]["body"].nodes[0]  # type: ignore[union-attr]
-    masses = model._change().properties.node_mass
+    masses = model._change().node_mass
     assert masses[copy.position] == (3,)
     # By a quarter turn x becomes y, y becomes -x: Jxx 2, Jyy 1, Jxy changes its sign.
     assert masses[copy.orientation] == pytest.approx((2, -0.5, 0, 1, 0, 4))
@@ -347,3 +347,19 @@ def test_wrong_copies(call: object, code: str) -> None:
         call(model)  # type: ignore[operator]
     assert code_of(error) == code
     assert model.element_numbers.size == 2
+
+
+def test_a_copy_that_fails_leaves_no_stiffness_behind() -> None:
+    """Elements made later have the indices that its elements had."""
+    model = Model()
+    model.truss((0, 0, 0), (1, 0, 0), "bar", thickness=0.01, material="steel")
+    model.truss((2, 0, 0), (2, 1, 0))
+    model.fix((0, 0, 0), "x")
+    model.independent((2, 0, 0), "x")
+    with pytest.raises(ModelError) as error:
+        model.pattern(2, step=(2, 0, 0), parts=["bar"])
+    assert code_of(error) == "class-conflict"
+    model.truss((5, 5, 5), (6, 5, 5))
+    given = model.data.properties
+    assert given is not None
+    assert (~np.isnan(given.stiffness[:, 0])).tolist() == [True, False, False]

@@ -107,9 +107,7 @@ def test_what_is_left_keeps_names_sections_material_and_classes() -> None:
     assert model.deformation_classes.tolist() == [[1, 2, 1, 1, 2, 2], [1, 3, 1, 2, 3, 3], [1] * 6]
     assert model.data.appearance.dimensions.tolist()[:2] == [[2e-4, 0.02]] * 2
     assert np.nan_to_num(model.data.appearance.colour).tolist() == [[0] * 3, [0] * 3, [1, 0, 0]]
-    assert (
-        set(model._change().properties.stiffness) == set(model._change().properties.mass) == {0, 1}
-    )
+    assert set(model._change().stiffness) == set(model._change().mass) == {0, 1}
     with pytest.raises(ModelError) as error:
         model.independent("sheet 2", "in-plane bending", at="stage 2")
     assert code_of(error) == "class-conflict", "what was stated is remembered"

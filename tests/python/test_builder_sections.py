@@ -18,7 +18,7 @@ RECT, CIRC = 1, 2
 def properties(model: Model) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """ESTIFF and EM of the first element."""
     draft = model._change()
-    return draft.properties.stiffness[0], draft.properties.mass[0]
+    return draft.stiffness[0], draft.mass[0]
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_thickness_and_breadth_are_the_section() -> None:
         (0, 0, 0), (0.1, 0, 0), "z", thickness=5e-4, breadth=5e-2, material="steel", beams=3
     )
     assert properties(one) == properties(other)
-    assert len(one._change().properties.stiffness) == len(one._change().properties.mass) == 3
+    assert len(one._change().stiffness) == len(one._change().mass) == 3
     assert (one.data.appearance.dimensions == other.data.appearance.dimensions).all()
 
 
@@ -106,10 +106,10 @@ def test_hinges_and_notches_have_a_stiffness_of_their_own() -> None:
     model.hinge(p, "z", name="free")
     model.hinge(p, "z", stiffness=2.5, name="spring")
     model.notch(p, "z", stiffness=(2.5, 4e3, 5e3), name="notch")
-    assert model._change().properties.stiffness == {1: (2.5,), 2: (2.5, 4e3, 5e3)}
+    assert model._change().stiffness == {1: (2.5,), 2: (2.5, 4e3, 5e3)}
     plane = Model(planar=True)
     plane.hinge(plane.node(0, 0), stiffness=3)
-    assert plane._change().properties.stiffness == {0: (3.0,)}
+    assert plane._change().stiffness == {0: (3.0,)}
     for stiffness in (-1, (1, 2), "stiff", math.nan):
         with pytest.raises(ModelError) as error:
             model.notch(p, "z", stiffness=stiffness, name="wrong")  # type: ignore[arg-type]
@@ -119,7 +119,7 @@ def test_hinges_and_notches_have_a_stiffness_of_their_own() -> None:
 def test_a_material_without_density_gives_no_mass() -> None:
     model = Model()
     model.wire((0, 0, 0), (1, 0, 0), thickness=1e-3, material=Material("light", 1e9, 4e8))
-    assert model._change().properties.stiffness and not model._change().properties.mass
+    assert model._change().stiffness and not model._change().mass
 
 
 def test_parts_can_be_given_their_material_afterwards() -> None:
@@ -130,9 +130,9 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
     model.made_of(hinge, "titanium", thickness=2e-4, breadth=0.02)
     model.made_of("hinge sheet 2", "steel")
     draft = model._change()
-    axial = [draft.properties.stiffness[k][0] for k in (0, 1)]
+    axial = [draft.stiffness[k][0] for k in (0, 1)]
     assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
-    assert set(draft.properties.stiffness) == {0, 1}, "the body has none"
+    assert set(draft.stiffness) == {0, 1}, "the body has none"
     with pytest.raises(ModelError) as error:
         model.made_of("hinge body", "steel")
     assert code_of(error) == "no-section"
@@ -198,12 +198,12 @@ def test_warping_is_a_factor_or_held_or_left_out() -> None:
     model.sheet((0, 1, 0), (0.1, 1, 0), "z", section=section, material="steel", warping=1.5)
     corner = (0, 2, 0), (0.1, 2, 0), (0.1, 2, 0.1)
     model.folded_sheet(*corner, section=section, material="steel", warping=True)
-    twist = [row[1] for row in model._change().properties.stiffness.values()]
+    twist = [row[1] for row in model._change().stiffness.values()]
     assert twist[1] == pytest.approx(1.5 * twist[0])
     assert twist[2] == pytest.approx(twist[3]) and twist[2] > 1.05 * twist[0]
     for _ in range(2):
         model.made_of("plain", "steel", warping=True)
-        assert model._change().properties.stiffness[0][1] == pytest.approx(twist[2])
+        assert model._change().stiffness[0][1] == pytest.approx(twist[2])
 
 
 Call = Callable[[Model], object]

@@ -8,14 +8,18 @@ import pytest
 from test_watch import EXACT, GUIDE
 
 import flexact
-from flexact.apps.watch.messages import Told, told_of
-from flexact.apps.watch.scene import changed_between, changed_words
+from flexact.apps.watch.messages import ResultSummary, summary_of
+from flexact.apps.watch.scene import changed_words
 
 FREE = GUIDE.replace("DYNX 3  2\n", "")
 
 
 def result(deck: str) -> flexact.Analysis:
     return flexact.analyse(flexact.read_text(deck))
+
+
+def changed_between(before: flexact.Analysis, after: flexact.Analysis) -> str:
+    return changed_words(summary_of(before), summary_of(after))
 
 
 @pytest.mark.parametrize(
@@ -48,7 +52,7 @@ def test_where_nothing_has_changed_it_says_so() -> None:
     assert words.startswith("still over-constrained by 1; nothing has changed")
 
 
-TOLD = Told(
+TOLD = ResultSummary(
     "over-constrained by 2",
     {"motions": 0, "self-stresses": 2, "nodes": 4},
     "margin 1 mm",
@@ -82,7 +86,7 @@ def test_the_only_one_is_another() -> None:
 
 
 def test_what_is_told_goes_from_process_to_process() -> None:
-    told = told_of(result(GUIDE))
+    told = summary_of(result(GUIDE))
     assert pickle.loads(pickle.dumps(told)) == told
     assert told.verdict == "over-constrained by 1"
     assert len(told.stresses) == told.counts["self-stresses"] == 1

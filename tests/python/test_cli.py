@@ -11,7 +11,7 @@ from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 # Verdicts and exit codes
 
@@ -82,7 +82,7 @@ def test_an_empty_folder_exits_with_1(tmp_path: Path, capsys: pytest.CaptureFixt
         ["analyse", "x.dat", "--tolerance", "-1"],
         ["regress", "x.dat", "--against", "d", "--method", "cholesky"],
         ["regress", "x.dat"],
-        ["regress", "x.dat", "--against", "d", "--tolerance", "nan"],
+        ["regress", "x.dat", "--against", "d", "--within", "nan"],
     ],
 )
 def test_wrong_usage_exits_with_2(

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Help, examples that run as they stand, what is built in, and old names of options."""
+"""Help, examples that run as they stand, and what is built in."""
 
 from __future__ import annotations
 
+import argparse
 import io
 import os
 import platform
@@ -18,15 +19,21 @@ from small_decks import DECKS, write
 
 import flexact
 from flexact.apps.cli.command import VERBS, parser_of
-from flexact.apps.cli.help_texts import examples_in
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 ROOT = Path(__file__).parents[2]
 #: They serve until they are stopped, are for shells, or take long: their examples are read alone.
 NOT_RUN = {"view", "watch", "lsp", "completion", "bench"}
 #: What their examples exit with, where it is not 0.
 CODES = {"flexact analyse input_decks/paper/six_folded_sheets.dat --expect exact": 3}
+
+
+def examples_in(parser: argparse.ArgumentParser) -> list[str]:
+    """The words of the shell in the examples of a verb's help."""
+    start = "    $ "
+    lines = (parser.epilog or "").splitlines()
+    return [line.removeprefix(start) for line in lines if line.startswith(start)]
 
 
 @pytest.mark.parametrize("verb", VERBS)
@@ -135,8 +142,8 @@ def test_the_version_with_what_is_built_in(
     assert said["flexact"] == flexact.__version__
     assert said["Python"].startswith(platform.python_version())
     assert said["numpy"] == np.__version__
-    assert re.match(r"SuiteSparse|own factorisation|not built in", said["sparse method"])
-    assert re.match(r"FLINT|own arithmetic|not built in", said["proofs"])
+    assert said["sparse method"].startswith("own factorisation")
+    assert said["proofs"] == "own arithmetic"
     assert "(GPL-3.0 + GCC exception)" in said["linked with"]
     assert {"matplotlib", "vtk", "pyarrow", "distributed", "pandas", "PyYAML"} <= set(said)
     assert os.sep not in out, "no path of a machine unless it is asked for"
@@ -146,39 +153,6 @@ def test_twice_verbose_says_where_things_lie(capsys: pytest.CaptureFixture[str])
     assert main(["--version", "-vv"]) == 0
     out = capsys.readouterr().out
     assert sys.executable in out and str(Path(flexact.__file__).parent) in out
-
-
-# Old names
-
-
-@pytest.mark.parametrize(
-    ("verb", "old", "new"),
-    [
-        ("regress", ["--tolerance", "1e-6"], "--within"),
-        ("batch", ["--want", "verdict"], "--columns"),
-    ],
-)
-def test_old_names_of_options_work_and_say_the_new(
-    verb: str,
-    old: list[str],
-    new: str,
-    decks: Path,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    deck, rest = str(decks / "exact.dat"), ["--against", str(tmp_path / "answers")]
-    if verb == "regress":
-        assert main([verb, deck, *rest, "--store"]) == 0
-    else:
-        rest = ["-j", "1", "-o", str(tmp_path / "t.csv")]
-    capsys.readouterr()
-    assert main([verb, deck, *rest, *old]) == 0
-    was, err = capsys.readouterr()
-    assert f"{old[0]} is now called {new}" in err
-    assert main([verb, deck, *rest, new, old[1]]) == 0
-    now, err = capsys.readouterr()
-    assert (now, err) == (was, "")
-    assert old[0] not in parser_of(verb).format_help()
 
 
 # A pipe that nobody reads to its end

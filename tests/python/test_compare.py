@@ -12,7 +12,7 @@ from small_decks import BROKEN, DECKS, files_in, write
 import flexact
 from flexact.analysis.differences import Gravity, Side, change_of, side_of, stored_side
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 #: Four bars in a square with fixed lower corners, and what makes it stiff.
 SQUARE = """\

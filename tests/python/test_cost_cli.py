@@ -17,7 +17,7 @@ from flexact.apps.cli.main import main
 from flexact.costs.designs import Number, in_words
 from flexact.costs.json import HEADER
 from flexact.costs.request import (
-    AskedError,
+    RequestError,
     misalignment_of,
     quantity,
     release_of,
@@ -245,7 +245,7 @@ def test_what_is_asked_for_is_read() -> None:
     ],
 )
 def test_what_is_not_understood(read: object, text: str) -> None:
-    with pytest.raises(AskedError):
+    with pytest.raises(RequestError):
         read(text)  # type: ignore[operator]
 
 

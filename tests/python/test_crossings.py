@@ -17,7 +17,7 @@ import pytest
 import flexact
 from flexact import Model, Table, Verdict, analyse, sweep
 from flexact.sweeps.evaluate import scaled_jacobian
-from flexact.sweeps.search import Zero, minimum, sign_change
+from flexact.util.roots import Zero, minimum, sign_change
 
 DECKS = Path(__file__).parents[2] / "input_decks"
 BASE = [(math.cos(a), math.sin(a), 0.0) for a in np.radians((0, 120, 240))]

@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import flexact
-from flexact.model.places import one_line
+from flexact.model.names import one_line
 
 GUIDE = """\
 BEAM 1  1 2 3 4  0 1 0     % first sheet

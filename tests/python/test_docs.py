@@ -9,12 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from proofs import NEEDS_FLINT
 from wording import AsStored
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -58,7 +57,6 @@ def guide(tmp_path: Path) -> Path:
     return tmp_path / "guide.dat"
 
 
-@NEEDS_FLINT
 @pytest.mark.usefixtures("at_root")
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if shown(page)], ids=lambda page: page.name

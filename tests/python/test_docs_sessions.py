@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 from page_sessions import LEFT_OUT, given_files, says, steps
-from proofs import NEEDS_FLINT
 from test_docs import like
 from wording import AsStored
 
@@ -21,7 +20,6 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if steps(page)]
 
 
-@NEEDS_FLINT
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_commands_of_a_page_say_what_it_shows(
     page: Path,

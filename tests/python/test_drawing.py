@@ -7,7 +7,7 @@ from reference_decks import NAMES, text_of
 
 import flexact
 from flexact.show.drawing import Drawing, Form, Strip, Support, drawing_of, solid, stations
-from flexact.show.drawing.rotations import aligned, euler_of, matrix_of, matrix_of_euler, vector_of
+from flexact.util.rotations import aligned, euler_of, matrix_of, matrix_of_euler, vector_of
 
 
 def bare(name: str) -> str:

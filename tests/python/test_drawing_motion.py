@@ -18,7 +18,7 @@ from flexact.show.drawing import (
     stations,
 )
 from flexact.show.drawing.movement import moved_by_screws
-from flexact.show.drawing.rotations import matrix_of, vector_of
+from flexact.util.rotations import matrix_of, vector_of
 
 
 def moved(name: str, index: int = 0) -> tuple[flexact.Analysis, Drawing, Movement]:

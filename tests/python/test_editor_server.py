@@ -17,7 +17,7 @@ from language_client import PATIENCE, URI, Client
 from reference_decks import NAMES, ROOT, text_of
 from test_editor_words import GUIDE
 
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 from flexact.deck.rendering import DeckError
 from flexact.model.reading import read_bytes
 

@@ -17,7 +17,8 @@ from dask_cluster import is_alive
 
 import flexact
 from flexact.sweeps import pool as local_pool
-from flexact.sweeps.running import MOST_ITEMS, Done, EngineError, Source, results_of
+from flexact.sweeps.chunks import MOST_ITEMS, EngineError, Source
+from flexact.sweeps.running import Done, results_of
 
 MANY = 2000
 FORKS = pytest.mark.skipif(not local_pool.FORKS, reason="processes are not forked here")

@@ -12,7 +12,8 @@ import pytest
 from dask_cluster import Cluster, is_alive, running_cluster
 
 from flexact.sweeps import dask as dask_client
-from flexact.sweeps.running import Done, EngineError, results_of
+from flexact.sweeps.chunks import EngineError
+from flexact.sweeps.running import Done, results_of
 
 distributed = pytest.importorskip("distributed")
 

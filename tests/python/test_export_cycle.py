@@ -14,7 +14,8 @@ from vtk_files import LINE, QUAD
 
 import flexact
 from flexact.show.drawing.selection import select_motion
-from flexact.show.mesh.collection import Cycle, write_collection
+from flexact.show.mesh.collection import cycle
+from flexact.show.writers import write
 from flexact.util.outputs import OutputError
 
 #: A rigid arm of length 2 that turns about z at (1, 0, 0).
@@ -35,7 +36,7 @@ def play(tmp_path: Path) -> Callable[[flexact.Analysis], Path]:
     def to_file(analysis: flexact.Analysis) -> Path:
         chosen = select_motion(analysis)
         target = tmp_path / "x.pvd"
-        write_collection(Cycle(analysis, None if chosen is None else chosen.motion, target))
+        write(target, cycle(analysis, None if chosen is None else chosen.motion, target))
         return target
 
     return to_file
@@ -170,13 +171,14 @@ def test_a_failing_cycle_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.Mo
         raise OutputError("there is not enough memory for the mesh")
 
     analysis = flexact.analyse(ROOT / "input_decks" / "linkages" / "sarrus.dat")
-    cycle = Cycle(analysis, analysis.motions[0], tmp_path / "x.pvd")
+    target = tmp_path / "x.pvd"
+    files = cycle(analysis, analysis.motions[0], target)
     made = iter((b"first", b"second"))
     monkeypatch.setattr(
         "flexact.show.mesh.collection.mesh_bytes", lambda *given: next(made, None) or fail(*given)
     )
     with pytest.raises(OutputError, match="not enough memory"):
-        write_collection(cycle)
+        write(target, files)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -184,7 +186,7 @@ def test_a_failing_cycle_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.Mo
 def test_a_cycle_names_its_files_whatever_it_is_called(stem: str, tmp_path: Path) -> None:
     analysis = flexact.analyse(ROOT / "input_decks" / "flexures" / "six_wires.dat")
     target = tmp_path / f"{stem}.pvd"
-    write_collection(Cycle(analysis, None, target))
+    write(target, cycle(analysis, None, target))
     ((_, path),) = steps_of(target)
     assert path.is_file()
 
@@ -193,7 +195,7 @@ def test_a_cycle_names_its_files_whatever_it_is_called(stem: str, tmp_path: Path
 def test_a_name_that_xml_cannot_spell_is_refused(stem: str, tmp_path: Path) -> None:
     analysis = flexact.analyse(ROOT / "input_decks" / "flexures" / "six_wires.dat")
     with pytest.raises(OutputError, match="that XML cannot spell"):
-        Cycle(analysis, None, tmp_path / f"{stem}.pvd")
+        cycle(analysis, None, tmp_path / f"{stem}.pvd")
     assert list(tmp_path.iterdir()) == []
 
 

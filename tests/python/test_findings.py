@@ -263,7 +263,7 @@ def test_every_code_of_decks_and_doubts_has_a_rule() -> None:
     for folder in ("deck", "model"):
         for path in (ROOT / "fortran" / folder).glob("*.f90"):
             made |= set(re.findall(r"'([a-z]+(?:-[a-z]+)+)'", path.read_text()))
-    for name in ("deck/reading.py", "files/decks.py", "cli/failures.py"):
+    for name in ("model/reading.py", "util/decks.py", "apps/cli/decks.py"):
         text = (ROOT / "python" / "flexact" / name).read_text()
         made |= set(re.findall(r'(?<!encode\(")"([a-z]+(?:-[a-z]+)+)"', text))
     made |= {Doubt(kind).code for kind in DoubtKind}
@@ -320,16 +320,6 @@ def test_one_form_is_chosen(words: list[str], capsys: pytest.CaptureFixture[str]
     assert main(words) == 2
     out, err = capsys.readouterr()
     assert out == "" and words[-1].lstrip("-") in err
-
-
-@pytest.mark.parametrize("verb", [["analyse", "-o"], ["batch", "-o", "t.csv", "--files"]])
-def test_format_of_meshes_by_its_old_name(
-    verb: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main([verb[0], "decks/exact.dat", *verb[1:], "out", "--format", "vtk"]) == 0
-    err = capsys.readouterr().err
-    assert "is now called --mesh" in err
-    assert Path("out/exact.vtk").is_file()
 
 
 def test_names_are_no_links(capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,7 +7,7 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.motion import Ending, Held, Wishes, follow, follow_both_ways, least_error
-from flexact.motion.constraints import left_jacobian
+from flexact.util.rotations import left_jacobian
 
 DECKS = ROOT / "input_decks"
 

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from known_models import folded_sheet, ring, twelve_trusses
 from large_results import changed
-from proofs import CAN_PROVE, NEEDS_FLINT
 from verdicts import DENSE
 
 import flexact
@@ -129,16 +128,6 @@ def test_singular_values_without_room_are_an_error(monkeypatch: pytest.MonkeyPat
     assert analysis.singular_values.size == 9
 
 
-@pytest.mark.skipif(CAN_PROVE, reason="proofs are at hand")
-@pytest.mark.parametrize("prove", [None, True])
-def test_a_build_that_cannot_prove_says_so(prove: bool | None) -> None:
-    analysis = analyse(twelve_trusses(), prove=prove)
-    assert (analysis.certainty.value, analysis.proof) == ("numerically certain", None)
-    assert analysis.to_dict()["proof"] is None
-    assert "this build has no FLINT" in describe(analysis)
-
-
-@NEEDS_FLINT
 def test_method_is_told_where_it_is_not_the_plain_one() -> None:
     analysis = analyse(folded_sheet(False))
     plain = set(describe(analysis).splitlines())

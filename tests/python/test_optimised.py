@@ -21,13 +21,13 @@ import json
 import sys
 from pathlib import Path
 import flexact
-from flexact.apps.watch.live_edit import Session, answered
+from flexact.apps.watch.edit_session import Session
 
 session = Session(Path("deck.dat"))
 session.renew(flexact.analyse(flexact.read_text(Path(sys.argv[1]).read_text())))
 choice = session.told()["proposals"][0]["items"][0]["choices"][0]["set"]
 def do(**what):
-    reply = answered(session, json.dumps(what).encode())
+    reply = session.answered(json.dumps(what).encode())
     return f"{what['do']} {int(reply.status)} {reply.changed}"
 print(do(do="set", set=choice), do(do="undo"), do(do="redo"), sep="\\n")
 session.broken()

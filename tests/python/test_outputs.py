@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from small_decks import files_in, write
 
-from flexact.apps.cli.outcome import ExitCode, Outcome, exit_code
+from flexact.apps.cli.terminal import ExitCode, Outcome, exit_code
 from flexact.util.decks import DeckFile, FolderError, find_decks
 from flexact.util.errors import BatchError
 from flexact.util.outputs import (

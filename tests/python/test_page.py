@@ -16,7 +16,6 @@ import numpy as np
 import pytest
 from ill_conditioned_models import two_wires
 from known_models import folded_sheet, twelve_trusses
-from proofs import NEEDS_FLINT
 from reference_decks import ROOT
 
 import flexact
@@ -25,7 +24,7 @@ from flexact.show.page import Entry, broken_page, content, index_page, page
 from flexact.show.page import modes as modes_data
 from flexact.show.page.assets import SCRIPTS, asset, json_for_script, script
 
-PAGE = ROOT / "python" / "flexact" / "page"
+PAGE = ROOT / "python" / "flexact" / "show" / "page"
 CLAMPED = ROOT / "input_decks" / "paper" / "folded_sheet_clamped.dat"
 
 
@@ -142,7 +141,6 @@ def test_a_model_made_in_python_shows_its_deck() -> None:
     assert hashlib.sha256(deck.encode()).hexdigest() in words
 
 
-@NEEDS_FLINT
 def test_verdict_counts_decision_and_remedies_are_told() -> None:
     analysis = flexact.analyse(CLAMPED)
     words = words_of(page(analysis))
@@ -168,7 +166,6 @@ def head_of(text: str) -> str:
     return words_of(found[0])
 
 
-@NEEDS_FLINT
 def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
     head = head_of(page(flexact.analyse(CLAMPED)))
     for told in (
@@ -193,7 +190,7 @@ def test_a_doubtful_decision_is_doubted_in_the_first_line() -> None:
     # The sine of 60 degrees with two digits.
     bars = "PLTRUSS 1 1 2\nPLTRUSS 2 2 3\nX 2 0.87 0.5\nX 3 1.73 1\nFIX 1\nFIX 3\nEND\n"
     analysis = flexact.analyse(flexact.read_text(bars))
-    assert analysis.verdict is flexact.Verdict.EXACT and analysis.nearly == (1, 1)
+    assert analysis.verdict is flexact.Verdict.EXACT and analysis.nearly[:2] == (1, 1)
     text = page(analysis)
     head = head_of(text)
     assert "rank doubtful: there may be 1 motion and 1 self-stress" in head
@@ -333,7 +330,7 @@ def test_a_failed_analysis_has_a_page_that_says_why() -> None:
 
 
 def test_what_does_not_fit_is_left_out_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("drawing_data", "modes_data", "viewer_data", "tracks"):
+    for module in ("drawing", "modes", "viewer"):
         monkeypatch.setattr(import_module(f"flexact.show.page.{module}"), "MOST_MEMBERS", 7)
     analysis = flexact.analyse(twelve_trusses())
     text = page(analysis)

@@ -28,7 +28,7 @@ from reference_decks import NAMES, ROOT
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.analysis import spaces
+from flexact.analysis import result as results
 from flexact.analysis import sparse_basis as group_sparse
 from flexact.analysis.decomposition import column_weights, row_duals, row_factors, row_weights
 from flexact.analysis.sparse_basis import columns_of, pieces_of
@@ -113,8 +113,8 @@ def test_analyse_makes_no_basis(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> Basis:
         raise AssertionError("the basis is made")
 
-    monkeypatch.setattr(spaces, "motion_basis", fail)
-    monkeypatch.setattr(spaces, "stress_basis", fail)
+    monkeypatch.setattr(results, "motion_basis", fail)
+    monkeypatch.setattr(results, "stress_basis", fail)
     analysis = analyse(guide())
     assert analysis.margin and analysis.certainty and analysis.verdict
     with pytest.raises(AssertionError, match="the basis is made"):

@@ -116,12 +116,12 @@ def test_an_output_goes_on_without_a_part(
 
 #: Of each verb that takes several decks what stumbles over one of them.
 VERBS = {
-    "analyse": (["-o", "out"], "cli.analysed.result_of"),
-    "advise": ([], "cli.analysed.result_of"),
-    "check": ([], "cli.check.read_deck"),
-    "batch": (["-o", "out/table.csv", "--workers", "1"], "variants.batches.deck_rows.read_bytes"),
-    "regress": (["--against", "out", "--store"], "regress.one_deck.read_bytes"),
-    "report": (["-o", "out"], "cli.analysed.result_of"),
+    "analyse": (["-o", "out"], "apps.cli.decks.result_of"),
+    "advise": ([], "apps.cli.decks.result_of"),
+    "check": ([], "apps.cli.check.read_deck"),
+    "batch": (["-o", "out/table.csv", "--workers", "1"], "sweeps.batch.read_bytes"),
+    "regress": (["--against", "out", "--store"], "apps.checks.comparison.read_bytes"),
+    "report": (["-o", "out"], "apps.cli.decks.result_of"),
 }
 
 

@@ -22,7 +22,8 @@ pytest.importorskip("PIL")
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from flexact.show.picture import SUFFIXES, PictureError, picture_bytes
+from flexact.show.picture import PictureError, picture_bytes
+from flexact.show.writers import PICTURES
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 SVG = "{http://www.w3.org/2000/svg}"
@@ -193,7 +194,7 @@ def deck_model() -> flexact.Model:
 # The same each time
 
 
-@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("suffix", PICTURES)
 def test_files_are_the_same_each_time(suffix: str, tmp_path: Path) -> None:
     analysis = of_text(tmp_path, COLLINEAR)
     first = picture_bytes(analysis, suffix, size=SMALL)

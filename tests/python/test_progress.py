@@ -86,7 +86,7 @@ def test_an_analysis_tells_its_stages_and_gives_the_same() -> None:
 
 WATCHED = """\
 import sys
-from flexact.apps.cli import bar
+from flexact.apps.cli import terminal as bar
 bar.LARGE_FILE = bar.LARGE_MODEL = {large}
 from flexact.apps.cli.main import main
 sys.exit(main())

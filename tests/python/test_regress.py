@@ -16,7 +16,7 @@ from small_decks import COLLINEAR
 
 import flexact
 from flexact.apps.checks import stored_answer
-from flexact.apps.checks.comparison import Tolerances, differences
+from flexact.apps.checks.comparison import WITHIN, differences
 from flexact.apps.checks.stored_answer import (
     VECTORS,
     Images,
@@ -144,7 +144,7 @@ def test_singular_values_are_compared_by_the_largest() -> None:
         assert len(found) == reported
     assert heads(found) == ["singular values"]
     assert re.findall(r"\b\d\b(?!\.)", found[0]) == ["1", "2", "2"]
-    assert differences(answer, other, Tolerances(singular_values=1e-8)) == ()
+    assert differences(answer, other, (1e-8, WITHIN[1])) == ()
 
 
 # Large answers: images of fixed vectors in place of projectors, and the smallest values alone
@@ -297,7 +297,7 @@ def test_a_tolerance_may_be_given(deck: Path, tmp_path: Path) -> None:
     main([*arguments, "--store"])
     deck.write_text(COLLINEAR.replace("X 3 1 0", "X 3 1 1.000001"))
     assert main(arguments) == 3
-    assert main([*arguments, "--tolerance", "1e-3"]) == 0
+    assert main([*arguments, "--within", "1e-3"]) == 0
 
 
 WHOLE = json.loads(text_of(stored(COLLINEAR)))

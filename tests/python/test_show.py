@@ -14,7 +14,7 @@ import pytest
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 ROOT = Path(__file__).resolve().parents[2]
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"

@@ -9,8 +9,7 @@ from reference_decks import ROOT
 from small_decks import BROKEN, write
 
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
-from flexact.apps.cli.terminal import shortened, shortened_middle
+from flexact.apps.cli.terminal import ExitCode, shortened, shortened_middle
 from flexact.util.text import columns
 
 INPUT = str(ROOT / "input_decks")

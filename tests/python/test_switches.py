@@ -14,8 +14,9 @@ from known_models import guide
 from reference_decks import NAMES, ROOT
 
 import flexact
+from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.editable_model import Board, Edit, Place, states_of
-from flexact.apps.watch.live_edit import Calls, EditedDeck, Session, answered, edited
+from flexact.apps.watch.edited_text import Calls, EditedDeck, edited
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 
@@ -189,7 +190,7 @@ def test_calls_use_names() -> None:
         model.fix((0, y, 0))
     model.body([(0.1, 0, 0), (0.1, 0.05, 0)], name="stage")
     model.independent("stage", "y")
-    session = Session(Path("guide.py"), "guide")
+    session = Session(Path("guide.py"), model="guide")
     session.renew(flexact.analyse(model))
     node = int(model.node_numbers[0])
     switched(session, {"element": 1, "deformation": 3, "to": "released"})
@@ -580,7 +581,7 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
 def test_what_is_no_json_is_refused_in_words(body: bytes) -> None:
     session = Session(GUIDE)
     session.renew(board_of("flexures/parallel_guide").base)
-    reply = answered(session, body)
+    reply = session.answered(body)
     assert 400 <= reply.status < 500 and reply.content["error"] and not reply.changed
 
 

@@ -95,7 +95,7 @@ def test_html_is_harmless() -> None:
 
 
 def test_per_cents_never_say_all_where_one_is_missing() -> None:
-    from flexact.sweeps.writing import share_in_words
+    from flexact.sweeps.table import share_in_words
 
     assert share_in_words(3, 3) == "3 (100 %)"
     assert share_in_words(99_999, 100_000) == "99999 (99.999 %)"

@@ -12,8 +12,8 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.show.drawing.rotations import vector_of
 from flexact.tracing.output import plot_bytes
+from flexact.util.rotations import vector_of
 
 DECKS = ROOT / "input_decks"
 TRUSSES, WIRES = DECKS / "paper" / "twelve_trusses.dat", DECKS / "paper" / "five_wires.dat"

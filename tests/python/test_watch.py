@@ -246,7 +246,7 @@ def command(*words: object) -> subprocess.CompletedProcess[str]:
 
 
 def test_what_cannot_be_watched_is_said_in_words(tmp_path: Path, deck: Path) -> None:
-    from flexact.apps.cli.outcome import ExitCode
+    from flexact.apps.cli.terminal import ExitCode
 
     gone = command("watch", tmp_path / "gone.dat")
     assert gone.returncode == ExitCode.DECK_ERROR

@@ -49,7 +49,7 @@ def wheel_of(
         for name, text in texts.items():
             archive.writestr(home + "licenses/" + name, text)
         archive.writestr("flexact/core/_core.cpython-311-x86_64-linux-gnu.so", core)
-        archive.writestr("flexact/page/three.min.js", bytes(weight))
+        archive.writestr("flexact/show/page/three.min.js", bytes(weight))
         for name in (*BUNDLED, *more):
             archive.writestr("flexact.libs/" + name, b"")
     return wheel
@@ -102,27 +102,32 @@ def test_the_table_names_every_text() -> None:
 
 
 def test_the_licence_of_what_the_pages_hold_is_that_which_they_hold() -> None:
-    script = (ROOT / "python/flexact/page/three.min.js").read_text(encoding="utf-8")
+    script = (ROOT / "python/flexact/show/page/three.min.js").read_text(encoding="utf-8")
     head = script[script.index("The MIT License") : script.index("*/")].strip()
     assert head in TEXTS["three.txt"].decode("utf-8")
 
 
-def set_up(folder: Path, *options: str) -> tuple[int, str]:
+def set_up(folder: Path, libraries: Path, *options: str) -> tuple[int, str]:
     """The exit code and the words of meson."""
     command = shutil.which("meson", path=str(Path(sys.executable).parent))
     if command is None or shutil.which("gfortran") is None:
         pytest.skip("needs the program meson, and a compiler")
     words = [command, "setup", str(folder), str(ROOT), "-Dpython_package=false", *options]
+    words += [f"-D{language}_link_args=-L{libraries}" for language in ("c", "fortran")]
     done = subprocess.run(words, capture_output=True, text=True)
     return done.returncode, done.stdout
 
 
-def test_a_release_refuses_what_is_under_the_gpl(tmp_path: Path) -> None:
+def test_a_release_refuses_what_has_no_licence_that_is_known(tmp_path: Path) -> None:
     """Which the same build without -Drelease=true takes."""
-    code, words = set_up(tmp_path / "plain", "-Dsparse=cholmod")
-    if "CHOLMOD was not found" in words:
-        pytest.skip("needs CHOLMOD of SuiteSparse")
+    source, library = tmp_path / "own.c", tmp_path / "libown_lapack.a"
+    source.write_text("void dgesdd_(void) {}\n")
+    for program, *given in (["cc", "-c", "own.c"], ["ar", "rc", library.name, "own.o"]):
+        if shutil.which(program) is None:
+            pytest.skip("needs the program " + program)
+        subprocess.run([program, *given], cwd=tmp_path, check=True)
+    code, words = set_up(tmp_path / "plain", tmp_path, "-Dlapack=own_lapack")
     assert code == 0, words
-    code, words = set_up(tmp_path / "release", "-Dsparse=cholmod", "-Drelease=true")
+    code, words = set_up(tmp_path / "release", tmp_path, "-Dlapack=own_lapack", "-Drelease=true")
     assert code != 0
-    assert re.search(r"may not be linked with SuiteSparse \(GPL", words)
+    assert re.search(r"may not be linked with own_lapack \(licence not known\)", words)

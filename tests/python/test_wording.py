@@ -109,7 +109,6 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
     "unseen": lambda: changed(analyse(ring(5)), unseen=1),
     "zero_meant": lambda: deck("linkages/bennett"),
     "not_proven": lambda: analyse(ring(5), prove=False),
-    "no_exact_arithmetic": lambda: changed(analyse(ring(5)), proven_rank=-1, primes=0),
     "too_large_by_default": lambda: changed(analyse(ring(5)), proven_rank=-1),
     "not_confirmed": lambda: not_confirmed("sparse"),
     # Methods

@@ -49,7 +49,7 @@ def answer(model: flexact.Model, prove: bool) -> dict[str, Any]:
     return {
         "counts": [made.under_constrained, made.over_constrained],
         "certainty": made.certainty.value,
-        "nearly": None if made.nearly is None else list(made.nearly),
+        "nearly": None if made.nearly is None else list(made.nearly[:2]),
         "columns": made.columns,
         "bound": made.bound,
     }

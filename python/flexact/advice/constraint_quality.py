@@ -26,7 +26,8 @@ from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
-from ..model.parts.parts import Part, PartKind, groups_of
+from ..model.parts.parts import Part, PartKind
+from ..util.groups import groups_of
 from ..util.records import Frozen
 from .spaces.screws import ScrewSpace
 from .spaces.words import Geometry, space_in_words

@@ -17,10 +17,9 @@ from ..analysis.mode_words import (
     pressing_in_words,
     stress_in_parts,
 )
-from ..analysis.modes import Motion, SelfStress
 from ..analysis.naming import Named, Piece, Pieces, in_words, named_node
 from ..analysis.places import joint_node, with_article
-from ..analysis.result import Result
+from ..analysis.result import Motion, Result, SelfStress
 from ..analysis.screws import Screw
 from ..motion.extent import Extent, extent_in_words
 from ..util.records import Frozen, cached_property

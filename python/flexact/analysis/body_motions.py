@@ -16,7 +16,7 @@ from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.records import Frozen, cached_property
 from .carriers import Joint
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .locate import part_of, position_of
 from .screws import Screw, screw_of
 
@@ -90,7 +90,7 @@ class Moving(Frozen):
         rotation: (nodes as given, 3) [rad].
     """
 
-    outcome: Outcome
+    outcome: Decomposition
     displacement: FloatArray
     rotation: FloatArray
 
@@ -341,7 +341,7 @@ def _is_of_points(group: Sequence[_Item]) -> bool:
 class Moves:
     """What motions have in common: the velocities of all nodes, and of what they are made of."""
 
-    analysis: Outcome
+    analysis: Decomposition
 
     if TYPE_CHECKING:
         # A property here would be the default of a field of this name.

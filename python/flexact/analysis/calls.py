@@ -12,15 +12,15 @@ import numpy as np
 from ..core.elements import Class, Member, NodeKind, Role
 from ..deck.rendering import ModelError
 from ..model.data import ModelData
+from ..model.deformations import AT_Q
 from ..model.model import Model
 from ..model.parts.condensing import condensed
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
 from ..model.places import ROUNDING
-from ..model.words import AT_Q
 from .change import Change
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .deformation_words import bending_of, part_of, role_of
 from .locate import positions_near
 from .ways import Coordinate, Deformation, Part, Step, Way
@@ -55,7 +55,7 @@ class Call(NamedTuple):
         return f"{model}.{self.method}({', '.join(words)})"
 
 
-def calls_of(result: Outcome, advice: Way, part: Part) -> tuple[str, ...]:
+def calls_of(result: Decomposition, advice: Way, part: Part) -> tuple[str, ...]:
     """Such as `model.release("sheet 1", "in-plane bending", at="clamp 1")`.
 
     None where nothing is to be said, or no word says it without local axes. What a call has
@@ -75,7 +75,7 @@ def calls_of(result: Outcome, advice: Way, part: Part) -> tuple[str, ...]:
     return _in_turn(result, (HOLD, method_of(advice.keywords[0])), part) if is_stated else (call,)
 
 
-def taken_back(result: Outcome, part: Part) -> tuple[str, ...]:
+def taken_back(result: Decomposition, part: Part) -> tuple[str, ...]:
     """The calls that take back a declaration; a deformation is held before it is released."""
     if isinstance(part, Coordinate):
         call = coordinate_call(result, "clear", part.node, part.name)
@@ -89,7 +89,7 @@ def taken_back(result: Outcome, part: Part) -> tuple[str, ...]:
     return _in_turn(result, (HOLD, "release"), part)
 
 
-def _in_turn(result: Outcome, methods: tuple[str, ...], part: Deformation) -> tuple[str, ...]:
+def _in_turn(result: Decomposition, methods: tuple[str, ...], part: Deformation) -> tuple[str, ...]:
     """Calls with one deformation: in words, or where the model does not take these by numbers."""
     calls = [deformation_call(result, method, *part[:2]) for method in methods]
     worded = [call for call in calls if call is not None]
@@ -105,7 +105,7 @@ def method_of(keyword: str) -> str:
     return _METHODS.get(keyword, keyword)
 
 
-def call_of(result: Outcome, keyword: str, part: Part) -> str:
+def call_of(result: Decomposition, keyword: str, part: Part) -> str:
     """The call that does with a part what a statement of a deck does, or `HOLD`."""
     method = method_of(keyword)
     if isinstance(part, Coordinate):
@@ -114,7 +114,7 @@ def call_of(result: Outcome, keyword: str, part: Part) -> str:
     return "" if call is None else call.in_words()
 
 
-def calls_of_change(result: Outcome, change: Change, method: str) -> list[Call]:
+def calls_of_change(result: Decomposition, change: Change, method: str) -> list[Call]:
     """Calls of one method that make a change together; none where there are none for all of it.
 
     They were tried on the model. Where words do not do it, as bending has no plane any more once
@@ -152,13 +152,13 @@ def _releases_the_same(a: ModelData | None, b: ModelData) -> bool:
     return np.array_equal(mine == Class.DEPENDENT, others == Class.DEPENDENT)
 
 
-def coordinate_call(result: Outcome, method: str, node: int, name: str) -> Call:
+def coordinate_call(result: Decomposition, method: str, node: int, name: str) -> Call:
     """The call of a method with a coordinate of a node, by its number."""
     named = _node_by_name(result.parts, result.given.node_index[node])
     return Call(method, (node if named is None else named, name))
 
 
-def deformation_call(result: Outcome, method: str, element: int, number: int) -> Call | None:
+def deformation_call(result: Decomposition, method: str, element: int, number: int) -> Call | None:
     """The call of a method with a deformation; None where no word says it without local axes.
 
     Nor does one of a link that only carries a point: what it is, a model decides at the end.

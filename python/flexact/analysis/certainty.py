@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .decomposition import Outcome
+from .decomposition import Decomposition
+from .limits import CLEARLY, CUT_OFF, FADED, NEAR, REACH_OF_DIGITS, STORED
 from .margin import margin_of
-from .rank_evidence import STORED, Evidence
+from .rank_evidence import Evidence
 from .verdict import Alternative, Certainty, Margin
 
 #: So many are given.
@@ -21,7 +22,7 @@ _MOST = 3
 
 
 def alternatives_of(
-    outcome: Outcome, evidence: Evidence, lower: int, higher: int
+    outcome: Decomposition, evidence: Evidence, lower: int, higher: int
 ) -> tuple[Alternative, ...]:
     """The counts that may hold instead, likeliest first, at most three.
 
@@ -35,7 +36,7 @@ def alternatives_of(
     return tuple(_alternative(outcome, evidence, rank) for rank in dict.fromkeys(ranks))[:_MOST]
 
 
-def _ranks(outcome: Outcome, evidence: Evidence, lower: int, higher: int) -> Iterator[int]:
+def _ranks(outcome: Decomposition, evidence: Evidence, lower: int, higher: int) -> Iterator[int]:
     """All values in doubt; then as many as stand together, the widest gap above them first."""
     if lower:
         yield outcome.rank - lower
@@ -66,7 +67,7 @@ def _groups(ascending: list[float]) -> list[int]:
     return sorted(range(1, len(gaps) + 1), key=lambda k: -gaps[k - 1])
 
 
-def _alternative(outcome: Outcome, evidence: Evidence, rank: int) -> Alternative:
+def _alternative(outcome: Decomposition, evidence: Evidence, rank: int) -> Alternative:
     counts = (outcome.columns - rank, outcome.rows - rank)
     if rank > outcome.rank:
         # The numbers as they are say so, or nothing is known of how far they are from it.
@@ -88,20 +89,7 @@ def _largest(sizes: list[float | None]) -> float | None:
     return max(known) if known and len(known) == len(sizes) else None
 
 
-#: Values up to this multiple of the noise are looked at.
-NEAR = 100.0
-#: Of those, the ones up to this multiple of what storing the geometry makes of them are in doubt:
-#: a geometry that was itself computed has lost some bits more, and does not say so.
-CLEARLY = 30.0
 _EPSILON = float(np.finfo(np.float64).eps)
-#: Where motions and self-stresses of sound mechanisms both fade it is by 4 powers of ten at most;
-#: where a tiny value counts as zero, by 10 and more.
-_FADED = 7.0
-#: Values up to this multiple of what half a unit of the last digits makes are in doubt: digits
-#: may have been cut off, zeros at the end leave no trace, and the change is of first order.
-CUT_OFF = 2.0
-#: A unit of a third digit moves a singular value by less than this; see `sensitivity`.
-REACH_OF_DIGITS = 0.1
 
 
 class DoubtKind(str, Enum):
@@ -162,7 +150,7 @@ class Assessment(NamedTuple):
     doubts: tuple[Doubt, ...]
 
 
-def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
+def assess(outcome: Decomposition, evidence: Evidence) -> Assessment:
     """Whether the decision is certain.
 
     It is in doubt where a value that counts as non-zero is within reach of how the geometry
@@ -176,10 +164,10 @@ def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
         return Assessment(Certainty.CERTAIN, alternatives_of(outcome, evidence, 0, 0)[:1], ())
     lower = max(doubt.values for doubt in found)
     higher = max(doubt.zeros for doubt in found)
-    return Assessment(Certainty.NEARLY, alternatives_of(outcome, evidence, lower, higher), found)
+    return Assessment(Certainty.DOUBTFUL, alternatives_of(outcome, evidence, lower, higher), found)
 
 
-def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _doubts(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     raw = outcome.raw
     is_proven = raw.proven_rank == outcome.rank
     if not (raw.confirmed or is_proven):
@@ -198,7 +186,7 @@ def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
             yield from _zeros_below_noise(outcome, evidence)
 
 
-def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _close_to_noise(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     near = _nonzeros_up_to(outcome, NEAR * outcome.raw.noise)
     if not near:
         return
@@ -212,7 +200,7 @@ def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
         yield Doubt(DoubtKind.CLOSE_TO_NOISE, values=count, size=size)
 
 
-def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _explained_by_digits(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     reach = min(REACH_OF_DIGITS, CUT_OFF * outcome.raw.reach_of_digits)
     if not any(outcome.raw.pair_value <= reach):
         return
@@ -228,7 +216,7 @@ def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt
     yield Doubt(DoubtKind.DIGITS_EXPLAIN, values=count, size=reach)
 
 
-def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
+def _zeros_above_noise(outcome: Decomposition) -> Iterator[Doubt]:
     zero = outcome.gap.largest_zero
     if zero is None or zero <= outcome.raw.noise:
         return
@@ -240,7 +228,7 @@ def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
     yield Doubt(kind, zeros=max(1, rank - outcome.rank), size=zero)
 
 
-def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _zeros_below_noise(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     """Zeros that may be tiny, where nothing but the decomposition has seen them."""
     zero = outcome.gap.largest_zero
     if zero is None or not zero <= outcome.raw.noise:
@@ -249,7 +237,7 @@ def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
         yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero), 1)
 
 
-def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator[Doubt]:
+def _perhaps_tiny(outcome: Decomposition, evidence: Evidence, zero: float) -> Iterator[Doubt]:
     """Reasons to take a zero for a tiny value, the plainest first."""
     zeros = min(outcome.under_constrained, outcome.over_constrained)
     largest = max(outcome.scaled_singular_values[:1].max(initial=0.0), 1.0)
@@ -259,7 +247,7 @@ def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator
     left = evidence.largest_remainder
     if left and left.value > left.explained:
         yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left.value, explained=left.explained)
-    if evidence.powers_faded >= _FADED:
+    if evidence.powers_faded >= FADED:
         yield Doubt(DoubtKind.FADING, zeros=zeros, size=evidence.powers_faded)
 
 
@@ -269,7 +257,7 @@ def _stored(evidence: Evidence) -> float:
     return STORED * len(evidence.zero_pairs) * max(lifts, default=0.0)
 
 
-def _nonzeros_up_to(outcome: Outcome, limit: float) -> int:
+def _nonzeros_up_to(outcome: Decomposition, limit: float) -> int:
     """How many values that count as non-zero are not above a limit."""
     values = outcome.scaled_singular_values
     zeros = min(outcome.rows, outcome.columns) - outcome.rank

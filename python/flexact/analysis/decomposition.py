@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an analysis found, as it came from the core, under the paper's names."""
+"""D(c) decomposed, and the decision on its rank, under the paper's names; what is asked of both."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import calls
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import Dual, NodeKind, dual_table
+from ..core.progress import Progress, reported
 from ..core.raw import RawAnalysis, RawAssembly
 from ..model.attributes import Labels, column_labels, row_labels
 from ..model.data import ModelData
@@ -24,7 +25,8 @@ from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .carriers import Carriers
-from .screws import ROUNDING
+from .limits import LARGEST_ROUNDING, ROUNDING
+from .sparse_basis import orthonormal
 from .verdict import AnalysisError, ClassCounts, Counts, Gap, Margin, Proof, Verdict, completed
 
 #: A length [m], or a length [m] and an angle [rad]; a text says its unit, such as "20um,1mrad".
@@ -105,10 +107,6 @@ def _checked(part: Any, unit: str) -> float:
     return value
 
 
-#: More than this of a null vector is not taken for rounding.
-_LARGEST_ROUNDING = 1.0e-3
-
-
 class Asked(NamedTuple):
     """How an analysis was asked to be done."""
 
@@ -124,13 +122,57 @@ class Asked(NamedTuple):
 
 _PLAIN = Asked()
 
+
+def asked_for(
+    method: str,
+    tolerance: float | None,
+    prove: bool | None = None,
+    accuracy: AccuracyGiven | None = None,
+) -> Asked:
+    """What an analysis is asked for, if there is such a thing.
+
+    Raises:
+        TypeError: the method is no text, the tolerance no number, `prove` no truth value, or
+            the accuracy neither a number nor two.
+        ValueError: there is no such method, the tolerance is negative or not finite, or the
+            accuracy is not positive or not finite.
+    """
+    if not isinstance(prove, (bool, type(None))):
+        raise TypeError(f"prove must be True, False or None, not {type(prove).__name__}")
+    tolerance = _checked_tolerance(tolerance)
+    known = None if accuracy is None else Accuracy.of(accuracy)
+    if not isinstance(method, str):
+        raise TypeError(f"a method is given by its name, not by {type(method).__name__}")
+    if method not in calls.METHODS:
+        choices = ", ".join(calls.METHODS)
+        raise ValueError(f"there is no method {method!r}; choose from {choices}")
+    return Asked(method, tolerance, prove, known)
+
+
+def _checked_tolerance(tolerance: float | None) -> float | None:
+    if tolerance is None:
+        return None
+    kind = type(tolerance).__name__
+    if isinstance(tolerance, (str, *_NO_NUMBERS, bool)):
+        raise TypeError(f"the tolerance must be a number, not {kind}")
+    try:
+        value = float(tolerance)
+    except TypeError:
+        raise TypeError(f"the tolerance must be a number, not {kind}") from None
+    except (ValueError, OverflowError):
+        raise ValueError(f"the tolerance must be a number, not {in_short(tolerance)}") from None
+    if not (math.isfinite(value) and value >= 0.0):
+        raise ValueError(f"the tolerance must be finite and not negative, not {value}")
+    return value
+
+
 #: Nodes or elements, and modes, beyond which bodies and parts are not told one by one.
 _MOST_TOLD, _MOST_MODES = 2_000, 400
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Outcome(Frozen):
-    """The decomposition of D(c) and the decision on its rank.
+class Decomposition(Frozen):
+    """The decomposition of D(c), and the decision on its rank.
 
     Attributes:
         name: What the deck or model is called.
@@ -306,7 +348,7 @@ class Outcome(Frozen):
         above = self.gap.smallest_nonzero
         if not above:
             return ROUNDING
-        return max(ROUNDING, min(_LARGEST_ROUNDING, 10.0 * self.raw.noise / above))
+        return max(ROUNDING, min(LARGEST_ROUNDING, 10.0 * self.raw.noise / above))
 
     @cached_property
     def condition_number(self) -> float | None:
@@ -349,6 +391,16 @@ class Outcome(Frozen):
         return column_labels(self.data.arrays, self.raw.column_label - 1)
 
     @cached_property
+    def motion_space(self) -> Basis:
+        """Orthonormal basis of the motions, rotations in lengths."""
+        return orthonormal(self.raw.motions, column_weights(self))
+
+    @cached_property
+    def stress_space(self) -> Basis:
+        """Orthonormal basis of the self-stresses, moments in forces."""
+        return orthonormal(self.raw.stresses, row_weights(self))
+
+    @cached_property
     def assembly(self) -> RawAssembly:
         """The whole Jacobian in the reference configuration, as the core numbers it."""
         arrays = self.data.arrays
@@ -362,20 +414,20 @@ Places = IntArray | slice
 _ALL = slice(None)
 
 
-def column_weights(analysis: Outcome, columns: Places = _ALL) -> FloatArray:
+def column_weights(analysis: Decomposition, columns: Places = _ALL) -> FloatArray:
     """(columns,) 1 for a displacement, the characteristic length for a rotation."""
     kinds = analysis.data.arrays.node_kind[analysis.raw.column_label[0, columns] - 1]
     return np.where(kinds <= NodeKind.POSITION, 1.0, analysis.characteristic_length)
 
 
-def row_duals(analysis: Outcome, rows: Places = _ALL) -> NDArray[np.int32]:
+def row_duals(analysis: Decomposition, rows: Places = _ALL) -> NDArray[np.int32]:
     """(rows,) `Dual` of rows of D(c)."""
     element, deformation = analysis.raw.row_label[:, rows] - 1
     table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
     return table
 
 
-def row_factors(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
+def row_factors(analysis: Decomposition, rows: Places = _ALL) -> FloatArray:
     """(rows,) what makes a force or a moment of a stress resultant: 1, or l0 [m]."""
     over_length = row_duals(analysis, rows) == Dual.MOMENT_OVER_LENGTH
     return np.where(
@@ -383,10 +435,33 @@ def row_factors(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
     )
 
 
-def row_weights(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
+def row_weights(analysis: Decomposition, rows: Places = _ALL) -> FloatArray:
     """(rows,) what makes a stress resultant comparable with a force.
 
     A moment is divided by the characteristic length.
     """
     moment = row_duals(analysis, rows) != Dual.FORCE
     return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)
+
+
+def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -> RawAnalysis:
+    """Decompose D(c) of a model.
+
+    Raises:
+        DeckError: the model's deck is wrong.
+        ModelError: the model is wrong.
+        AnalysisError: it is too large for the memory, or there was no convergence.
+    """
+    data.require_sound()
+    # Below a bound of what it may need, nobody has to look how much there is.
+    most = data.packed.nodes.size + data.packed.elements.size
+    room = memory.allowance(memory.dense_needed(most, most))
+
+    def work(stage: IntArray | None) -> RawAnalysis:
+        return calls.analyse_model(
+            *(data.packed, asked.method, asked.tolerance, stage, room),
+            prove=asked.prove,
+            as_stored=data.has_long_numbers,
+        )
+
+    return completed(data, lambda: work(None) if progress is None else reported(work, progress))

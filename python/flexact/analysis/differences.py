@@ -17,9 +17,11 @@ from ..core.arrays import FloatArray
 from ..deck.diagnostics import decode
 from ..deck.rendering import ProblemsError
 from ..util.errors import FlexactError
+from ..util.matrices import span
 from ..util.text import harmless
 from . import json as json_modes
 from .decomposition import Accuracy
+from .limits import DEPENDENT_MODES, SAME_DIRECTION
 from .mode_words import motion_in_parts, stress_in_parts
 from .naming import counts_in_words, plain
 from .result import Result
@@ -294,20 +296,15 @@ def _largest(made: Mapping[str, Any], owner: str, component: str) -> Iterator[st
         yield f"{each['name'] or f'{owner} {each[owner]}'} {each[component]}"
 
 
-#: Cosine of the angle up to which a direction is the same: 25 degrees, so that small changes of
-#: the geometry keep it.
-_SAME = 0.9
-
-
 def came_and_went(
     before: Sequence[Mode], after: Sequence[Mode]
 ) -> tuple[tuple[Mode, ...], tuple[Mode, ...]]:
     """The modes that are new, and those that are no more."""
     labels = sorted({label for mode in (*before, *after) for label in mode.vector})
     place = {label: k for k, label in enumerate(labels)}
-    bases = [_orthonormal(modes, place) for modes in (before, after)]
+    bases = [span(_matrix(modes, place), DEPENDENT_MODES) for modes in (before, after)]
     cosines = np.linalg.svd(bases[0].T @ bases[1], compute_uv=False)
-    common = int(np.count_nonzero(cosines > _SAME))
+    common = int(np.count_nonzero(cosines > SAME_DIRECTION))
     went = _least(before, place, bases[1], bases[0].shape[1] - common)
     came = _least(after, place, bases[0], bases[1].shape[1] - common)
     return came, went
@@ -321,11 +318,6 @@ def _matrix(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatAr
             made[place[label], k] = value
     length = np.linalg.norm(made, axis=0)
     return np.asarray(made / np.where(length > 0.0, length, 1.0))
-
-
-def _orthonormal(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatArray:
-    left, sizes, _ = np.linalg.svd(_matrix(modes, place), full_matrices=False)
-    return np.asarray(left[:, sizes > 1e-10])
 
 
 def _least(

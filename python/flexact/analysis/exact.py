@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from ..core import calls
 from ..core.raw import RawEchelon
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .verdict import AnalysisError
 
 Vector = tuple[Fraction, ...]
@@ -104,11 +104,11 @@ def _fraction(residue: int, modulus: int, most: int) -> tuple[int, int]:
     return (after, bottom) if bottom > 0 else (-after, -bottom)
 
 
-def exact_bases(outcome: Outcome) -> ExactBases:
+def exact_bases(outcome: Decomposition) -> ExactBases:
     """Null vectors of D(c) and of its transpose over the rationals.
 
     Raises:
-        AnalysisError: the build has no FLINT, or D(c) or the fractions are too large.
+        AnalysisError: D(c) or the fractions are too large.
     """
     if max(outcome.rows, outcome.columns) > _LARGEST:
         raise AnalysisError(
@@ -120,7 +120,9 @@ def exact_bases(outcome: Outcome) -> ExactBases:
     return ExactBases(of or of_stresses, motions, stresses, max(first, second))
 
 
-def _basis(outcome: Outcome, size: int, is_transposed: bool) -> tuple[tuple[Vector, ...], str, int]:
+def _basis(
+    outcome: Decomposition, size: int, is_transposed: bool
+) -> tuple[tuple[Vector, ...], str, int]:
     """Null vectors of one side, of what they are, and how many primes were taken."""
     if not size:
         return (), "", 0
@@ -141,19 +143,13 @@ def _basis(outcome: Outcome, size: int, is_transposed: bool) -> tuple[tuple[Vect
 
 
 def _echelons(
-    outcome: Outcome, size: int, is_transposed: bool, first: int = 0
+    outcome: Decomposition, size: int, is_transposed: bool, first: int = 0
 ) -> Iterator[RawEchelon]:
     """Echelon forms modulo one prime after the other."""
     operations = outcome.rows * outcome.columns * min(outcome.rows, outcome.columns)
     data = outcome.data
     for number in range(first, int(_MOST_OPERATIONS / max(operations, 1e6)) + 1):
-        made = calls.find_echelon(data.packed, size, number, data.has_long_numbers, is_transposed)
-        if not made.prime:
-            raise AnalysisError(
-                "this build has no FLINT, which vectors as fractions need "
-                "(apt-get install libflint-dev, then build Flexact again)"
-            )
-        yield made
+        yield calls.find_echelon(data.packed, size, number, data.has_long_numbers, is_transposed)
 
 
 def _agree(pivots: tuple[int, ...], found: _Entries, echelon: RawEchelon) -> bool:

@@ -21,14 +21,10 @@ from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from ..util.records import Frozen, cached_property
 from .body_motions import Moves, Velocities
-from .decomposition import Asked, Outcome
+from .decomposition import Asked, Decomposition, decompose
+from .limits import DEPENDENT_VELOCITIES, NOT_ONE
 from .mode_basis import coordinate_key, ranked
-from .spaces import decompose
 
-#: Independent velocities that depend on each other to within this part cannot be told apart.
-_DEPENDENT = 1.0e-12
-#: A degree of freedom moves if its velocity can be one to within this, the others being zero.
-_NOT_ONE = 1.0e-6
 #: How many degrees of freedom one further decomposition serves.
 _AT_ONCE = 64
 
@@ -46,7 +42,7 @@ class FreeMotion(Moves, Frozen):
             without this declaration.
     """
 
-    analysis: Outcome
+    analysis: Decomposition
     analysed: Velocities
 
 
@@ -61,7 +57,7 @@ class Freedom(Frozen):
         block: What finds the motions of some degrees of freedom together.
     """
 
-    analysis: Outcome
+    analysis: Decomposition
     place: tuple[int, int]
     is_coordinate: bool
     block: Block
@@ -156,7 +152,7 @@ class Freedom(Frozen):
 class Block:
     """Some degrees of freedom, and the null space in which none of them is declared."""
 
-    def __init__(self, outcome: Outcome, places: Sequence[_Place]) -> None:
+    def __init__(self, outcome: Decomposition, places: Sequence[_Place]) -> None:
         """Keep what is asked; it is found when the first motion is asked for."""
         self._outcome = outcome
         self.places = tuple(places)
@@ -198,8 +194,10 @@ class Block:
         if not (size @ wanted > 0.0):
             return None
         scale = 1.0 / np.where(size > 0.0, size, 1.0)
-        shares = np.linalg.lstsq(scale[:, None] * rates, scale * wanted, rcond=_DEPENDENT)[0]
-        if np.abs(scale * (rates @ shares - wanted)).max() > _NOT_ONE * (scale @ wanted):
+        shares = np.linalg.lstsq(
+            scale[:, None] * rates, scale * wanted, rcond=DEPENDENT_VELOCITIES
+        )[0]
+        if np.abs(scale * (rates @ shares - wanted)).max() > NOT_ONE * (scale @ wanted):
             return None
         basis = self._freed.motions
         node, axis = self._freed.column_label - 1
@@ -227,7 +225,7 @@ def _undeclared(data: ModelData, places: Sequence[_Place]) -> ModelData:
     )
 
 
-def freedoms_of(outcome: Outcome) -> tuple[Freedom, ...]:
+def freedoms_of(outcome: Decomposition) -> tuple[Freedom, ...]:
     """The declared degrees of freedom, coordinates first."""
     arrays = outcome.data.arrays
     places: list[_Place] = []

@@ -22,6 +22,7 @@ from .carriers import Joint
 from .decomposition import row_duals, row_factors
 from .deformation_words import deformation_word
 from .freedoms import Freedom
+from .limits import LEFT_OUT
 from .mode_words import moments_at_ends
 from .naming import freedom_in_words, node_name, part_in_words, plain, unit_of_coordinate
 from .part_stresses import Conflict, PartStress
@@ -349,8 +350,6 @@ def _vector(vector: FloatArray, unit: str) -> Entries:
     return {"value": vector.tolist(), "unit": unit}
 
 
-#: Components of a mode below this part of its largest are left out.
-_NEGLIGIBLE = 1.0e-14
 #: How many components are handled at once.
 _AT_ONCE = 100_000
 
@@ -405,7 +404,7 @@ class ModesTable(NamedTuple):
             size = np.abs(basis.value[part])
             largest = np.zeros(end - begin)
             np.maximum.at(largest, vector, size)
-            kept = size > _NEGLIGIBLE * largest[vector]
+            kept = size > LEFT_OUT * largest[vector]
             columns = self.columns(basis.place[part][kept], basis.value[part][kept])
             rows = zip(
                 *(
@@ -575,11 +574,12 @@ def _decision(analysis: Result) -> dict[str, Any]:
 
 def _certainty(analysis: Result) -> dict[str, Any]:
     """What is known of the rank: of the arithmetic, not of the machine."""
-    proof = analysis.proof
+    proof, nearly = analysis.proof, analysis.nearly
+    counts = ("under_constrained", "over_constrained")
     return {
         "certainty": certainty_word(analysis),
         "proof": proof._asdict() if proof else None,
-        "nearly": analysis.nearly._asdict() if analysis.nearly else None,
+        "nearly": None if nearly is None else dict(zip(counts, nearly, strict=False)),
         "alternatives": [item._asdict() for item in analysis.alternatives],
     }
 

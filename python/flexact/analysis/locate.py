@@ -14,8 +14,7 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
 from ..deck.rendering import model_error
 from ..model.deformations import classes_of_division, find_deformations
-from ..model.draft import Draft
-from ..model.handles import Owner
+from ..model.draft_arrays import draft_of
 from ..model.names import ambiguous, unknown
 from ..model.parts.parts import Part, PartKind, Parts
 from ..model.places import ROUNDING
@@ -282,11 +281,12 @@ def deformations_of(
                 f"it has {', '.join(map(str, there.tolist()))}",
             )
         return [(found[0], number - 1)]
-    draft = Draft.of(data, Owner())
+    draft = draft_of(data)
     if at is not None and not isinstance(at, str):
         place = data.arrays.node_value[:3, position_of(parts, at)].tolist()
         at = place[:2] if data.planar else place
-    one = find_deformations(draft, of_indices(draft, list(found)), (which,), at)
-    kind = element_kinds()[draft.kinds[one.indices[0]] - 1]
-    places, _ = classes_of_division(draft.classes, kind, one.indices, one.numbers, Class.DEPENDENT)
+    part = of_indices(draft, list(found))
+    indices, numbers = find_deformations(draft, part, (which,), at)
+    kind = element_kinds()[draft.kinds[indices[0]] - 1]
+    places, _ = classes_of_division(draft.classes, kind, indices, numbers, Class.DEPENDENT)
     return [(index, k - 1) for index, k in places]

@@ -9,16 +9,15 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..core.arrays import FloatArray
-from .decomposition import Outcome
+from .decomposition import Decomposition
+from .limits import NO_CHANGE
 from .rank_evidence import Evidence, Pair
 from .verdict import Margin
 
-#: A change by less than this part of the scale of the whole matrix is none: no geometry has it.
-NOTHING = 1.0e-9
 _NO_MARGIN = Margin(None, None, None, None, None)
 
 
-def margins(outcome: Outcome, evidence: Evidence) -> tuple[Margin, ...]:
+def margins(outcome: Decomposition, evidence: Evidence) -> tuple[Margin, ...]:
     """One for each zero, at most 8, then one for each of the smallest other singular values.
 
     To first order: a value that is not zero is brought to zero by `value / change`, a zero
@@ -30,7 +29,7 @@ def margins(outcome: Outcome, evidence: Evidence) -> tuple[Margin, ...]:
     return (*zeros, *others)
 
 
-def _of_zero(outcome: Outcome, group: tuple[Pair, ...]) -> Margin:
+def _of_zero(outcome: Decomposition, group: tuple[Pair, ...]) -> Margin:
     """Of a zero that something lifts: none, but where a tolerance says what counts as zero.
 
     What else tells a value from zero is rounding, and no length of a machine.
@@ -48,10 +47,10 @@ def _of_zero(outcome: Outcome, group: tuple[Pair, ...]) -> Margin:
     )
 
 
-def margin_of(outcome: Outcome, pair: Pair, distance: float) -> Margin:
+def margin_of(outcome: Decomposition, pair: Pair, distance: float) -> Margin:
     """The misalignments that change the value of a pair by `distance`, to first order."""
-    moves = pair.by_move * outcome.characteristic_length > NOTHING
-    turns = pair.by_turn > NOTHING
+    moves = pair.by_move * outcome.characteristic_length > NO_CHANGE
+    turns = pair.by_turn > NO_CHANGE
     length = distance / pair.by_move if moves else math.inf
     angle = distance / pair.by_turn if turns else math.inf
     return Margin(
@@ -77,8 +76,8 @@ def least_misalignments(
     Returns:
         Lengths [m] and angles [rad], (variants,) each; infinite where none changes a value.
     """
-    moves = by_move * characteristic_length[:, None] > NOTHING
-    turns = by_turn > NOTHING
+    moves = by_move * characteristic_length[:, None] > NO_CHANGE
+    turns = by_turn > NO_CHANGE
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         lengths = np.where(moves, values / by_move, np.inf)
         angles = np.where(turns, values / by_turn, np.inf)

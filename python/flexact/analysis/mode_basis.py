@@ -20,7 +20,9 @@ from numpy.typing import NDArray
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
 from ..model.parts.parts import Part, PartKind, natural
-from .decomposition import Outcome, column_weights, row_factors, row_weights
+from ..util.matrices import complement, null_space
+from .decomposition import Decomposition, column_weights, row_factors, row_weights
+from .limits import NO_SENSE, ROUNDING, SAME_PLACE
 from .sparse_basis import (
     MOST_DIMENSIONS,
     Cost,
@@ -29,9 +31,7 @@ from .sparse_basis import (
     classes_of_rows,
     columns_of,
     index_of,
-    null_of,
     pieces_of,
-    rest_of,
     support_of,
 )
 
@@ -44,10 +44,6 @@ _AT_P = (Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P)
 _AT_Q = (Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q)
 #: Bendings of both ends and planes together, behind elongation and torsion.
 _BENDING = int(Role.BENDING_XZ_P)
-#: Places that differ by less than this part of the characteristic length are one.
-_SAME_PLACE = 1.0e-9
-#: Parts of a mode below this part of its largest are not named.
-_UNNAMED = 1.0e-9
 #: Of values of practically one size, no more than so many are put in order.
 _MOST_KEYS = 5_000
 
@@ -67,7 +63,7 @@ def ranked(weighted: FloatArray, most: int, key: Callable[[int], Any] | None = N
         return []
     rounded = np.round(size / largest, 9)
     least = np.partition(rounded, -most)[-most] if 0 < most < size.size else 0.0
-    able = np.flatnonzero((rounded > _UNNAMED) & (rounded >= least))
+    able = np.flatnonzero((rounded > ROUNDING) & (rounded >= least))
     order = able[np.argsort(-rounded[able], kind="stable")].tolist()
     if key is not None and len(order) <= _MOST_KEYS:
         order.sort(key=lambda i: (-rounded[i], key(i)))
@@ -75,7 +71,7 @@ def ranked(weighted: FloatArray, most: int, key: Callable[[int], Any] | None = N
     return chosen
 
 
-def row_key(outcome: Outcome, row: int, *, numbered: bool = True) -> Any:
+def row_key(outcome: Decomposition, row: int, *, numbered: bool = True) -> Any:
     """By what a row of D(c) is sorted among equals: flexures first, part, what deforms, where.
 
     Parts without a name go by the number that they are called by, or by place alone.
@@ -85,7 +81,7 @@ def row_key(outcome: Outcome, row: int, *, numbered: bool = True) -> Any:
 
 
 def deformation_key(
-    outcome: Outcome, element: int, deformation: int, *, numbered: bool = True
+    outcome: Decomposition, element: int, deformation: int, *, numbered: bool = True
 ) -> Any:
     """The same of a deformation, from 0, of an element, by its index in `outcome.data`."""
     data, given = outcome.data, int(outcome.condensed.elements[element])
@@ -107,13 +103,13 @@ def deformation_key(
     return is_body, natural(_name(part, numbered)), kind, of_sheet, direction, end, place
 
 
-def column_key(outcome: Outcome, column: int, *, numbered: bool = True) -> Any:
+def column_key(outcome: Decomposition, column: int, *, numbered: bool = True) -> Any:
     """By what a column of D(c) is sorted among equals: displacement or rotation, where, axis."""
     node, axis = (outcome.raw.column_label[:, column] - 1).tolist()
     return coordinate_key(outcome, node, axis, numbered=numbered)
 
 
-def coordinate_key(outcome: Outcome, node: int, axis: int, *, numbered: bool = True) -> Any:
+def coordinate_key(outcome: Decomposition, node: int, axis: int, *, numbered: bool = True) -> Any:
     """The same of a coordinate of a node, by its index in `outcome.data`."""
     given = int(outcome.condensed.nodes[node])
     position = outcome.parts.place_of(given)
@@ -127,7 +123,7 @@ def coordinate_key(outcome: Outcome, node: int, axis: int, *, numbered: bool = T
     return turns, natural(name), _place(outcome, value), axis
 
 
-def _end(outcome: Outcome, node: int) -> Any:
+def _end(outcome: Decomposition, node: int) -> Any:
     """What is at an end: ground before others, then by name, however the mechanism is turned."""
     given = int(outcome.condensed.nodes[node])
     return not outcome.parts.is_held(given), natural(outcome.parts.name_of_point(given))
@@ -138,8 +134,8 @@ def _name(part: Part, numbered: bool) -> str:
     return part.name if part.is_named or numbered else ""
 
 
-def _place(outcome: Outcome, value: FloatArray) -> tuple[float, ...]:
-    step = _SAME_PLACE * outcome.characteristic_length
+def _place(outcome: Decomposition, value: FloatArray) -> tuple[float, ...]:
+    step = SAME_PLACE * outcome.characteristic_length
     whole = np.round(value / step) if step > 0.0 else value
     return tuple((whole + 0.0).tolist())
 
@@ -159,10 +155,6 @@ def _direction(axis: FloatArray) -> tuple[float, ...]:
 _MOST_ROWS = 4_000
 _MOST_ENTRIES = 400_000
 _MOST_VECTORS = 200
-#: A component of a direction below this says nothing of its sense.
-_NO_SENSE = 1.0e-6
-#: An entry below this part of the largest is none.
-_UNSEEN = 1.0e-9
 
 Sense = Callable[[int], float]
 Key = Callable[[int], Hashable]
@@ -175,18 +167,18 @@ def is_large(raw: Basis) -> bool:
     return many or rows * raw.vectors > _MOST_ENTRIES
 
 
-def scaled_motions(outcome: Outcome) -> Basis:
+def scaled_motions(outcome: Decomposition) -> Basis:
     """The core's motions with the largest entry of each one."""
     weights = column_weights(outcome)
     return _scaled_as_they_are(outcome.raw.motions, weights, np.ones(weights.size))
 
 
-def scaled_stresses(outcome: Outcome) -> Basis:
+def scaled_stresses(outcome: Decomposition) -> Basis:
     """The core's self-stresses with the largest force or moment of each one."""
     return _scaled_as_they_are(outcome.raw.stresses, row_weights(outcome), row_factors(outcome))
 
 
-def motion_basis(outcome: Outcome, space: Basis) -> Basis:
+def motion_basis(outcome: Decomposition, space: Basis) -> Basis:
     """A basis of the motions, in metres and radians.
 
     Args:
@@ -207,7 +199,7 @@ def motion_basis(outcome: Outcome, space: Basis) -> Basis:
     )
 
 
-def stress_basis(outcome: Outcome, space: Basis) -> Basis:
+def stress_basis(outcome: Decomposition, space: Basis) -> Basis:
     """A basis of the self-stresses, dual to the deformations.
 
     Args:
@@ -228,7 +220,7 @@ def stress_basis(outcome: Outcome, space: Basis) -> Basis:
     )
 
 
-def internal_motions(outcome: Outcome, basis: Basis) -> int:
+def internal_motions(outcome: Decomposition, basis: Basis) -> int:
     """How many vectors of a basis of the motions move nothing but insides of sheets and wires.
 
     In that of `motion_basis` they are a basis of all such motions: insides of different parts
@@ -239,7 +231,7 @@ def internal_motions(outcome: Outcome, basis: Basis) -> int:
     return int(np.count_nonzero(moves_within(outcome, basis, outcome.carriers.inner)))
 
 
-def moves_within(outcome: Outcome, basis: Basis, nodes: Collection[int]) -> BoolArray:
+def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -> BoolArray:
     """(vectors,) whether each vector of a basis of the motions moves nothing but some nodes.
 
     Args:
@@ -306,11 +298,11 @@ def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
     support = rows.support
     for k, vector in enumerate(vectors.T):
         outside = np.where(rows.outside, vector, 0.0)
-        seen = outside if np.abs(outside).max() > _UNSEEN * np.abs(vector).max() else vector
+        seen = outside if np.abs(outside).max() > ROUNDING * np.abs(vector).max() else vector
         sizes = np.sqrt(np.bincount(rows.owner, seen**2))
         (largest,) = ranked(sizes, 1, lambda i: key(int(support[np.argmax(rows.owner == i)])))
         mine = np.flatnonzero(rows.owner == largest)
-        first = mine[np.argmax(np.abs(vector[mine]) > _NO_SENSE * sizes[largest])]
+        first = mine[np.argmax(np.abs(vector[mine]) > NO_SENSE * sizes[largest])]
         plain = vector / rows.weights[support]
         size = float(np.linalg.norm(plain[mine] * rows.units[support[mine]]))
         made[:, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
@@ -334,7 +326,7 @@ def _scaled_as_they_are(raw: Basis, weights: FloatArray, units: FloatArray) -> B
     return raw._replace(value=raw.value / np.repeat(scale, counts))
 
 
-def _sense_of_row(outcome: Outcome, row: int) -> float:
+def _sense_of_row(outcome: Decomposition, row: int) -> float:
     """1 or -1: the sense of a stress resultant that does not depend on how its element is given.
 
     Tension and a torsion are positive as they are; of others the force or moment that the
@@ -355,7 +347,7 @@ def _sense_of_row(outcome: Outcome, row: int) -> float:
         np.add.at(direction, whole.column_of[here] % 3, -whole.value[here])
         size = np.abs(direction).max()
         if size > 0.0:
-            first = int(np.argmax(np.abs(direction) > _NO_SENSE * size))
+            first = int(np.argmax(np.abs(direction) > NO_SENSE * size))
             return float(np.sign(direction[first]))
     return 1.0
 
@@ -389,7 +381,7 @@ def _place_in_order(piece: Piece) -> tuple[object, ...]:
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
-    def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
+    def __init__(self, outcome: Decomposition, support: NDArray[np.integer]) -> None:
         node, self.axis = outcome.raw.column_label[:, support] - 1
         self.node = outcome.condensed.nodes[node]
         self.owner = np.unique(self.node, return_inverse=True)[1]
@@ -473,11 +465,11 @@ class _MotionGroups:
         if space.shape[1] < 2:
             return space
         orthonormal = np.linalg.qr(space)[0]
-        still = null_of(orthonormal[self.turns])
+        still = null_space(orthonormal[self.turns], ROUNDING)
         return np.concatenate(
             [
                 self._along_axes(orthonormal @ still, ~self.turns),
-                self._along_axes(orthonormal @ rest_of(still), self.turns),
+                self._along_axes(orthonormal @ complement(still), self.turns),
             ],
             axis=1,
         )
@@ -492,7 +484,7 @@ class _MotionGroups:
 class _StressGroups:
     """Rows of the self-stresses, rows of D(c), by the part that they belong to."""
 
-    def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
+    def __init__(self, outcome: Decomposition, support: NDArray[np.integer]) -> None:
         element = outcome.condensed.elements[outcome.raw.row_label[0, support] - 1]
         parts: dict[Part, list[int]] = {}
         for row, index in enumerate(element.tolist()):

@@ -11,8 +11,8 @@ from ..core.arrays import FloatArray
 from ..model.parts.parts import Part, PartKind
 from .body_motions import BodyMotion
 from .carriers import Joint
-from .decomposition import Outcome
-from .modes import Motion, SelfStress
+from .decomposition import Decomposition
+from .limits import SAME_PLACE, TOLD
 from .naming import (
     Pieces,
     coordinate_in_words,
@@ -24,13 +24,11 @@ from .naming import (
 )
 from .part_stresses import QUANTITIES, Conflict, PartStress, shared_resultants
 from .places import axis_words, direction_words, joint_node, listed, part_words, place_words
-from .result import Result
-from .screws import ROUNDING, Screw, ScrewKind, Wrench, WrenchKind
+from .result import Motion, Result, SelfStress
+from .screws import Screw, ScrewKind, Wrench, WrenchKind
 
 #: How many names stand in a row.
 _MOST_NAMES = 4
-#: Coordinates below this part of the mechanism's size are zero.
-_ZERO = 1.0e-9
 
 
 def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
@@ -85,7 +83,7 @@ def _size(screw: Screw, length: float) -> float:
     )
 
 
-def group_in_words(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
+def group_in_words(outcome: Decomposition, group: BodyMotion, alone: bool) -> Pieces:
     """Bodies or joints and how they move; without sizes where nothing else does."""
     if group.bodies:
         names = parts_in_words(outcome, group.bodies)
@@ -98,7 +96,7 @@ def group_in_words(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
     return (*names, f" {_verb(outcome, group.screw, many, alone)}{together}")
 
 
-def _verb(outcome: Outcome, screw: Screw, many: bool, alone: bool) -> str:
+def _verb(outcome: Decomposition, screw: Screw, many: bool, alone: bool) -> str:
     s = "" if many else "s"
     axis = direction_words(screw.direction)
     if screw.kind is ScrewKind.TRANSLATION:
@@ -110,7 +108,7 @@ def _verb(outcome: Outcome, screw: Screw, many: bool, alone: bool) -> str:
     return f"turn{s} {about}{size} and move{s} along it by {screw.pitch:.4g} m/rad"
 
 
-def line_words(outcome: Outcome, point: FloatArray, direction: FloatArray) -> str:
+def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray) -> str:
     """A line by a point of it [m] and its direction; along an axis any point of it serves.
 
     Across the plane of a planar model it is a point.
@@ -125,12 +123,12 @@ def line_words(outcome: Outcome, point: FloatArray, direction: FloatArray) -> st
     return f"the line through ({', '.join(shown)}) m along {axis}"
 
 
-def _number(outcome: Outcome, value: float) -> str:
-    small = abs(value) < _ZERO * outcome.characteristic_length
+def _number(outcome: Decomposition, value: float) -> str:
+    small = abs(value) < SAME_PLACE * outcome.characteristic_length
     return "0" if small else f"{value:.4g}"
 
 
-def parts_in_words(outcome: Outcome, parts: tuple[Part, ...]) -> Pieces:
+def parts_in_words(outcome: Decomposition, parts: tuple[Part, ...]) -> Pieces:
     """Names of parts in a row."""
     numbers = outcome.given.arrays.element_number
     return joined([(named_element(outcome, int(numbers[part.elements[0]])),) for part in parts])
@@ -147,8 +145,6 @@ def joined(names: Sequence[Pieces]) -> Pieces:
     return tuple(piece for pieces in made for piece in pieces)
 
 
-#: What is below this part of a part's largest force or moment is not told.
-_REST = 1.0e2 * ROUNDING
 #: How many parts that fight are named.
 _MODE_WORDS_MOST_NAMES = 3
 _MOMENTS = ("in-plane moment", "out-of-plane moment")
@@ -227,7 +223,7 @@ def _is_between_parts(conflict: Conflict) -> bool:
     return all(load.part is not None for load in conflict.loads) and len(conflict.loads) > 1
 
 
-def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
+def _on(outcome: Decomposition, on: Part | Joint) -> Pieces:
     if isinstance(on, Joint):
         node = joint_node(outcome.parts, on)
         return (named_node(outcome, int(outcome.given.arrays.node_number[node])),)
@@ -235,7 +231,7 @@ def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
     return (named_element(outcome, number),)
 
 
-def _held(outcome: Outcome, on: Pieces, over: Wrench) -> Pieces:
+def _held(outcome: Decomposition, on: Pieces, over: Wrench) -> Pieces:
     """What of a body several parts hold: a rotation, or a displacement along a line."""
     if over.kind is WrenchKind.COUPLE:
         return (*on, f" against rotation about {axis_words(over.direction)}")
@@ -249,10 +245,10 @@ def _against(over: Wrench) -> str:
     }.get(over.kind, "with opposite forces and moments")
 
 
-def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[str]:
+def _carried(outcome: Decomposition, stress: SelfStress, one: PartStress) -> Iterator[str]:
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
-    rest = _REST * max(wrench.size for wrench in ends)
+    rest = TOLD * max(wrench.size for wrench in ends)
     length = ends[-1].length
     if abs(one.normal_force) * length > rest:
         kind = "tension" if one.normal_force > 0.0 else "compression"
@@ -265,7 +261,9 @@ def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[
         yield f"shear force {_vector(one.shear_force, 'N along')}"
 
 
-def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
+def _bending(
+    outcome: Decomposition, stress: SelfStress, one: PartStress, rest: float
+) -> Iterator[str]:
     """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
         moments = moments_at_ends(stress, one).values()
@@ -308,7 +306,7 @@ def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[floa
 
 
 def _along(
-    outcome: Outcome, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
+    outcome: Decomposition, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
 ) -> str:
     first, last = at_ends
     if abs(first - last) <= rest:
@@ -321,14 +319,14 @@ def _along(
     return f"{word} {' and '.join(told)}"
 
 
-def _end(outcome: Outcome, part: Part, position: int) -> str:
+def _end(outcome: Decomposition, part: Part, position: int) -> str:
     return place_words(outcome.parts, position, part)
 
 
 def _vector(vector: FloatArray, unit: str) -> str:
     """Size and axis where it is along one, else the components; `unit` ends with a preposition."""
     size = float(np.abs(vector).max())
-    parts = np.where(np.abs(vector) > _REST * size, vector, 0.0) + 0.0
+    parts = np.where(np.abs(vector) > TOLD * size, vector, 0.0) + 0.0
     if np.count_nonzero(parts) == 1:
         axis = int(np.argmax(np.abs(parts)))
         return f"{parts[axis]:.4g} {unit} {'xyz'[axis]}"

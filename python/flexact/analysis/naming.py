@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ..core.elements import Dual, dual_table
 from ..util.text import TIE, USUAL, wrapped
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .deformation_words import deformation_words
 from .freedoms import Freedom
 from .places import node_words, part_words
@@ -112,14 +112,14 @@ _NUMBERS = (
 )
 
 
-def part_in_words(result: Outcome, part: Part) -> Pieces:
+def part_in_words(result: Decomposition, part: Part) -> Pieces:
     """A coordinate or a deformation."""
     if isinstance(part, Coordinate):
         return coordinate_in_words(result, part.node, part.name)
     return deformation_in_words(result, part.element, part.number)
 
 
-def coordinate_in_words(result: Outcome, node: int, name: str) -> Pieces:
+def coordinate_in_words(result: Decomposition, node: int, name: str) -> Pieces:
     """A coordinate of a node: such as "the stage along y" or "clamp 1 about x".
 
     Args:
@@ -131,24 +131,24 @@ def coordinate_in_words(result: Outcome, node: int, name: str) -> Pieces:
     return (named_node(result, node), way)
 
 
-def named_node(result: Outcome, node: int) -> Named:
+def named_node(result: Decomposition, node: int) -> Named:
     """A node by its number, and by its body, the name of its point, or what is there."""
     return Named("node", node, node_words(result.parts, result.parts.data.node_index[node]))
 
 
-def node_name(result: Outcome, index: int) -> str:
+def node_name(result: Decomposition, index: int) -> str:
     """The name of the point of a node, by its index in `result.data`; empty without one."""
     place = result.parts.place_of(int(result.condensed.nodes[index]))
     return "" if place is None else result.parts.name_of_point(place)
 
 
-def named_element(result: Outcome, element: int) -> Named:
+def named_element(result: Decomposition, element: int) -> Named:
     """An element by its number, and by the name of its part."""
     part = result.parts.of_element(result.given.element_index[element])
     return Named("element", element, part_words(part))
 
 
-def deformation_in_words(result: Outcome, element: int, number: int) -> Pieces:
+def deformation_in_words(result: Decomposition, element: int, number: int) -> Pieces:
     """Deformation `number` of an element, both as a deck numbers them.
 
     Such as "sheet 1: in-plane bending at its clamp".
@@ -165,14 +165,14 @@ def freedom_in_words(freedom: Freedom) -> Pieces:
     return deformation_in_words(result, number, freedom.place[0] + 1)
 
 
-def motion_in_words(result: Outcome, number: int, freedom: Freedom | None) -> str:
+def motion_in_words(result: Decomposition, number: int, freedom: Freedom | None) -> str:
     """Which motion it is: one that nothing determines, or that of a declared freedom."""
     if freedom is None:
         return f"motion {number} of {result.under_constrained}"
     return f"degree of freedom {number}, {plain(freedom_in_words(freedom))}"
 
 
-def unit_of(result: Outcome, element: int, number: int) -> str:
+def unit_of(result: Decomposition, element: int, number: int) -> str:
     """The unit of the stress resultant of a deformation: N or N m."""
     kind = result.data.arrays.element_kind[result.data.element_index[element]]
     return "N" if dual_table()[kind, number - 1] == Dual.FORCE else "N m"

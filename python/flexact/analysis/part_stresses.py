@@ -22,9 +22,10 @@ from ..model.parts.forms import is_member
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.records import Frozen, cached_property
 from .carriers import Joint
-from .decomposition import Outcome, row_weights
+from .decomposition import Decomposition, row_weights
+from .limits import EXACT_COSINE, NO_RESULTANT, ROUNDING, SAME_WRENCH, TOLD
 from .locate import part_of, position_of
-from .screws import ROUNDING, Wrench, in_words, sense_of
+from .screws import Wrench, in_words, sense_of
 
 #: The quantities along an element, in their order: N, N m, N m, N m.
 QUANTITIES = ("normal force", "twist moment", "in-plane moment", "out-of-plane moment")
@@ -54,8 +55,6 @@ _OF_JOINTS: dict[int, int] = {
     Role.TILT_Z: 3,
     Role.ANGLE: 3,
 }
-#: Cosines as near to zero or one as this are that but for rounding.
-_ROUNDING = 1.0e-12
 
 
 def local_resultants(data: ModelData, element: np.ndarray, value: FloatArray) -> FloatArray:
@@ -92,18 +91,12 @@ def shared_resultants(data: ModelData, element: np.ndarray, value: FloatArray) -
     about = np.cross(across, frame[:, None, :, 0])
     turn = about @ frame[..., 1:]
     for exact in (-1.0, 0.0, 1.0):
-        turn[np.abs(turn - exact) < _ROUNDING] = exact
+        turn[np.abs(turn - exact) < EXACT_COSINE] = exact
     made[:, 2:] = turn @ made[:, 2:]
     joint = is_member(data.arrays.element_kind[element], Member.HINGE)
     made[joint] = np.abs(made[joint])
     return made
 
-
-#: What is below this part of the largest force or moment of a self-stress is rounding.
-_REST = ROUNDING
-
-#: Resultants below this part of the largest are none.
-_ROUNDED = 1.0e-12
 
 #: Position and orientation node, -1 where there is none.
 _End = tuple[int, int]
@@ -173,7 +166,7 @@ class PartStress(Frozen):
         first, last = self.moments
         scale = self.ends[0].wrench.length
         others = abs(self.normal_force), float(np.linalg.norm(self.shear_force))
-        limit = 1.0e2 * _REST * float(np.linalg.norm(first))
+        limit = TOLD * float(np.linalg.norm(first))
         return bool(
             limit > 0.0
             and max(others) * scale <= limit
@@ -238,7 +231,7 @@ class Conflict(NamedTuple):
         unit = vectors[0] / np.linalg.norm(vectors[0])
         off = max(float(np.linalg.norm(v - (v @ unit) * unit)) for v in vectors)
         largest = max(float(np.linalg.norm(v)) for v in vectors)
-        return first if off <= 1.0e3 * _REST * largest else None
+        return first if off <= SAME_WRENCH * largest else None
 
     @property
     def shares(self) -> tuple[float, ...] | None:
@@ -265,7 +258,7 @@ class Pressing(Frozen):
         vector: (m,) stress resultants dual to the deformations.
     """
 
-    outcome: Outcome
+    outcome: Decomposition
     vector: FloatArray
 
     @cached_property
@@ -276,7 +269,7 @@ class Pressing(Frozen):
         """
         made = [self._part_stress(part) for part in self._ends]
         flexible = [one for one in made if one.part.kind is not PartKind.BODY]
-        carrying = [one for one in flexible if one.share > _REST] or made
+        carrying = [one for one in flexible if one.share > ROUNDING] or made
         return tuple(sorted(carrying, key=lambda one: (-round(one.share, 9), *self._key(one.part))))
 
     def of(self, part: object) -> PartStress:
@@ -349,7 +342,7 @@ class Pressing(Frozen):
         element, deformation = outcome.raw.row_label - 1
         sigma = np.zeros(6 * outcome.data.arrays.element_number.size)
         weighted = np.abs(self.vector * row_weights(outcome))
-        is_there = weighted > _ROUNDED * weighted.max(initial=0.0)
+        is_there = weighted > NO_RESULTANT * weighted.max(initial=0.0)
         sigma[6 * element + deformation] = np.where(is_there, self.vector, 0.0)
         used = sigma[whole.row_of] != 0.0
         owner, node = whole.row_of[used] // 6, whole.column_of[used] // 3
@@ -411,14 +404,14 @@ class Pressing(Frozen):
 
     def _wrench(self, both: FloatArray, about: FloatArray) -> Wrench:
         length = self.outcome.characteristic_length
-        return Wrench(both[0], both[1], np.array(about), length, _REST * self._largest)
+        return Wrench(both[0], both[1], np.array(about), length, ROUNDING * self._largest)
 
     def _part_stress(self, part: Part) -> PartStress:
         found = self._ends.get(part, {})
         outer = {
             end: both
             for end, both in found.items()
-            if len(found) <= 2 or self._size(both) > _REST * self._largest
+            if len(found) <= 2 or self._size(both) > ROUNDING * self._largest
         }
         step = self.outcome.characteristic_length
         order = sorted(

@@ -12,6 +12,7 @@ from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts
 from .carriers import Joint
+from .limits import ALONG
 from .mode_basis import without_sense
 
 #: Names that say themselves what they are.
@@ -20,8 +21,6 @@ _ARTICLES = ("the ", "a ", "an ")
 _MOST_NAMED = 2
 #: What assemblies call points.
 _OF_ASSEMBLY = re.compile(r"(?:^| )(ground|stage|body|platform) \d+$")
-#: An axis is one of x, y, z where its other components are below this.
-_ALONG = 1.0e-6
 
 
 def part_words(part: Part) -> str:
@@ -233,7 +232,7 @@ def direction_words(direction: FloatArray) -> str:
     """A direction with its sense: "x", "-x", or its components."""
     unit = direction / np.linalg.norm(direction)
     largest = int(np.argmax(np.abs(unit)))
-    if np.all(np.abs(np.delete(unit, largest)) < _ALONG):
+    if np.all(np.abs(np.delete(unit, largest)) < ALONG):
         return ("-" if unit[largest] < 0.0 else "") + "xyz"[largest]
     rounded = np.round(unit, 3) + 0.0
     return f"({', '.join(f'{value:.3g}' for value in rounded)})"

@@ -21,7 +21,8 @@ from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, length_table, role_table
 from ..core.raw import RawAssembly, RawSensitivities
 from ..util.records import cached_property
-from .decomposition import Outcome
+from .decomposition import Decomposition
+from .limits import LAST_POWER, LONGEST_STEP, ROUNDINGS, STORED
 from .sparse_basis import Sparse, index_of
 
 #: How many zeros are looked at, and each against how many vectors of the other side.
@@ -51,7 +52,7 @@ class Pair(NamedTuple):
     """Number of that element, likewise."""
 
 
-def of_nonzeros(outcome: Outcome) -> tuple[Pair, ...]:
+def of_nonzeros(outcome: Decomposition) -> tuple[Pair, ...]:
     """The smallest values that are not zero, ascending, as far as the core gives their vectors."""
     raw = outcome.raw
     most = min(raw.pair_value.size, max(1, affordable_pairs(outcome)))
@@ -67,7 +68,7 @@ def of_nonzeros(outcome: Outcome) -> tuple[Pair, ...]:
     return _named(outcome, raw.pair_value[:most], found)
 
 
-def of_zeros(outcome: Outcome) -> tuple[tuple[Pair, ...], ...]:
+def of_zeros(outcome: Decomposition) -> tuple[tuple[Pair, ...], ...]:
     """For each zero, at most 8, its pairs with the vectors of the other side.
 
     A singular value is zero where there is a self-stress and a motion; those that are in
@@ -93,7 +94,7 @@ def of_zeros(outcome: Outcome) -> tuple[tuple[Pair, ...], ...]:
     return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
 
 
-def affordable_pairs(outcome: Outcome) -> int:
+def affordable_pairs(outcome: Decomposition) -> int:
     """How many pairs may be looked at; each takes as long as there are nodes and elements."""
     arrays = outcome.data.arrays
     return MOST_WORK // (arrays.node_number.size + arrays.element_number.size)
@@ -107,7 +108,7 @@ def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:
     return made
 
 
-def _named(outcome: Outcome, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
+def _named(outcome: Decomposition, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
     """Pairs with the numbers of nodes and elements in place of their indices."""
     arrays = outcome.data.arrays
     return tuple(
@@ -129,20 +130,11 @@ def _number(numbers: IntArray, index: int) -> int | None:
     return int(numbers[index]) if index >= 0 else None
 
 
-#: What of a lift by the last bits is the storing of a number far from the origin: one unit of 4.
-STORED = 0.25
-
 _EPSILON = float(np.finfo(np.float64).eps)
-#: How many roundings each entry of D(c) has gone through.
-_ROUNDINGS = 8.0
 #: What the errors of both vectors, multiplied by each other, may leave: eps**2 over the smallest
 #: singular value that is told from zero.
 _LEAST = _EPSILON / 1024
 
-#: Neighbouring components of a vector that fades are no further apart, in powers of ten.
-_LONGEST_STEP = 4.5
-#: Components this many powers of ten below the largest may be rounding.
-_LAST_POWER = 13.0
 #: Components are sorted into so many bins for a power of ten.
 _BINS = 4
 
@@ -178,7 +170,7 @@ class Remainder(NamedTuple):
 class Evidence:
     """What small changes and rounding may make of singular values; found when asked for."""
 
-    def __init__(self, outcome: Outcome) -> None:
+    def __init__(self, outcome: Decomposition) -> None:
         """Keep the outcome that it is about."""
         self._outcome = outcome
 
@@ -203,7 +195,7 @@ class Evidence:
         return powers_faded(self._outcome)
 
 
-def largest_remainder(outcome: Outcome) -> Remainder | None:
+def largest_remainder(outcome: Decomposition) -> Remainder | None:
     """The pair whose u' D v exceeds most what rounding makes of it, in the scaled matrix.
 
     Of the first vectors of each side, as far as that takes little time; None where there is
@@ -225,7 +217,7 @@ def largest_remainder(outcome: Outcome) -> Remainder | None:
     left = np.abs(_products(matrix, stresses, motions))
     added = stresses._replace(value=np.abs(stresses.value))
     moved = motions._replace(value=np.abs(motions.value))
-    made = _ROUNDINGS * _EPSILON * _products(matrix._replace(value=rounding), added, moved)
+    made = ROUNDINGS * _EPSILON * _products(matrix._replace(value=rounding), added, moved)
     explained = np.maximum(made, _LEAST)
     ratio = (left / explained).ravel()
     most = max(1, min(_MOST_PAIRS, affordable_pairs(outcome)))
@@ -239,7 +231,7 @@ def largest_remainder(outcome: Outcome) -> Remainder | None:
     return Remainder(float(left[u, v][worst_of_all]), float(found[worst_of_all]))
 
 
-def powers_faded(outcome: Outcome) -> float:
+def powers_faded(outcome: Decomposition) -> float:
     """Through how many powers of ten a motion and a self-stress fade, the less of the two.
 
     The core cuts off what is below 1e-11 of a vector's largest component where it may.
@@ -258,13 +250,13 @@ def _faded(basis: Basis, scale: FloatArray) -> float:
     scaled = np.abs(basis.value[:entries] / scale[place])
     largest = np.maximum.reduceat(scaled, basis.start[:vectors])
     part = scaled / largest[vector]
-    there = part > 10.0**-_LAST_POWER
-    bins = int(_LAST_POWER * _BINS) + 1
+    there = part > 10.0**-LAST_POWER
+    bins = int(LAST_POWER * _BINS) + 1
     depth = (-_BINS * np.log10(part[there])).astype(np.int64)
     filled = np.bincount(vector[there] * bins + depth, minlength=vectors * bins) > 0
     each = np.arange(bins)
     last = np.maximum.accumulate(np.where(filled.reshape(vectors, bins), each, 0), axis=1)
-    torn = np.maximum.accumulate(each - last > _LONGEST_STEP * _BINS, axis=1)
+    torn = np.maximum.accumulate(each - last > LONGEST_STEP * _BINS, axis=1)
     return float(np.where(torn, 0, last).max()) / _BINS
 
 
@@ -285,7 +277,7 @@ def _first_of(basis: Basis, scale: FloatArray, chosen: NDArray[np.integer]) -> _
     return _Vectors(support, value / np.linalg.norm(value / scale[support, None], axis=0))
 
 
-def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, FloatArray]:
+def _entries(outcome: Decomposition, rows: NDArray[np.integer]) -> tuple[Sparse, FloatArray]:
     """Entries of some rows of D(c), and what each of them is rounded in proportion to.
 
     An elongation changes with the positions by the direction alone, each entry to its own last
@@ -313,7 +305,7 @@ def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, Float
     return matrix, np.where(direction, np.abs(matrix.value), of_row)
 
 
-def _assembly_of(outcome: Outcome, elements: NDArray[np.integer]) -> RawAssembly:
+def _assembly_of(outcome: Decomposition, elements: NDArray[np.integer]) -> RawAssembly:
     """The Jacobian of some elements alone, of which there may be few among very many."""
     packed = outcome.data.packed
     some = packed._replace(
@@ -338,7 +330,7 @@ def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArr
 
 
 def _lifts(
-    outcome: Outcome,
+    outcome: Decomposition,
     stresses: _Vectors,
     motions: _Vectors,
     u: NDArray[np.integer],

@@ -1,36 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frozen result of an analysis: all that is known, nothing that is made from it."""
+"""The frozen result of an analysis, its motions and its self-stresses: all that is known."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeVar
+from operator import eq
+from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 import numpy as np
 
-from ..core.elements import Class, Role, role_table
+from ..core.arrays import Basis, FloatArray
+from ..core.elements import Class, Dual, NodeKind, Role, coordinate_name, role_table
 from ..core.progress import Progress
 from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
+from ..model.deformations import AT_P, AT_Q
 from ..model.parts.condensing import condensed
 from ..model.parts.parts import PartKind, declared
 from ..model.variation import with_classes
-from ..model.words import AT_P, AT_Q
 from ..util.loading import load
-from ..util.records import cached_property
+from ..util.records import Frozen, cached_property
 from ..util.text import in_short
+from .body_motions import Moves, Velocities
 from .carriers import Joint
 from .certainty import Assessment, assess
-from .decomposition import Asked
+from .decomposition import (
+    Asked,
+    Decomposition,
+    column_weights,
+    decompose,
+    row_duals,
+    row_factors,
+    row_weights,
+)
 from .freedoms import Freedom, freedoms_of
 from .locate import elements_of, node_of
 from .margin import least, margins
-from .modes import Modes, Motion, SelfStress
+from .mode_basis import (
+    column_key,
+    internal_motions,
+    is_large,
+    motion_basis,
+    moves_within,
+    ranked,
+    row_key,
+    scaled_motions,
+    scaled_stresses,
+    stress_basis,
+)
+from .part_stresses import Conflict, Load, PartStress, Pressing
 from .rank_evidence import Evidence, Pair
-from .spaces import Spaces, decompose
-from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
+from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
@@ -78,8 +100,51 @@ _MOST_LABELS = 12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Spaces):
+class Result(Decomposition):
     """The result of an analysis, in the reference configuration."""
+
+    def in_notebook(self, what: object) -> str | None:
+        """HTML of a motion, a self-stress or a row of them; None: a result makes no pictures."""
+        return None
+
+    @cached_property
+    def motion_basis(self) -> Basis:
+        """The motions as they are told, [m] and [rad]: sparse over bodies, not orthogonal.
+
+        The largest entry of each is 1, rotations compared by the characteristic length. Of
+        large spaces they are those of the core, scaled (`flexact.analysis.mode_basis`).
+        """
+        if self.raw.motions.vectors < self.under_constrained or is_large(self.raw.motions):
+            return scaled_motions(self)
+        return motion_basis(self, self.motion_space)
+
+    @cached_property
+    def stress_basis(self) -> Basis:
+        """The self-stresses as they are told: sparse over parts, the largest force or moment 1."""
+        if self.raw.stresses.vectors < self.over_constrained or is_large(self.raw.stresses):
+            return scaled_stresses(self)
+        return stress_basis(self, self.stress_space)
+
+    @cached_property
+    def internal_motions(self) -> int:
+        """How many motions move nothing but what is inside of sheets and wires.
+
+        It is the dimension of the space of these. Of a space so large that it is told as the
+        core gives it, it is how many of the core's vectors are so.
+        """
+        return internal_motions(self, self.motion_basis)
+
+    @cached_property
+    def are_between_ends(self) -> tuple[bool, ...]:
+        """Of each motion whether it moves nothing but what is between the ends of flexures.
+
+        That is insides of sheets and wires, and folds. Those that do are a basis of all such
+        motions, but of spaces so large that they are told as the core gives them.
+        """
+        if not self.motion_basis.vectors:
+            return ()
+        nodes = self.carriers.between_ends
+        return tuple(moves_within(self, self.motion_basis, nodes).tolist())
 
     @property
     def motions(self) -> Modes[Motion]:
@@ -105,7 +170,7 @@ class Result(Spaces):
         They are those of the numbers of the proof. Parts of some 300 columns take seconds.
 
         Raises:
-            AnalysisError: this build has no FLINT, or D(c) or the fractions are too large.
+            AnalysisError: D(c) or the fractions are too large.
         """
         # Fractions take some milliseconds to load.
         made: ExactBases = load("flexact.analysis.exact").exact_bases(self)
@@ -127,8 +192,14 @@ class Result(Spaces):
             ModelError: there is none, or there are several.
         """
         found = [each for each in self.freedoms if each.label == label]
-        if not found:
-            found = list(self._freedoms_at(label))
+        words = re.fullmatch(r"(.+?)\s*[\s:]\s*([a-z]+\d*)", label.strip(), re.DOTALL)
+        if not found and words is not None:
+            target = int(words[1]) if words[1].isdecimal() else words[1]
+            found = [
+                each
+                for each in self.freedoms
+                if each.part == words[2] and _is_of(self, each, target)
+            ]
         if len(found) != 1:
             there = ", ".join(each.label for each in (found or self.freedoms)[:_MOST_LABELS])
             many = "several degrees of freedom are" if found else "there is no degree of freedom"
@@ -138,16 +209,6 @@ class Result(Spaces):
                 f"there are {there}" if there else "none is declared",
             )
         return found[0]
-
-    def _freedoms_at(self, text: str) -> Iterator[Freedom]:
-        """Those of a point or element that is named otherwise than in their labels."""
-        words = re.fullmatch(r"(.+?)\s*[\s:]\s*([a-z]+\d*)", text.strip(), re.DOTALL)
-        if words is None:
-            return
-        target = int(words[1]) if words[1].isdecimal() else words[1]
-        for each in self.freedoms:
-            if each.part == words[2] and _is_of(self, each, target):
-                yield each
 
     @cached_property
     def with_internal_declared(self) -> Result | None:
@@ -194,7 +255,7 @@ class Result(Spaces):
 
     @property
     def certainty(self) -> Certainty:
-        """`CERTAIN`, or `NEARLY` where rounding or the method leaves a doubt."""
+        """`CERTAIN`, or `DOUBTFUL` where rounding or the method leaves a doubt."""
         return self.assessment.certainty
 
     @property
@@ -203,14 +264,12 @@ class Result(Spaces):
         return self.assessment.alternatives
 
     @property
-    def nearly(self) -> Nearly | None:
+    def nearly(self) -> Alternative | None:
         """The counts of the first of the `alternatives`; None without doubt."""
         if self.certainty is Certainty.CERTAIN:
             return None
-        first = next(iter(self.alternatives), None)
-        if first is None:
-            return Nearly(self.under_constrained, self.over_constrained)
-        return Nearly(first.under_constrained, first.over_constrained)
+        own = Alternative(self.under_constrained, self.over_constrained, 0.0, 0.0)
+        return next(iter(self.alternatives), own)
 
     @property
     def pairs(self) -> tuple[Pair, ...]:
@@ -289,3 +348,230 @@ def _is_of(result: Result, freedom: Freedom, target: object) -> bool:
         return node_of(parts, target) in (node, parts.place_of(node))
     except (ModelError, TypeError):
         return False
+
+
+#: How many modes of a row stand in its `repr`.
+_TOLD = 12
+
+
+@dataclass(frozen=True, repr=False)
+class Motion(Moves, Frozen):
+    """A kinematically indeterminate motion: velocities that nothing determines.
+
+    Attributes:
+        index: Which one of the analysis, from 0.
+        analysis: The analysis it belongs to.
+    """
+
+    index: int
+    analysis: Result
+
+    @property
+    def vector(self) -> FloatArray:
+        """(n,) the dependent coordinates [m, rad]; the largest is one."""
+        column = self.analysis.motion_basis.vector(self.index)
+        column.flags.writeable = False
+        return column
+
+    @cached_property
+    def analysed(self) -> Velocities:
+        """The velocities of the nodes of the model as it was analysed."""
+        kinds = self.analysis.data.arrays.node_kind
+        place, value = self.analysis.motion_basis.entries(self.index)
+        node, axis = self.analysis.raw.column_label[:, place] - 1
+        both = np.zeros((2, kinds.size, 3))
+        both[(kinds[node] > NodeKind.POSITION).astype(int), node, axis] = value
+        return Velocities(self.analysis.data, *both)
+
+    def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
+        """Node number, coordinate and value [m, rad] of the k largest parts.
+
+        Rotations are compared with displacements by the characteristic length.
+        """
+        analysis = self.analysis
+        place, value = analysis.motion_basis.entries(self.index)
+        weighted = value * column_weights(analysis, place)
+        order = ranked(weighted, k, lambda i: column_key(analysis, int(place[i])))
+        node, axis = analysis.raw.column_label[:, place[order]] - 1
+        numbers = analysis.data.arrays.node_number[node].tolist()
+        names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
+        return list(zip(numbers, names, value[order].tolist(), strict=True))
+
+    def __repr__(self) -> str:
+        """What moves."""
+        if not self.analysis.is_told_by_parts:
+            parts = [f"node {n} {c} {v:.4g}" for n, c, v in self.largest(4)]
+        elif self.is_internal:
+            parts = [f"inside {', '.join(part.name for part in self.internal_to)}"]
+        else:
+            parts = [str(each) for each in self.bodies[:4]]
+        return f"<Motion {self.index + 1}: {'; '.join(parts)}>"
+
+    def _repr_html_(self) -> str | None:
+        return self.analysis.in_notebook(self)
+
+
+@dataclass(frozen=True, repr=False)
+class SelfStress(Frozen):
+    """A statically indeterminate stress: stress resultants that need no load.
+
+    Attributes:
+        index: Which one of the analysis, from 0.
+        analysis: The analysis it belongs to.
+    """
+
+    index: int
+    analysis: Result
+
+    @property
+    def vector(self) -> FloatArray:
+        """(m,) stress resultants dual to the deformations; the largest force or moment is one."""
+        column = self.analysis.stress_basis.vector(self.index)
+        column.flags.writeable = False
+        return column
+
+    @property
+    def forces(self) -> FloatArray:
+        """(elements, 6) by deformation, where its stress resultant is a force [N]; else zero."""
+        return self._at_elements[1]
+
+    @property
+    def moments(self) -> FloatArray:
+        """(elements, 6) by deformation, where it is a moment [N m]; else zero.
+
+        Of a beam's torsion and bending the moment is sigma l0.
+        """
+        return self._at_elements[0]
+
+    @cached_property
+    def _at_elements(self) -> tuple[FloatArray, FloatArray]:
+        made = self.analysis.condensed.stress(*self.analysed)
+        for array in made:
+            array.flags.writeable = False
+        return made
+
+    @cached_property
+    def analysed(self) -> tuple[FloatArray, FloatArray]:
+        """Moments and forces, (elements, 6) each, of the elements of the model as analysed."""
+        place, value = self.analysis.stress_basis.entries(self.index)
+        element, deformation = self.analysis.raw.row_label[:, place] - 1
+        is_force = (row_duals(self.analysis, place) == Dual.FORCE).astype(int)
+        both = np.zeros((2, self.analysis.data.arrays.element_number.size, 6))
+        both[is_force, element, deformation] = value * row_factors(self.analysis, place)
+        return both[0], both[1]
+
+    @cached_property
+    def _pressing(self) -> Pressing:
+        return Pressing(self.analysis, self.vector)
+
+    @property
+    def parts(self) -> tuple[PartStress, ...]:
+        """The flexible parts that carry something: the largest first, of equal ones by name.
+
+        Where bodies alone carry, they are given.
+        """
+        return self._pressing.parts
+
+    @property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """Bodies on which parts press, then joints, with what each part exerts on them."""
+        return self._pressing.conflicts
+
+    @property
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Of the conflicts those on bodies."""
+        return self._pressing.on_bodies
+
+    def of(self, part: object) -> PartStress:
+        """The stress resultants of a part; see `flexact.analysis.part_stresses.Pressing.of`."""
+        return self._pressing.of(part)
+
+    def on(self, body: object) -> tuple[Load, ...]:
+        """What each part exerts on a body or point, in balance.
+
+        See `flexact.analysis.part_stresses.Pressing.on`.
+        """
+        return self._pressing.on(body)
+
+    def largest(self, k: int = 6) -> list[tuple[int, int, float]]:
+        """Element number, deformation and force [N] or moment [N m] of the k largest parts.
+
+        Moments are compared with forces by the characteristic length.
+        """
+        analysis = self.analysis
+        place, value = analysis.stress_basis.entries(self.index)
+        weighted = value * row_weights(analysis, place)
+        order = ranked(weighted, k, lambda i: row_key(analysis, int(place[i])))
+        element, deformation = analysis.raw.row_label[:, place[order]]
+        numbers = analysis.data.arrays.element_number[element - 1].tolist()
+        values = value[order] * row_factors(analysis, place[order])
+        return list(zip(numbers, deformation.tolist(), values.tolist(), strict=True))
+
+    def __repr__(self) -> str:
+        """What is stressed."""
+        if not self.analysis.is_told_by_parts:
+            parts = [f"element {e}, {d}: {v:.4g}" for e, d, v in self.largest(4)]
+        else:
+            parts = [str(each) for each in self.parts[:4]]
+        return f"<SelfStress {self.index + 1}: {'; '.join(parts)}>"
+
+    def _repr_html_(self) -> str | None:
+        return self.analysis.in_notebook(self)
+
+
+Mode = TypeVar("Mode", Motion, SelfStress)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes(Frozen, Sequence[Mode], Generic[Mode]):
+    """Motions or self-stresses in a row, like a tuple; each is made when it is asked for.
+
+    Attributes:
+        kind: What they are.
+        analysis: The analysis that they belong to.
+    """
+
+    kind: type[Mode]
+    analysis: Result
+
+    def __len__(self) -> int:
+        """How many are given: all, or, where there are very many, the first."""
+        raw = self.analysis.raw
+        return (raw.motions if self.kind is Motion else raw.stresses).vectors
+
+    @overload
+    def __getitem__(self, index: int) -> Mode: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Mode, ...]: ...
+    def __getitem__(self, index: int | slice) -> Mode | tuple[Mode, ...]:
+        """One of them, or a tuple of several."""
+        try:
+            chosen = range(len(self))[index]
+        except IndexError:
+            many, what = len(self), "motion" if self.kind is Motion else "self-stress"
+            what += "" if many == 1 else "s" if self.kind is Motion else "es"
+            raise IndexError(
+                f"there {'is' if many == 1 else 'are'} {many or 'no'} {what}: none has the index "
+                f"{index}{'; they count from 0' if many else ''}"
+            ) from None
+        if isinstance(chosen, range):
+            return tuple(self.kind(k, self.analysis) for k in chosen)
+        return self.kind(chosen, self.analysis)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the same ones stand in another row or tuple."""
+        if not isinstance(other, (Modes, tuple)):
+            return NotImplemented
+        return len(self) == len(other) and all(map(eq, self, other))
+
+    def __hash__(self) -> int:
+        """As of any object that does not change."""
+        return hash((self.kind, self.analysis))
+
+    def __repr__(self) -> str:
+        """The first ones."""
+        told = [repr(mode) for mode in self[:_TOLD]]
+        return f"({', '.join(told)}{', ...' if len(self) > _TOLD else ''})"
+
+    def _repr_html_(self) -> str | None:
+        return self.analysis.in_notebook(self)

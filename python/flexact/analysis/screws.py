@@ -16,11 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray, floats
 from ..util.records import Frozen, cached_property
-
-#: What is below this part of a motion is rounding: the least that is ever used.
-ROUNDING = 1.0e-9
-#: A component of a direction below this says nothing of its sense.
-_NO_SENSE = 1.0e-6
+from .limits import NO_SENSE, ROUNDING
 
 
 class ScrewKind(str, Enum):
@@ -137,7 +133,7 @@ def screw_of(
 def sense_of(vector: FloatArray) -> float:
     """1 or -1: the sign of the first component that is not zero beside the largest."""
     size = np.abs(vector)
-    first = int(np.argmax(size > _NO_SENSE * size.max(initial=0.0)))
+    first = int(np.argmax(size > NO_SENSE * size.max(initial=0.0)))
     return -1.0 if vector[first] < 0.0 else 1.0
 
 

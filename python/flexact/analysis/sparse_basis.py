@@ -16,7 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
+from ..core.arrays import Basis, FloatArray
+from ..util.groups import least_of_groups
+from ..util.matrices import complement, null_space, span
+from .limits import ROUNDING
 
 #: How many entries are held in full.
 _MOST_ENTRIES = 20_000_000
@@ -95,22 +98,11 @@ def _can_be_held(rows: int, vectors: int) -> bool:
     return rows * vectors <= _MOST_ENTRIES and float(rows) * vectors**2 <= _MOST_WORK
 
 
-def groups_of(basis: Basis) -> IntArray:
-    """(k,) the first vector of the group that each vector belongs to."""
-    order = np.argsort(basis.place, kind="stable")
-    vector, place = basis.of_entries()[order], basis.place[order]
-    new = np.concatenate(([True], place[1:] != place[:-1]))
-    first = np.flatnonzero(new)
-    of_place = np.empty(order.size, np.int64)
-    of_place[order] = np.cumsum(new) - 1
-    group = np.arange(basis.vectors, dtype=np.int32)
-    while True:
-        least = np.minimum.reduceat(group[vector], first)
-        found = np.minimum.reduceat(least[of_place], basis.start[:-1])
-        found = found[found]
-        if np.array_equal(found, group):
-            return group
-        group = found
+def groups_of(basis: Basis) -> NDArray[np.int64]:
+    """(k,) the first vector of the group that each vector belongs to: they share places."""
+    count = basis.vectors
+    group = least_of_groups(count + basis.size, basis.of_entries(), count + basis.place)
+    return group[:count]
 
 
 def _orthonormal_by_groups(basis: Basis) -> Basis:
@@ -243,8 +235,6 @@ def _first_that_fit(basis: Basis, uses: NDArray[np.integer]) -> Basis:
     )
 
 
-#: A group with less of a unit vector than this has nothing of it.
-_NOTHING = 1.0e-9
 #: A vector that has less than this outside what is spanned already is not taken for a new one.
 _NEW = 1.0e-2
 #: A group that has all of a vector but this is looked at as one that may have it alone.
@@ -331,7 +321,7 @@ def _independent(pieces: list[Piece], space: FloatArray, cost: Cost) -> list[Pie
             made.append(piece._replace(vectors=orthonormal @ coefficients[:, chosen]))
     if spanned.shape[1] < space.shape[1]:
         support = tuple(sorted({i for piece in pieces for i in piece.support}))
-        made.append(Piece(cost, support, orthonormal @ rest_of(spanned)))
+        made.append(Piece(cost, support, orthonormal @ complement(spanned)))
     return made
 
 
@@ -340,39 +330,20 @@ def columns_of(pieces: Sequence[Piece], rows: int) -> FloatArray:
     return np.concatenate([np.zeros((rows, 0)), *(piece.vectors for piece in pieces)], axis=1)
 
 
-def null_of(matrix: FloatArray) -> FloatArray:
-    """(k, d) orthonormal columns that a matrix (rows, k) of about unit size sends to zero."""
-    rows, k = matrix.shape
-    if not rows:
-        return np.eye(k)
-    _, values, right = np.linalg.svd(matrix, full_matrices=True)
-    rank = int(np.count_nonzero(values > _NOTHING))
-    made: FloatArray = right[rank:].T
-    return made
-
-
-def rest_of(columns: FloatArray) -> FloatArray:
-    """(k, d) orthonormal columns across independent ones, (k, c)."""
-    if not columns.shape[1]:
-        return np.eye(len(columns))
-    made: FloatArray = np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
-    return made
-
-
 def classes_of_rows(space: FloatArray) -> list[NDArray[np.integer]]:
     """Rows that are parallel to each other, class by class in the order of their first rows.
 
     Rows that are zero are in none.
     """
     size = np.linalg.norm(space, axis=1)
-    there = np.flatnonzero(size > _NOTHING * size.max(initial=0.0))
+    there = np.flatnonzero(size > ROUNDING * size.max(initial=0.0))
     unit = space[there] / size[there, None]
     left = np.ones(there.size, bool)
     made = []
     for k in range(there.size):
         if left[k]:
             off = unit - np.outer(unit @ unit[k], unit[k])
-            mine = left & (np.linalg.norm(off, axis=1) < 1.0e3 * _NOTHING)
+            mine = left & (np.linalg.norm(off, axis=1) < 1.0e3 * ROUNDING)
             left &= ~mine
             made.append(there[mine])
     return made
@@ -384,16 +355,16 @@ def _by_what_is_seen(space: FloatArray, groups: Groups) -> tuple[FloatArray, Flo
     orthonormal = np.linalg.qr(space)[0]
     if np.unique(every).size == len(space):
         return orthonormal[:, :0], orthonormal
-    unseen = null_of(np.linalg.qr(orthonormal[every])[1])
-    return orthonormal @ unseen, orthonormal @ rest_of(unseen)
+    unseen = null_space(np.linalg.qr(orthonormal[every])[1], ROUNDING)
+    return orthonormal @ unseen, orthonormal @ complement(unseen)
 
 
 def _reduced(block: FloatArray) -> FloatArray:
     """A matrix of few rows with the same product with its transpose."""
     if len(block) == 1:
-        return block if np.linalg.norm(block) > _NOTHING else block[:0]
+        return block if np.linalg.norm(block) > ROUNDING else block[:0]
     _, values, right = np.linalg.svd(block, full_matrices=False)
-    made: FloatArray = (values[:, None] * right)[values > _NOTHING]
+    made: FloatArray = (values[:, None] * right)[values > ROUNDING]
     return made
 
 
@@ -421,11 +392,11 @@ class _Search:
             if not block.size or _norm(block) < 1.0 - _ALL_BUT:
                 continue
             others = [other for k, other in enumerate(self.blocks) if k != i]
-            mine = null_of(np.concatenate([np.zeros((0, size)), *others]))
+            mine = null_space(np.concatenate([np.zeros((0, size)), *others]), ROUNDING)
             if mine.shape[1]:
                 alone.append(mine)
                 yield Piece(self.costs[i], (i,), self.refine(mine))
-        rest = rest_of(np.concatenate(alone, axis=1))
+        rest = complement(np.concatenate(alone, axis=1))
         if rest.shape[1]:
             yield from self._of_components(rest)
 
@@ -449,7 +420,7 @@ class _Search:
                 continue
             new = flat.vectors
             if new.shape[1] > _MOST_REFINED:
-                new = _rest_in(new, spanned)
+                new = span(_off(new, spanned), _NEW)
             refined = self.refine(within @ new)
             coefficients = np.linalg.lstsq(self.space @ within, refined, rcond=None)[0]
             chosen = []
@@ -462,7 +433,7 @@ class _Search:
                 yield Piece(self._cost(support), support, refined[:, chosen])
             if spanned.shape[1] == d:
                 return
-        left = within @ rest_of(spanned)
+        left = within @ complement(spanned)
         yield Piece(self._cost(members), tuple(members), self.space @ left)
 
     def _cheapest_first(
@@ -487,14 +458,6 @@ def _sum(costs: Sequence[Cost], support: Iterable[int]) -> Cost:
     return tuple(map(sum, zip(*(costs[i] for i in support), strict=True)))
 
 
-def _rest_in(vectors: FloatArray, spanned: FloatArray) -> FloatArray:
-    """(k, d) orthonormal columns of the space of some columns, across what is spanned of it."""
-    off = _off(vectors, spanned)
-    left, values, _ = np.linalg.svd(off, full_matrices=False)
-    made: FloatArray = left[:, values > _NEW]
-    return made
-
-
 def _norm(block: FloatArray) -> float:
     """The largest singular value."""
     return float(np.linalg.norm(block, 2 if len(block) > 1 else None))
@@ -515,20 +478,12 @@ def _components(blocks: list[FloatArray]) -> list[list[int]]:
     stacked = np.concatenate([blocks[i] for i in there])
     start = np.cumsum([0, *(len(blocks[i]) for i in there[:-1])])
     square = np.add.reduceat((stacked @ stacked.T) ** 2, start, axis=0)
-    joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * _NOTHING
-    left: BoolArray = np.ones(len(there), bool)
-    made = []
-    while left.any():
-        mine = np.zeros(len(there), bool)
-        mine[np.argmax(left)] = True
-        while True:
-            more = joined[mine].any(axis=0)
-            if np.array_equal(more | mine, mine):
-                break
-            mine |= more
-        left &= ~mine
-        made.append([there[k] for k in np.flatnonzero(mine)])
-    return made
+    joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * ROUNDING
+    group = least_of_groups(len(there), *np.nonzero(joined)).tolist()
+    made: dict[int, list[int]] = {}
+    for k, first in zip(there, group, strict=True):
+        made.setdefault(first, []).append(k)
+    return list(made.values())
 
 
 class _Stack:
@@ -564,7 +519,7 @@ class _Stack:
 
     def zero(self, vectors: FloatArray) -> int:
         """The blocks in which they are zero, a bit each."""
-        small = np.flatnonzero(self.norms(vectors) < 10.0 * _NOTHING).tolist()
+        small = np.flatnonzero(self.norms(vectors) < 10.0 * ROUNDING).tolist()
         return self._never | sum(1 << self._there[k] for k in small)
 
 
@@ -586,7 +541,7 @@ def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
             cuts += 1
             if cuts > _MOST_CUTS:
                 return None
-            left = null_of(blocks[i] @ flat.vectors)
+            left = null_space(blocks[i] @ flat.vectors, ROUNDING)
             if not left.shape[1]:
                 continue
             vectors = flat.vectors @ left
@@ -622,7 +577,7 @@ def _descended(blocks: list[FloatArray], start: int, norms: FloatArray, d: int) 
     for i in order.tolist():
         if i == start or not blocks[i].size:
             continue
-        left = vectors @ null_of(blocks[i] @ vectors)
+        left = vectors @ null_space(blocks[i] @ vectors, ROUNDING)
         if left.shape[1] and np.linalg.norm(blocks[start] @ left) > _NEW:
             vectors = left
     return _Flat(_Stack(blocks).zero(vectors), vectors)

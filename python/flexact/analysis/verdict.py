@@ -95,18 +95,11 @@ class Certainty(str, Enum):
     """
 
     CERTAIN = "numerically certain"
-    NEARLY = "doubtful"
+    DOUBTFUL = "doubtful"
 
     def __str__(self) -> str:
         """The words themselves."""
         return self.value
-
-
-class Nearly(NamedTuple):
-    """The likeliest counts beside those that were found."""
-
-    under_constrained: int
-    over_constrained: int
 
 
 class Alternative(NamedTuple):

@@ -10,8 +10,9 @@ import numpy as np
 from ..core.elements import NodeKind
 from ..deck.diagnostics import Diagnostic, Severity
 from ..util.text import MOST_TYPED, significant_digits
-from .certainty import CLEARLY, Doubt, DoubtKind
+from .certainty import Doubt, DoubtKind
 from .decomposition import Accuracy
+from .limits import CLEARLY, CLOSE_DECISION, SMALL_MARGIN
 from .naming import (
     Line,
     Pieces,
@@ -27,8 +28,6 @@ from .places import parts_words
 from .result import Result
 from .verdict import Alternative, Certainty, Margin, Proof, Verdict
 
-#: Margins below this angle, or this part of the characteristic length, are small.
-_SMALL = 0.1
 _ALIGNED = "in exact alignment"
 _ANY_MISALIGNMENT = (
     "none. A motion and a self-stress here depend on exact alignment: any misalignment lifts "
@@ -61,8 +60,8 @@ def margin_of_sizes(
     """
     if exact:
         return f"only {_ALIGNED}"
-    is_short = length is not None and length < _SMALL * characteristic
-    is_small = angle is not None and angle < _SMALL
+    is_short = length is not None and length < SMALL_MARGIN * characteristic
+    is_small = angle is not None and angle < SMALL_MARGIN
     return _of_sizes(length if is_short else None, angle if is_small else None)
 
 
@@ -139,8 +138,8 @@ def _margin(result: Result) -> Pieces:
 def _small(result: Result) -> tuple[float | None, float | None]:
     """Length and angle of the margin, None where they are large, and so is the accuracy."""
     margin, accuracy = result.margin, result.accuracy or Accuracy(0.0)
-    length = max(_SMALL * result.characteristic_length, accuracy.length)
-    angle = max(_SMALL, accuracy.angle or 0.0)
+    length = max(SMALL_MARGIN * result.characteristic_length, accuracy.length)
+    angle = max(SMALL_MARGIN, accuracy.angle or 0.0)
     return (
         margin.length if margin.length is not None and margin.length < length else None,
         margin.angle if margin.angle is not None and margin.angle < angle else None,
@@ -262,8 +261,6 @@ def _why(result: Result) -> str:
     """Why there is no proof."""
     if result.asked.prove is False:
         return "no proof was asked for"
-    if result.raw.primes == 0:
-        return "this build has no FLINT (apt-get install libflint-dev, then build Flexact again)"
     if result.asked.prove is None:
         return "D(c) is large (--prove, or prove=True, takes the time)"
     return "D(c) is too large"
@@ -296,8 +293,6 @@ def _method(result: Result) -> Iterator[Line]:
     yield sentence(f"Method: {method}{chosen}{pieces}{shown}.")
 
 
-#: A smallest non-zero singular value below this part of the largest is worth a warning.
-_NEARLY_ZERO = 1.0e-5
 _ALL_DIGITS = "give the geometry with all its digits"
 _LOOK = "look at the geometry; far from the origin, move it there"
 
@@ -312,7 +307,7 @@ def _of_the_decision(result: Result) -> Iterator[Diagnostic]:
     for doubt in doubts:
         yield warning_of(result, doubt)
     small, largest = result.gap.smallest_nonzero, max(result.scaled_singular_values, default=0.0)
-    if small is not None and small < _NEARLY_ZERO * largest and not doubts:
+    if small is not None and small < CLOSE_DECISION * largest and not doubts:
         yield Diagnostic(
             Severity.WARNING,
             "close-decision",

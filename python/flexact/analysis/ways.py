@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from ..core.arrays import Basis, FloatArray
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
 from ..model.parts.parts import surplus_of
-from .decomposition import Outcome, column_weights, row_weights
+from .decomposition import Decomposition, column_weights, row_weights
 from .mode_basis import column_key, coordinate_key, deformation_key, ranked, row_key
 from .result import Result
 from .sparse_basis import Sparse, index_of, norms_of_product, row_norms, support_of
@@ -109,14 +109,14 @@ def deformations(result: Result) -> Deformations:
     return [(row // 6, row % 6 + 1) for row in order]
 
 
-def entry_rows(result: Outcome) -> NDArray[np.integer]:
+def entry_rows(result: Decomposition) -> NDArray[np.integer]:
     """(entries,) the row of D(c) of each entry of the assembly; -1 of what is none."""
     element, deformation = result.raw.row_label - 1
     size = 6 * result.data.arrays.element_number.size
     return np.asarray(index_of(6 * element + deformation, size)[result.assembly.row_of])
 
 
-def entry_columns(result: Outcome) -> NDArray[np.integer]:
+def entry_columns(result: Decomposition) -> NDArray[np.integer]:
     """(entries,) the column of D(c) of each entry of the assembly, likewise."""
     node, axis = result.raw.column_label - 1
     size = 3 * result.data.arrays.node_number.size
@@ -376,7 +376,7 @@ def _coordinates(result: Result, places: Coordinates) -> Iterator[Coordinate]:
     return (coordinate_of(result, *place) for place in places)
 
 
-def coordinate_of(result: Outcome, node: int, axis: int) -> Coordinate:
+def coordinate_of(result: Decomposition, node: int, axis: int) -> Coordinate:
     """The coordinate of a node along or about an axis, both by their index from 0."""
     arrays = result.data.arrays
     kind, number = int(arrays.node_kind[node]), int(arrays.node_number[node])

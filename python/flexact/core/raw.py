@@ -240,7 +240,6 @@ class RawEchelon(NamedTuple):
     """The reduced echelon form of D(c), or of its transpose, modulo a prime."""
 
     prime: int
-    """0 where the build has no FLINT."""
     as_typed: bool
     """Whether it is of the decimals as typed, or of the doubles as stored."""
     pivots: tuple[int, ...]

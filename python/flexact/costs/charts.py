@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +16,8 @@ from ..show.charts import (
     Chart,
     Curve,
     Group,
+    Key,
+    KeyRow,
     Mark,
     Row,
     Scale,
@@ -40,7 +41,7 @@ from .designs import (
     in_words,
     percent,
     short_labels,
-    unit_of_direction,
+    stiffness_unit,
     words_of_direction,
 )
 
@@ -55,37 +56,28 @@ def marks_of(cost: CostValues, curve: Curve) -> Iterable[Mark]:
         cost: The cost.
         curve: The first of its chart.
     """
-    found = _tolerance(cost.as_built)
+    built = cost.as_built
+    drawn = None if built.curve is None else built.curve.misalignment
+    found = next((each for each in built.tolerances if each.misalignment == drawn), None)
     if found is None or curve.series != 0:
         return
-    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
+    room = 1e-3 * float(curve.x[-1] - curve.x[0])
     for words, pair in (
         ("buckles at", (found.critical_negative, found.critical_positive)),
-        (f"{shift} at", (found.negative, found.positive)),
+        (f"{_shift(cost)} at", (found.negative, found.positive)),
     ):
-        values = [each.value for each in pair if _is_within(each.value, curve.x)]
-        yield from _marked(curve, words, values, found.misalignment.unit)
+        values = [v for v, _ in pair if curve.x[0] - room <= v <= curve.x[-1] + room]
+        points = [(value, float(np.interp(value, curve.x, curve.y))) for value in values]
+        unit = found.misalignment.unit
+        if len(values) == 2 and abs(sum(values)) < _MIRRORED * abs(values[1]):
+            yield Mark(curve.series, tuple(points), f"{words} ±{told(values[1], unit)}")
+        else:
+            for value, point in zip(values, points, strict=True):
+                yield Mark(curve.series, (point,), f"{words} {told(value, unit)}")
 
 
-def _is_within(value: float, x: FloatArray) -> bool:
-    room = 1e-3 * float(x[-1] - x[0])
-    return bool(x[0] - room <= value <= x[-1] + room)
-
-
-def _marked(curve: Curve, words: str, values: Sequence[float], unit: str) -> Iterable[Mark]:
-    """One mark for two values that mirror each other, else one each."""
-    points = [(value, float(np.interp(value, curve.x, curve.y))) for value in values]
-    if len(values) == 2 and abs(sum(values)) < _MIRRORED * abs(values[1]):
-        yield Mark(curve.series, tuple(points), f"{words} ±{told(values[1], unit)}")
-    else:
-        for value, point in zip(values, points, strict=True):
-            yield Mark(curve.series, (point,), f"{words} {told(value, unit)}")
-
-
-def _tolerance(design: Design) -> Tolerance | None:
-    """That of the misalignment which is drawn."""
-    wanted = None if design.curve is None else design.curve.misalignment
-    return next((each for each in design.tolerances if each.misalignment == wanted), None)
+def _shift(cost: CostValues) -> str:
+    return f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
 
 
 #: Clamps that are shown; of more those that bear least.
@@ -117,7 +109,11 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     ]
     if not finite:
         return None
-    clamps, left_out = _clamps(found[0])
+    least: dict[Clamp, float] = {}
+    for misalignment, each in found[0].items():
+        clamp = misalignment.clamp
+        least[clamp] = min(least.get(clamp, math.inf), each.tightest.value)
+    chosen = sorted(least, key=lambda clamp: least[clamp])[:MOST_CLAMPS]
     groups = [
         Group(
             clamp.label,
@@ -127,11 +123,12 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
                 if misalignment.clamp == clamp
             ),
         )
-        for clamp in clamps
+        for clamp in least
+        if clamp in chosen
     ]
+    left_out = len(least) - len(chosen)
     name, what = ("shifts", "displacement") if unit == "m" else ("turns", "rotation")
-    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
-    title = f"Tolerance of a clamp for {what} ({shift})"
+    title = f"Tolerance of a clamp for {what} ({_shift(cost)})"
     many = "clamp bears" if left_out == 1 else "clamps bear"
     more = f"; {left_out} more {many} more" if left_out else ""
     note = f"Arrows: more than {told(limit, unit, 2)}{more}"
@@ -144,22 +141,10 @@ def _row(
 ) -> tuple[Bar, ...]:
     made = []
     for series, tolerances in enumerate(found):
-        each = tolerances.get(misalignment)
-        if each is not None:
+        if (each := tolerances.get(misalignment)) is not None:
             value, uncertainty = each.tightest
-            is_open = value > limit
-            made.append(Bar(series, *((math.inf, 0.0) if is_open else (value, uncertainty))))
+            made.append(Bar(series, *((math.inf, 0.0) if value > limit else (value, uncertainty))))
     return tuple(made)
-
-
-def _clamps(found: dict[Misalignment, Tolerance]) -> tuple[list[Clamp], int]:
-    """The clamps that are shown, in their order; how many are left out."""
-    least: dict[Clamp, float] = {}
-    for misalignment, each in found.items():
-        clamp = misalignment.clamp
-        least[clamp] = min(least.get(clamp, math.inf), each.tightest.value)
-    chosen = sorted(least, key=lambda clamp: least[clamp])[:MOST_CLAMPS]
-    return [clamp for clamp in least if clamp in chosen], max(0, len(least) - MOST_CLAMPS)
 
 
 #: Stiffnesses that differ by more than so many times are drawn on a logarithmic axis.
@@ -181,30 +166,13 @@ def charts_of(cost: CostValues) -> tuple[Chart, ...]:
 def _stiffness(cost: CostValues) -> Chart | None:
     """In the direction that loses most of what it has as built at rest."""
     strokes = _strokes(cost)
-    if not strokes or cost.stroke is None:
-        return None
-    chosen = _direction(cost, strokes)
+    chosen = _direction(cost, strokes) if strokes and cost.stroke is not None else None
     if chosen is None:
         return None
     name = cost.directions[chosen]
-    unit = "N m/rad" if name.startswith("r") else "N/m"
-    curves = _curves(
-        cost,
-        (
-            (series, each, Numbers(*(part[:, chosen] for part in each.stiffness)))
-            for series, each in strokes
-        ),
-    )
-    if not curves:
-        return None
-    return Chart(
-        "stiffness",
-        f"Support stiffness {words_of_direction(name)}",
-        _stroke_title(cost),
-        _along(cost),
-        _up(curves, unit),
-        curves,
-    )
+    title = f"Support stiffness {words_of_direction(name)}"
+    chosen_of = [(series, each, each.stiffness.column(chosen)) for series, each in strokes]
+    return _along_stroke(cost, "stiffness", title, chosen_of, stiffness_unit(name))
 
 
 def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> int | None:
@@ -228,18 +196,32 @@ def _parasitic(cost: CostValues) -> Chart | None:
     chosen = []
     for series, each in _strokes(cost):
         if each.parasitic is not None and each.parasitic.value.shape[1]:
-            chosen.append((series, each, Numbers(*(part[:, 0] for part in each.parasitic))))
-    curves = _curves(cost, chosen)
-    if not curves or cost.stroke is None:
+            chosen.append((series, each, each.parasitic.column(0)))
+    return _along_stroke(cost, "parasitic", "Lowest parasitic frequency", chosen, "Hz")
+
+
+def _along_stroke(
+    cost: CostValues,
+    name: str,
+    title: str,
+    chosen: Iterable[tuple[int, StrokeCurve, Numbers]],
+    unit: str,
+) -> Chart | None:
+    """A chart of numbers of designs along the stroke; None where none can be drawn."""
+    asked, labels = cost.stroke, short_labels(cost)
+    if asked is None:
         return None
-    return Chart(
-        "parasitic",
-        "Lowest parasitic frequency",
-        _stroke_title(cost),
-        _along(cost),
-        _up(curves, "Hz"),
-        curves,
+    made = (
+        Curve(series, labels[series], curve.values - asked.rest, *_drawn(numbers))
+        for series, curve, numbers in chosen
     )
+    curves = tuple(curve for curve in made if curve.runs)
+    if not curves:
+        return None
+    first, last = sorted(value - asked.rest for value in asked.reached)
+    room = 0.03 * (last - first)
+    along = exact_scale(first - room, last + room, asked.unit)
+    return Chart(name, title, f"stroke of {asked.words}", along, _up(curves, unit), curves)
 
 
 def _misaligned(cost: CostValues) -> Chart | None:
@@ -279,7 +261,7 @@ def _smooth(
 
     The square is a stiffness, which falls straight to zero where the design buckles.
     """
-    x, (y, spread) = curve.values, _told(curve.measure)
+    x, (y, spread) = curve.values, _drawn(curve.measure)
     if not is_frequency or not np.isfinite(y).all():
         return x, y, spread
     square = np.where(y < _BUCKLED * y.max(), 0.0, y**2)
@@ -288,8 +270,6 @@ def _smooth(
 
 
 def _strokes(cost: CostValues) -> list[tuple[int, StrokeCurve]]:
-    if cost.stroke is None:
-        return []
     return [
         (series, each.stroke)
         for series, each in enumerate(cost.designs)
@@ -297,34 +277,11 @@ def _strokes(cost: CostValues) -> list[tuple[int, StrokeCurve]]:
     ]
 
 
-def _curves(
-    cost: CostValues, chosen: Iterable[tuple[int, StrokeCurve, Numbers]]
-) -> tuple[Curve, ...]:
-    labels = short_labels(cost)
-    rest = 0.0 if cost.stroke is None else cost.stroke.rest
-    made = (
-        Curve(series, labels[series], stroke.values - rest, *_told(numbers))
-        for series, stroke, numbers in chosen
-    )
-    return tuple(curve for curve in made if curve.runs)
-
-
-def _told(numbers: Numbers) -> tuple[FloatArray, FloatArray]:
+def _drawn(numbers: Numbers) -> tuple[FloatArray, FloatArray]:
     """Values, NaN where there is none that can be drawn, and their uncertainties."""
     value = np.where(np.isfinite(numbers.value), numbers.value, np.nan)
     spread = np.where(np.isfinite(numbers.uncertainty), numbers.uncertainty, 0.0)
     return value, np.broadcast_to(spread, value.shape)
-
-
-def _stroke_title(cost: CostValues) -> str:
-    return "" if cost.stroke is None else f"stroke of {cost.stroke.words}"
-
-
-def _along(cost: CostValues) -> Scale:
-    assert cost.stroke is not None
-    first, last = sorted(value - cost.stroke.rest for value in cost.stroke.reached)
-    room = 0.03 * (last - first)
-    return exact_scale(first - room, last + room, unit_of_direction(cost.stroke.coordinate))
 
 
 def _up(curves: Sequence[Curve], unit: str) -> Scale:
@@ -345,54 +302,25 @@ _CERTAIN, _ALIKE = 0.02, 1.01
 _TWICE = re.compile(r"(along|about) (\w+) and \1 (\w+)")
 
 
-class KeyRow(NamedTuple):
-    """A design in the table."""
-
-    series: int
-    label: str
-    """What stands at its curves."""
-    words: str
-    """What is released."""
-    cells: tuple[str, ...]
-    """As many as there are headings."""
-
-
-class Key(NamedTuple):
-    """The table.
-
-    Attributes:
-        heads: Of the columns for which there are values.
-        rows: A design each.
-    """
-
-    heads: tuple[str, ...]
-    rows: tuple[KeyRow, ...]
-
-
 def key_of(cost: CostValues) -> Key:
     """The table of a cost: columns of which the deck allows nothing are left out."""
-    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
     place = None if cost.tightest is None else cost.tightest.misalignment
     columns = {
-        f"tolerance ({shift})": [_tightest(each, place) for each in cost.designs],
+        f"tolerance ({_shift(cost)})": [_tightest(each, place) for each in cost.designs],
         "buckles at": [_buckles(each, place) for each in cost.designs],
         "worst stiffness kept": [_kept(each) for each in cost.designs],
         "frequency": [_frequency(each) for each in cost.designs],
-        "lowest parasitic": [_parasitic_of_key(each) for each in cost.designs],
+        "lowest parasitic": [_lowest_parasitic(each) for each in cost.designs],
     }
     shown = {head: cells for head, cells in columns.items() if any(cells[1:] or cells)}
     if len(cost.designs) > 1 and len(set(shown.get("frequency", "12"))) == 1:
         # The same of all: it is told once, and tells nothing here.
         del shown["frequency"]
-    rows = (
-        KeyRow(
-            series,
-            label,
-            _words(design),
-            tuple(cells[series] for cells in shown.values()),
-        )
-        for series, (label, design) in enumerate(zip(short_labels(cost), cost.designs, strict=True))
-    )
+    rows = []
+    for series, (label, design) in enumerate(zip(short_labels(cost), cost.designs, strict=True)):
+        words, many = design.words.removeprefix("released: "), len(design.alike)
+        words = f"{words} (and {many} alike)" if many else words
+        rows.append(KeyRow(series, label, words, tuple(each[series] for each in shown.values())))
     return Key(tuple(shown), tuple(rows))
 
 
@@ -423,13 +351,6 @@ def typeset(words: str) -> str:
     return _TWICE.sub(r"\1 \2 and \3", words)
 
 
-def _words(design: Design) -> str:
-    """What is released, and what is alike."""
-    words = design.words.removeprefix("released: ")
-    many = len(design.alike)
-    return f"{words} (and {many} alike)" if many else words
-
-
 def _tightest(design: Design, place: Misalignment | None) -> str:
     found = design.tightest
     if found is None:
@@ -443,15 +364,10 @@ def _buckles(design: Design, place: Misalignment | None) -> str:
     if found is None:
         return NEVER if design.tolerances else ""
     told = place if design.tightest is None else design.tightest.misalignment
-    if _critical(design, told) <= _ALIKE * found.critical.value:
+    critical = (each.critical.value for each in design.tolerances if each.misalignment == told)
+    if next(critical, math.inf) <= _ALIKE * found.critical.value:
         return typeset(in_words(_rounded(found.critical), found.misalignment.unit))
     return _with_place(found.critical, found, place)
-
-
-def _critical(design: Design, place: Misalignment | None) -> float:
-    """At which error of a place it buckles; infinite where none does."""
-    found = (each for each in design.tolerances if each.misalignment == place)
-    return next((each.critical.value for each in found), math.inf)
 
 
 def _with_place(number: Number, found: Tolerance, place: Misalignment | None) -> str:
@@ -480,11 +396,11 @@ def _kept(design: Design) -> str:
 def _frequency(design: Design) -> str:
     if design.frequencies is None or not design.frequencies.value.size:
         return ""
-    first = Number(*(float(part[0]) for part in design.frequencies))
+    first = design.frequencies.at(0)
     return in_words(_rounded(first), "Hz") if first.value > 0.0 else "buckled"
 
 
-def _parasitic_of_key(design: Design) -> str:
+def _lowest_parasitic(design: Design) -> str:
     """At rest, and where the stroke makes it lowest."""
     first = design.first_parasitic
     if first is None:
@@ -494,7 +410,7 @@ def _parasitic_of_key(design: Design) -> str:
     if along is None or not along.value.size:
         return told
     k = int(np.argmin(along.value[:, 0]))
-    least = Number(float(along.value[k, 0]), float(along.uncertainty[k, 0]))
+    least = along.at(k, 0)
     if least.value > 0.99 * first.value:
         return told
     lowest = in_words(_rounded(least), "Hz")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What given misalignments do to a design, with all of the nonlinearity."""
+"""What a design costs: the designs to compare, and what is computed of each."""
 
 from __future__ import annotations
 
@@ -12,23 +12,20 @@ import numpy as np
 from ..advice.releases.releases import releases_of
 from ..advice.step import tried
 from ..analysis.change import Change
+from ..analysis.decomposition import asked_for
 from ..analysis.deformation_words import deformation_word
 from ..analysis.locate import deformations_of
 from ..analysis.naming import deformation_in_words, plain
 from ..analysis.places import part_words
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..core.arrays import FloatArray
-from ..core.elements import Class, Member, NodeKind, member_table
+from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error
 from ..elasticity import ElasticError, Estimate, State, StrokeError
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
-from ..util.records import cached_property
-from . import along
-from .along import Along
-from .along import Asked as StrokeValues
+from . import stroke as strokes
 from .designs import (
     FREQUENCY,
     STIFFNESS,
@@ -37,17 +34,17 @@ from .designs import (
     Effect,
     Kept,
     Misalignment,
-    Number,
     Numbers,
     Released,
     Stroke,
     Tolerance,
     in_words,
+    stacked,
     words_of_direction,
 )
 from .elastic_design import (
-    Bench,
     Choice,
+    ElasticDesign,
     Measures,
     drives_of,
     has_masses,
@@ -57,9 +54,10 @@ from .elastic_design import (
     over_levels,
     require_stiffness,
 )
-from .request import Asked, ReleaseAsked
+from .request import ReleaseRequest, Request
 from .resolve import Places, directions_of, given_of, stroke_of
-from .shape import Shape
+from .shape import Shape, unit_mode
+from .stroke import Reached
 from .tolerances import curve_against, tolerances_of
 
 #: How many proven releases stand beside the design as built, and how many are measured for that.
@@ -75,14 +73,9 @@ class Candidate(NamedTuple):
     over_constrained: int
 
     @property
-    def pairs(self) -> ReleaseAsked:
+    def pairs(self) -> ReleaseRequest:
         """As the elastic model takes it."""
         return {(each.element, each.deformation): each.notch for each in self.released}
-
-
-def as_built(result: Result) -> Candidate:
-    """Nothing is released."""
-    return Candidate((), (), result.under_constrained, result.over_constrained)
 
 
 def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
@@ -97,7 +90,13 @@ def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
         return ()
     made = []
     sets = releases_of(result, with_bodies=bodies).sets
-    of_members = [each for each in sets if not _releases_a_link(result, each.change)]
+    index, kinds = result.given.element_index, result.given.arrays.element_kind
+    is_link = member_table()[kinds] == Member.LINK
+    of_members = [
+        each
+        for each in sets
+        if not any(is_link[index[element]] for element, *_ in each.change.deformations)
+    ]
     for proposal in (of_members or sets)[:LOOKED_AT]:
         alike = tuple(_label(_released(result, change)) for change in proposal.alternatives)
         after = proposal.after
@@ -106,13 +105,7 @@ def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
     return tuple(made)
 
 
-def _releases_a_link(result: Result, change: Change) -> bool:
-    index, kinds = result.given.element_index, result.given.arrays.element_kind
-    members = member_table()[[kinds[index[element]] for element, *_ in change.deformations]]
-    return bool((members == Member.LINK).any())
-
-
-def given(result: Result, asked: ReleaseAsked) -> Candidate:
+def given(result: Result, asked: ReleaseRequest) -> Candidate:
     """A design that is asked for.
 
     Raises:
@@ -161,7 +154,7 @@ Given = Sequence[tuple[Misalignment, float]]
 _HALVINGS = 12
 
 
-def effect_of(bench: Bench, measures: Measures, given: Given, parts: Parts) -> Effect:
+def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts: Parts) -> Effect:
     """Before and behind misalignments that act together.
 
     Where no equilibrium is found with all of them, they are taken in proportion as far as one is.
@@ -170,19 +163,21 @@ def effect_of(bench: Bench, measures: Measures, given: Given, parts: Parts) -> E
         ElasticError: there is no answer, as of a self-stress of rigid parts, or nothing of it was
             reached.
     """
-    behind, reached = _behind(bench, given)
-    both = (bench.rest, behind)
+    behind, reached = _behind(mechanism, given)
+    both = (mechanism.rest, behind)
+
+    def found(quantity: Callable[[State], FloatArray]) -> Numbers:
+        return stacked([numbers(over_levels(quantity, each)) for each in both])
+
     kept = over_levels(measures.worst, *both)
-    carried = [numbers(over_levels(_largest, each)) for each in both]
-    peak, where = _peaks(bench, both)
-    hertz = None
-    if measures.has_masses:
-        hertz = _both([numbers(over_levels(measures.frequencies, each)) for each in both])
+    peak, where = _peaks(mechanism, both)
+    hertz = found(measures.frequencies) if measures.has_masses else None
     return Effect(
         hertz if hertz is not None and hertz.value.size else None,
-        _both([numbers(over_levels(measures.stiffness, each)) for each in both]),
-        _first([numbers(over_levels(lambda s: np.array([s.energy]), each)) for each in both]),
-        _both(carried),
+        found(measures.stiffness),
+        found(lambda state: np.array([state.energy])).column(0),
+        # Largest normal force [N], torque and bending moment [N m] of any element.
+        found(lambda state: np.asarray(np.abs(_of_elements(state)).max(axis=0))),
         peak,
         part_words(parts.of_element(where)),
         number(Estimate(kept.value[0], kept.uncertainty[0])),
@@ -191,12 +186,12 @@ def effect_of(bench: Bench, measures: Measures, given: Given, parts: Parts) -> E
     )
 
 
-def _behind(bench: Bench, given: Given) -> tuple[State, float]:
+def _behind(mechanism: ElasticDesign, given: Given) -> tuple[State, float]:
     """The state with the misalignments, or with the largest part of them that is found."""
 
     def with_part(part: float) -> State:
         off = [(each.clamp.node, each.direction, part * value, each.about) for each, value in given]
-        return bench.elastic.imperfect(misaligned=off, beyond=True).assembled()
+        return mechanism.elastic.imperfect(misaligned=off, beyond=True).assembled()
 
     part, why = 1.0, None
     for _ in range(_HALVINGS):
@@ -210,12 +205,6 @@ def _behind(bench: Bench, given: Given) -> tuple[State, float]:
     raise ElasticError(f"no equilibrium was found with these misalignments: {why}")
 
 
-def _largest(state: State) -> FloatArray:
-    """(3,) largest normal force [N], torque and bending moment [N m] of any element, in size."""
-    made: FloatArray = np.abs(_of_elements(state)).max(axis=0)
-    return made
-
-
 def _of_elements(state: State) -> FloatArray:
     """(elements, 3) normal force, torque and largest bending moment."""
     rows = []
@@ -226,7 +215,7 @@ def _of_elements(state: State) -> FloatArray:
     return np.array(rows)
 
 
-def _peaks(bench: Bench, both: Sequence[State]) -> tuple[Numbers | None, int]:
+def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | None, int]:
     """(2,) largest stress before and behind, and the index of the element that has it behind.
 
     None of it where no section is known: then the element with the largest moment, or force.
@@ -241,13 +230,12 @@ def _peaks(bench: Bench, both: Sequence[State]) -> tuple[Numbers | None, int]:
         numbers(over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each))
         for each in both
     ]
-    index = bench.data.element_index[known[int(np.argmax(found[1].value))]]
-    best = [int(np.argmax(each.value)) for each in found]
+    most = [int(np.argmax(each.value)) for each in found]
     peak = Numbers(
-        np.array([each.value[k] for each, k in zip(found, best, strict=True)]),
-        np.array([each.uncertainty[k] for each, k in zip(found, best, strict=True)]),
+        np.array([each.value[k] for each, k in zip(found, most, strict=True)]),
+        np.array([each.uncertainty[k] for each, k in zip(found, most, strict=True)]),
     )
-    return peak, index
+    return peak, mechanism.data.element_index[known[most[1]]]
 
 
 def _known(state: State) -> list[int]:
@@ -264,27 +252,12 @@ def _known(state: State) -> list[int]:
     return made
 
 
-def _both(rows: Sequence[Numbers]) -> Numbers:
-    """(2, k) of two rows, as long as the shorter one."""
-    count = min(row.value.size for row in rows)
-    return Numbers(
-        np.array([row.value[:count] for row in rows]),
-        np.array([row.uncertainty[:count] for row in rows]),
-    )
-
-
-def _first(rows: Sequence[Numbers]) -> Numbers:
-    """(2,) of two rows with one number."""
-    both = _both(rows)
-    return Numbers(both.value[:, 0], both.uncertainty[:, 0])
-
-
 #: How many parasitic frequencies are shown.
 _MOST = 2
 
 
 def shapes_of(
-    bench: Bench,
+    mechanism: ElasticDesign,
     frequencies: Numbers | None,
     is_drive: tuple[bool, ...],
     buckles: Tolerance | None,
@@ -294,51 +267,238 @@ def shapes_of(
         chosen = [k for k, drives in enumerate(is_drive) if drives][:1]
         chosen += [k for k, drives in enumerate(is_drive) if not drives][:_MOST]
         for k in chosen:
-            hertz = Number(*(float(side[k]) for side in frequencies))
+            hertz = frequencies.at(k)
             kind = "frequency of the drive" if is_drive[k] else "parasitic frequency"
             words = f"{kind}, {in_words(hertz, 'Hz')}"
-            yield _shape(bench, "vibrating", words, hertz.value, bench.rest.modes[k])
+            yield _shape(mechanism, "vibrating", words, hertz.value, mechanism.rest.modes[k])
     if buckles is not None:
         size, unit = buckles.critical, buckles.misalignment.unit
         sense = -1.0 if buckles.critical.value == -buckles.critical_negative.value else 1.0
         words = f"buckles with {buckles.misalignment.words} off by {in_words(size, unit)}"
-        mode = bench.levels[-1].buckled(buckles.misalignment, sense)
+        mode = mechanism.levels[-1].buckled(buckles.misalignment, sense)
         if mode is not None:
-            yield _shape(bench, "buckled", words, sense * size.value, mode)
+            yield _shape(mechanism, "buckled", words, sense * size.value, mode)
 
 
-def _shape(bench: Bench, kind: str, words: str, value: float, mode: FloatArray) -> Shape:
-    data, configuration = bench.rest.data, bench.rest.configuration
-    return Shape(kind, words, value, data, configuration, _unit(data, mode))
+def _shape(
+    mechanism: ElasticDesign, kind: str, words: str, value: float, mode: FloatArray
+) -> Shape:
+    """The shape of a mode (nodes, 3) at rest."""
+    rest = mechanism.rest
+    return Shape(kind, words, value, rest.data, rest.configuration, unit_mode(rest.data, mode))
 
 
-def _unit(data: ModelData, mode: FloatArray) -> FloatArray:
-    """(nodes, 3) with the largest displacement 1, or rotation where only rotations move."""
-    places = data.arrays.node_kind <= NodeKind.POSITION
-    size = np.linalg.norm(mode[places], axis=1).max(initial=0.0)
-    size = size if size > 1e-9 * np.abs(mode).max(initial=0.0) else np.abs(mode).max(initial=0.0)
-    return mode / size if size > 0.0 else mode.copy()
-
-
-Progress = Callable[[float], None]
 Report = Callable[[str, float], None]
 #: Parts of the work of a design that its tolerances, curve, stroke and effect are.
 _TOLERANCES, _CURVE, _STROKE = 0.4, 0.5, 0.9
+#: Values that agree to so many digits are equal.
+_DIGITS = 6
+#: From so many beams a sheet on, tolerances are right to some percent (stiffness of thin sheets to
+#: lateral buckling hangs on what happens between elements).
+ENOUGH = 8
+#: How far off one beam a sheet was found to be.
+_OPTIMISTIC = 80
+
+Made = TypeVar("Made", bound=CostValues)
 
 
-class Wanted(NamedTuple):
-    """What is to be found of each design."""
+def compute(
+    data: ModelData,
+    asked: Request,
+    name: str | None,
+    progress: Report | None,
+    kind: type[Made],
+) -> Made:
+    """What a design costs; see `flexact.cost`."""
+    data.require_sound()
+    require_stiffness(data)
+    report = progress or (lambda _what, _done: None)
+    report("analysing", 0.0)
+    return _Computation(data, asked, name, report).cost(kind)
 
-    measures: Measures
-    parts: Parts
-    misalignments: tuple[Misalignment, ...]
-    shift: float
-    stroke: along.Asked | None
-    given: tuple[tuple[Misalignment, float], ...]
-    """Misalignments that act together."""
+
+class _Computation:
+    """What a cost is computed of: the model, what is asked, and what is measured where."""
+
+    def __init__(self, data: ModelData, asked: Request, name: str | None, report: Report) -> None:
+        self.data, self.asked, self.report = data, asked, report
+        self.result: Result = result_of(data, asked_for("auto", None), name)
+        self.places = Places(data, self.result.parts)
+        self.point = self.places.point(asked.at)
+        self.clamps = self.places.clamps()
+        self.stroke = stroke_of(self.places, asked)
+        self.given = given_of(self.places, asked)
+        self.measures = Measures(
+            self.point,
+            directions_of(data, self.point),
+            self.places.size,
+            self.places.drives(),
+            has_masses(data),
+        )
+
+    def cost(self, kind: type[Made]) -> Made:
+        """All of it, as a kind of cost."""
+        asked = self.asked
+        built, candidates = self._candidates()
+        misalignments = self.places.misalignments()
+        designs: list[Design] = []
+        ways: list[Reached] = []
+        for k, candidate in enumerate(candidates):
+            mechanism = built if k == 0 else built.released(candidate.pairs)
+
+            def part(done: float, before: int = k) -> None:
+                label = _label(candidates[before].released)
+                self.report(label or "as built", (before + done) / len(candidates))
+
+            part(0.0)
+            design, way = self._design(built, mechanism, candidate, misalignments, part)
+            designs.append(with_curve(design, mechanism, designs[0] if designs else design))
+            ways += [] if way is None else [way]
+        return kind(
+            self.data,
+            self.result.name,
+            tuple(designs),
+            self.point,
+            self.measures.directions,
+            self.clamps,
+            FREQUENCY if self.measures.has_masses else STIFFNESS,
+            asked.shift,
+            asked.held,
+            asked.drive,
+            asked.beams,
+            self._stroke(ways),
+            self.given,
+            tuple(self._left_out(len(designs))),
+        )
+
+    def _candidates(self) -> tuple[ElasticDesign, tuple[Candidate, ...]]:
+        """The design as built, and what is to be looked at: as built first."""
+        asked = self.asked
+        driven = self.measures.drives
+        watched = self.data.node_index[driven[0][0] if driven else self.point.node]
+        choice = Choice(asked.held, asked.drive, asked.beams)
+        built = ElasticDesign(self.data, choice, {}, watched)
+        first = Candidate((), (), self.result.under_constrained, self.result.over_constrained)
+        if asked.release is not None:
+            others = tuple(given(self.result, each) for each in asked.release)
+            labels = [each.pairs for each in others]
+            if any(pairs in labels[:k] for k, pairs in enumerate(labels)):
+                raise model_error("repeated-release", "one release is asked for twice")
+            return built, (first, *others)
+        self.report("looking for releases", 0.0)
+        return built, (first, *best(self.measures, built, proven(self.result, asked.bodies)))
+
+    def _design(
+        self,
+        built: ElasticDesign,
+        mechanism: ElasticDesign,
+        candidate: Candidate,
+        misalignments: tuple[Misalignment, ...],
+        progress: Callable[[float], None],
+    ) -> tuple[Design, Reached | None]:
+        """A design but for its curve, and how far it was followed along the stroke.
+
+        What has no answer is a remark.
+        """
+        measures, remarks = self.measures, list[str]()
+        frequencies, is_drive = frequencies_of(measures, mechanism)
+        tolerances: tuple[Tolerance, ...] = ()
+        try:
+            tolerances = tolerances_of(
+                *(mechanism, misalignments, self.asked.shift, measures.size),
+                lambda done: progress(_TOLERANCES * done),
+            )
+        except ElasticError as error:
+            remarks.append(f"No tolerances: {error}.")
+        curve = way = effect = None
+        if self.stroke is not None:
+            way = strokes.follow(mechanism.elastic, self.stroke)
+            drive = (self.stroke.node, self.stroke.coordinate)
+            curve = strokes.curve_of(
+                *(measures, mechanism.rest, way, drive, mechanism.choice.drive == "locked"),
+                lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
+            )
+        if self.given:
+            try:
+                effect = effect_of(mechanism, measures, self.given, self.result.parts)
+            except ElasticError as error:
+                remarks.append(f"Misaligned: {error}.")
+        design = Design(
+            candidate.released,
+            candidate.alike,
+            candidate.under_constrained,
+            candidate.over_constrained,
+            numbers(mechanism.rest.estimate(measures.compliance)),
+            None if mechanism is built else kept_beside(measures, built, mechanism),
+            frequencies,
+            is_drive,
+            tolerances,
+            measures.size,
+            stroke=curve,
+            effect=effect,
+            remarks=tuple(remarks),
+        )
+        shapes = shapes_of(mechanism, frequencies, is_drive, design.buckles_at)
+        return replace(design, shapes=tuple(shapes)), way
+
+    def _stroke(self, ways: Sequence[Reached]) -> Stroke | None:
+        """The stroke as far as every design could be followed; None where none was asked for."""
+        asked = self.stroke
+        if asked is None:
+            return None
+        owner = self.places.words(asked.node)
+        words = f"node {asked.node} ({owner}) {words_of_direction(asked.coordinate)}"
+        whole = (float(asked.values[0]), float(asked.values[-1]))
+        low = max((way.ends[0] for way in ways), default=whole[0])
+        high = min((way.ends[1] for way in ways), default=whole[1])
+        why = next((way.why for way in ways if way.why), "")
+        reached = (max(low, whole[0]), min(high, whole[1])) if why else whole
+        return Stroke(asked.node, asked.coordinate, words, asked.rest, whole, reached, why)
+
+    def _left_out(self, designs: int) -> Iterator[str]:
+        """What the deck's data do not allow, and what was not looked at."""
+        asked, result = self.asked, self.result
+        if isinstance(asked.beams, int) and asked.beams < ENOUGH:
+            yield (
+                "with so few beams a sheet tolerances come out too large, with one up to "
+                f'{_OPTIMISTIC} times: --beams auto (beams="auto") refines by itself and shows '
+                "what is left open"
+            )
+        if not self.measures.has_masses:
+            yield (
+                "no masses are given (EM, XM): there are no frequencies, and tolerances are those "
+                "for a shift of the lowest stiffness of the driven point"
+            )
+        elif not self.measures.drives and asked.drive == "free":
+            yield (
+                "no coordinate is declared (DYNX): no frequency is known to be the drive's, and "
+                "all of them count as parasitic"
+            )
+        if result.over_constrained and asked.release is None and designs == 1:
+            yield "no proven release was found; name one with --release (release=)"
+        whole = result.with_internal_declared or result
+        if whole.under_constrained:
+            yield (
+                f"under-constrained by {whole.under_constrained} as declared; what is elastic may "
+                "hold these motions all the same"
+            )
 
 
-def kept_beside(measures: Measures, before: Bench, after: Bench) -> Kept | None:
+def frequencies_of(
+    measures: Measures, mechanism: ElasticDesign
+) -> tuple[Numbers | None, tuple[bool, ...]]:
+    """The lowest frequencies at rest, and which are the drive's."""
+    if not measures.has_masses:
+        return None, ()
+    found = numbers(over_levels(measures.frequencies, mechanism.rest))
+    if not found.value.size:
+        return None, ()
+    if mechanism.choice.drive == "locked":
+        return found, (False,) * found.value.size
+    return found, drives_of(measures, mechanism.rest, found.value.size)
+
+
+def kept_beside(measures: Measures, before: ElasticDesign, after: ElasticDesign) -> Kept | None:
     """What a design keeps of the stiffness of the one as built."""
     one, two = before.rest, after.rest
     finest = measures.ratios(one.alone[-1], two.alone[-1])
@@ -346,66 +506,30 @@ def kept_beside(measures: Measures, before: Bench, after: Bench) -> Kept | None:
     return kept_of(finest, mu, measures.directions)
 
 
-def frequencies_of(measures: Measures, bench: Bench) -> tuple[Numbers | None, tuple[bool, ...]]:
-    """The lowest frequencies at rest, and which are the drive's."""
-    if not measures.has_masses:
-        return None, ()
-    found = numbers(over_levels(measures.frequencies, bench.rest))
-    if not found.value.size:
-        return None, ()
-    if bench.choice.drive == "locked":
-        return found, (False,) * found.value.size
-    return found, drives_of(measures, bench.rest, found.value.size)
+def best(
+    measures: Measures, built: ElasticDesign, candidates: Sequence[Candidate]
+) -> tuple[Candidate, ...]:
+    """The best at most: by the worst stiffness kept, then the lowest frequency kept.
 
-
-def design_of(
-    wanted: Wanted, built: Bench, bench: Bench, candidate: Candidate, progress: Progress
-) -> tuple[Design, along.Along | None]:
-    """A design but for its curve, and how far it was followed along the stroke.
-
-    What has no answer is a remark.
+    Of those that are equal in both that with the higher first parasitic frequency, then the
+    likelier one. One beam an element is enough to tell: the stiffness of a straight sheet is exact
+    with it.
     """
-    measures, remarks = wanted.measures, list[str]()
-    frequencies, is_drive = frequencies_of(measures, bench)
-    tolerances: tuple[Tolerance, ...] = ()
-    try:
-        tolerances = tolerances_of(
-            *(bench, wanted.misalignments, wanted.shift, measures.size),
-            lambda done: progress(_TOLERANCES * done),
-        )
-    except ElasticError as error:
-        remarks.append(f"No tolerances: {error}.")
-    design = Design(
-        candidate.released,
-        candidate.alike,
-        candidate.under_constrained,
-        candidate.over_constrained,
-        numbers(bench.rest.estimate(measures.compliance)),
-        None if bench is built else kept_beside(measures, built, bench),
-        frequencies,
-        is_drive,
-        tolerances,
-        measures.size,
-    )
-    way = None
-    if wanted.stroke is not None:
-        way = along.follow(bench.elastic, wanted.stroke)
-        drive = (wanted.stroke.node, wanted.stroke.coordinate)
-        curve = along.curve_of(
-            *(measures, bench.rest, way, drive, bench.choice.drive == "locked"),
-            lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
-        )
-        design = replace(design, stroke=curve)
-    if wanted.given:
-        try:
-            design = replace(design, effect=effect_of(bench, measures, wanted.given, wanted.parts))
-        except ElasticError as error:
-            remarks.append(f"Misaligned: {error}.")
-    shapes = tuple(shapes_of(bench, frequencies, is_drive, design.buckles_at))
-    return replace(design, shapes=shapes, remarks=tuple(remarks)), way
+    keys = {}
+    one = built.with_beams(1)
+    for place, candidate in enumerate(candidates):
+        mechanism = one.released(candidate.pairs)
+        kept = kept_beside(measures, one, mechanism)
+        worst = 1.0 if kept is None else kept.smallest.value
+        found, drives = frequencies_of(measures, mechanism)
+        hertz = () if found is None else tuple(found.value.tolist())
+        parasitic = [f for f, is_drive in zip(hertz, drives, strict=False) if not is_drive]
+        order = (worst, *hertz[:1], *parasitic[:1])
+        keys[place] = (*(-float(f"{value:.{_DIGITS}g}") for value in order), place)
+    return tuple(candidates[place] for place in sorted(keys, key=keys.__getitem__)[:MOST])
 
 
-def with_curve(design: Design, bench: Bench, built: Design) -> Design:
+def with_curve(design: Design, mechanism: ElasticDesign, built: Design) -> Design:
     """With the first frequency against the misalignment that matters most as built."""
     matters = built.tightest or built.buckles_at
     if matters is None:
@@ -417,191 +541,4 @@ def with_curve(design: Design, bench: Bench, built: Design) -> Design:
     reach = critical.value if critical.is_finite else 4.0 * matters.tightest.value
     if mine is None or not np.isfinite(reach):
         return design
-    return replace(design, curve=curve_against(bench, mine, reach))
-
-
-#: Values that agree to so many digits are equal.
-_DIGITS = 6
-
-
-def best(
-    measures: Measures, built: Bench, candidates: Sequence[Candidate]
-) -> tuple[Candidate, ...]:
-    """The best at most: by the worst stiffness kept, then the lowest frequency kept.
-
-    Of those that are equal in both that with the higher first parasitic frequency, then the
-    likelier one. One beam an element is enough to tell: the stiffness of a straight sheet is exact
-    with it.
-    """
-    keys = {}
-    one = built.with_beams(1)
-    for place, candidate in enumerate(candidates):
-        bench = one.released(candidate.pairs)
-        kept = kept_beside(measures, one, bench)
-        worst = 1.0 if kept is None else kept.smallest.value
-        found, drives = frequencies_of(measures, bench)
-        hertz = () if found is None else tuple(found.value.tolist())
-        parasitic = [f for f, is_drive in zip(hertz, drives, strict=False) if not is_drive]
-        order = (worst, *hertz[:1], *parasitic[:1])
-        keys[place] = (*(-float(f"{value:.{_DIGITS}g}") for value in order), place)
-    return tuple(candidates[place] for place in sorted(keys, key=keys.__getitem__)[:MOST])
-
-
-#: From so many beams a sheet on, tolerances are right to some percent (stiffness of thin sheets to
-#: lateral buckling hangs on what happens between elements).
-ENOUGH = 8
-#: How far off one beam a sheet was found to be.
-_OPTIMISTIC = 80
-
-
-def stroke_in_words(
-    places: Places, values: StrokeValues | None, asked: Asked, ways: Sequence[Along]
-) -> Stroke | None:
-    """The stroke as far as every design could be followed; None where none was asked for."""
-    if values is None:
-        return None
-    owner = places.words(values.node)
-    words = f"node {values.node} ({owner}) {words_of_direction(values.coordinate)}"
-    whole = (float(values.values[0]), float(values.values[-1]))
-    low = max((way.ends[0] for way in ways), default=whole[0])
-    high = min((way.ends[1] for way in ways), default=whole[1])
-    why = next((way.why for way in ways if way.why), "")
-    reached = (max(low, whole[0]), min(high, whole[1])) if why else whole
-    return Stroke(values.node, values.coordinate, words, values.rest, whole, reached, why)
-
-
-def left_out(
-    places: Places,
-    measures: Measures,
-    asked: Asked,
-    result: Result,
-    designs: Sequence[Design],
-) -> tuple[str, ...]:
-    """What the deck's data do not allow, and what was not looked at."""
-    made = []
-    if isinstance(asked.beams, int) and asked.beams < ENOUGH:
-        made.append(
-            f"with so few beams a sheet tolerances come out too large, with one up to "
-            f'{_OPTIMISTIC} times: --beams auto (beams="auto") refines by itself and shows what is '
-            "left open"
-        )
-    if not measures.has_masses:
-        made.append(
-            "no masses are given (EM, XM): there are no frequencies, and tolerances are those for "
-            "a shift of the lowest stiffness of the driven point"
-        )
-    elif not measures.drives and asked.drive == "free":
-        made.append(
-            "no coordinate is declared (DYNX): no frequency is known to be the drive's, and all of "
-            "them count as parasitic"
-        )
-    if result.over_constrained and asked.release is None and len(designs) == 1:
-        made.append("no proven release was found; name one with --release (release=)")
-    whole = result.with_internal_declared or result
-    if whole.under_constrained:
-        made.append(
-            f"under-constrained by {whole.under_constrained} as declared; what is elastic may "
-            "hold these motions all the same"
-        )
-    return tuple(made)
-
-
-Made = TypeVar("Made", bound=CostValues)
-
-
-def cost_of(
-    data: ModelData,
-    asked: Asked,
-    name: str | None,
-    progress: Report | None,
-    kind: type[Made],
-) -> Made:
-    """What a design costs; see `flexact.cost`."""
-    data.require_sound()
-    require_stiffness(data)
-    report = progress or (lambda _what, _done: None)
-    report("analysing", 0.0)
-    return _Making(data, asked, name, report).made(kind)
-
-
-class _Making:
-    """One cost in the making."""
-
-    def __init__(self, data: ModelData, asked: Asked, name: str | None, report: Report) -> None:
-        self.data, self.asked, self.report = data, asked, report
-        self.result: Result = result_of(data, asked_for("auto", None), name)
-        self.places = Places(data, self.result.parts)
-        self.point = self.places.point(asked.at)
-        self.clamps = self.places.clamps()
-        self.stroke = stroke_of(self.places, asked)
-        self.given = given_of(self.places, asked)
-
-    def made(self, kind: type[Made]) -> Made:
-        designs, ways = self._designs()
-        return kind(
-            self.data,
-            self.result.name,
-            designs,
-            self.point,
-            self.measures.directions,
-            self.clamps,
-            FREQUENCY if self.measures.has_masses else STIFFNESS,
-            self.asked.shift,
-            self.asked.held,
-            self.asked.drive,
-            self.asked.beams,
-            stroke_in_words(self.places, self.stroke, self.asked, ways),
-            self.given,
-            left_out(self.places, self.measures, self.asked, self.result, designs),
-        )
-
-    @cached_property
-    def measures(self) -> Measures:
-        """What is measured, and where."""
-        return Measures(
-            self.point,
-            directions_of(self.data, self.point),
-            self.places.size,
-            self.places.drives(),
-            has_masses(self.data),
-        )
-
-    def _designs(self) -> tuple[tuple[Design, ...], tuple[along.Along, ...]]:
-        built, candidates = self._candidates()
-        wanted = Wanted(
-            self.measures,
-            self.result.parts,
-            self.places.misalignments(),
-            self.asked.shift,
-            self.stroke,
-            self.given,
-        )
-        designs: list[Design] = []
-        ways = []
-        for k, candidate in enumerate(candidates):
-            bench = built if k == 0 else built.released(candidate.pairs)
-
-            def part(done: float, before: int = k) -> None:
-                label = "+".join(each.label for each in candidates[before].released)
-                self.report(label or "as built", (before + done) / len(candidates))
-
-            part(0.0)
-            design, way = design_of(wanted, built, bench, candidate, part)
-            designs.append(with_curve(design, bench, designs[0] if designs else design))
-            ways += [] if way is None else [way]
-        return tuple(designs), tuple(ways)
-
-    def _candidates(self) -> tuple[Bench, tuple[Candidate, ...]]:
-        asked = self.asked
-        driven = self.places.drives()
-        watched = self.data.node_index[driven[0][0] if driven else self.point.node]
-        built = Bench(self.data, Choice(asked.held, asked.drive, asked.beams), {}, watched)
-        first = as_built(self.result)
-        if asked.release is not None:
-            others = tuple(given(self.result, each) for each in asked.release)
-            labels = [each.pairs for each in others]
-            if any(pairs in labels[:k] for k, pairs in enumerate(labels)):
-                raise model_error("repeated-release", "one release is asked for twice")
-            return built, (first, *others)
-        self.report("looking for releases", 0.0)
-        return built, (first, *best(self.measures, built, proven(self.result, asked.bodies)))
+    return replace(design, curve=curve_against(mechanism, mine, reach))

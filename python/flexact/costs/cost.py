@@ -4,20 +4,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..model.model import Model
 from ..model.reading import read
+from ..show.picture.make import check_packages
+from ..show.writers import PAGES, STILLS, Writers, as_bytes, write
 from ..util.loading import load
-from ..util.outputs import write_together
-from .compute import cost_of
+from ..util.outputs import OutputError
+from .compute import compute
 from .designs import CostValues
 from .json import csv_text, dictionary_of, text_of
-from .request import Asked
-from .saving import save
+from .request import AUTO, DRIVE, HELD, POINTS, SHIFT, Request
 from .words import describe, first_line
 
 #: Called with what is being done and how much of that is done, from 0 to 1.
@@ -49,7 +50,7 @@ class Cost(CostValues):
         """
         text = csv_text(self)
         if path is not None:
-            write_together({Path(path): text.encode("utf-8", "backslashreplace")})
+            write(Path(path), as_bytes(text))
         return text
 
     def to_dict(self) -> dict[str, Any]:
@@ -71,7 +72,7 @@ class Cost(CostValues):
             FlexactError: There is no such kind of file, a package is missing, or the file cannot
                 be written.
         """
-        save(self, Path(path))
+        COSTS.save(self, self.data, Path(path))
 
     def __repr__(self) -> str:
         """The first line and how many designs there are."""
@@ -84,18 +85,46 @@ class Cost(CostValues):
         return made
 
 
+#: Of costs. Pictures and pages take a while to load.
+COSTS = Writers(
+    lambda path, known: OutputError(f"the suffix of {path} is to be one of {', '.join(known)}")
+)
+
+
+@COSTS.register(STILLS, require=check_packages)
+def _picture(made: CostValues, path: Path) -> bytes:
+    content: bytes = load("flexact.costs.plot").plot_bytes(made, path.suffix.lower())
+    return content
+
+
+@COSTS.register(PAGES)
+def _page(made: CostValues, path: Path) -> bytes:
+    content: bytes = load("flexact.costs.page").page_bytes(made)
+    return content
+
+
+@COSTS.register((".csv",))
+def _table(made: CostValues, path: Path) -> bytes:
+    return as_bytes(csv_text(made))
+
+
+@COSTS.register((".json",))
+def _json(made: CostValues, path: Path) -> bytes:
+    return f"{text_of(made)}\n".encode()
+
+
 def cost(
     model: Model | str | bytes | os.PathLike[str] | os.PathLike[bytes],
     *,
     at: object = None,
     release: Iterable[object] | None = None,
-    stroke: object = None,
+    stroke: str | Sequence[object] | None = None,
     misalign: Iterable[object] = (),
-    shift: float | str = -0.05,
-    held: str = "elastic",
-    drive: str = "free",
-    beams: int | str = "auto",
-    points: int = 21,
+    shift: float | str = SHIFT,
+    held: str = HELD[0],
+    drive: str = DRIVE[0],
+    beams: int | str = AUTO,
+    points: int = POINTS,
     bodies: bool = False,
     beyond: bool = False,
     name: str | None = None,
@@ -141,7 +170,7 @@ def cost(
         kind = type(model).__name__
         raise TypeError(f"a model or the path of a deck has a cost, not {kind}")
     made = model if isinstance(model, Model) else read(model)
-    asked = Asked.of(
+    asked = Request.of(
         at=at,
         release=release,
         stroke=stroke,
@@ -154,4 +183,4 @@ def cost(
         bodies=bodies,
         beyond=beyond,
     )
-    return cost_of(made.data, asked, name, progress, Cost)
+    return compute(made.data, asked, name, progress, Cost)

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
+
+import numpy as np
 
 from ..core.arrays import FloatArray
 from ..model.data import ModelData
@@ -23,6 +25,11 @@ FREQUENCY, STIFFNESS = "first frequency", "lowest stiffness"
 def unit_of_direction(direction: str) -> str:
     """Of a displacement or rotation: m or rad."""
     return "rad" if direction.startswith("r") else "m"
+
+
+def stiffness_unit(direction: str) -> str:
+    """Of the stiffness along or about a direction: N/m or N m/rad."""
+    return "N m/rad" if unit_of_direction(direction) == "rad" else "N/m"
 
 
 def words_of_direction(direction: str) -> str:
@@ -51,6 +58,27 @@ class Numbers(NamedTuple):
 
     value: FloatArray
     uncertainty: FloatArray
+
+    def at(self, *place: int) -> Number:
+        """The one at a place."""
+        return Number(float(self.value[place]), float(self.uncertainty[place]))
+
+    def column(self, k: int) -> Numbers:
+        """(n,) those of a column of two dimensions."""
+        return Numbers(self.value[:, k], self.uncertainty[:, k])
+
+    def each(self) -> list[Number]:
+        """All of one dimension."""
+        return [self.at(k) for k in range(self.value.size)]
+
+
+def stacked(rows: Sequence[Numbers]) -> Numbers:
+    """(n, k) of rows, of which the shortest says how many there are."""
+    count = min(row.value.size for row in rows)
+    return Numbers(
+        np.array([row.value[:count] for row in rows]),
+        np.array([row.uncertainty[:count] for row in rows]),
+    )
 
 
 class Point(NamedTuple):
@@ -119,14 +147,18 @@ class Tolerance(NamedTuple):
     @property
     def tightest(self) -> Number:
         """The smaller in size of both, as a size."""
-        first = min(self.negative, self.positive, key=lambda each: abs(each.value))
-        return Number(abs(first.value), first.uncertainty)
+        return _smaller(self.negative, self.positive)
 
     @property
     def critical(self) -> Number:
         """The smaller in size of both critical errors, as a size."""
-        first = min(self.critical_negative, self.critical_positive, key=lambda n: abs(n.value))
-        return Number(abs(first.value), first.uncertainty)
+        return _smaller(self.critical_negative, self.critical_positive)
+
+
+def _smaller(one: Number, other: Number) -> Number:
+    """The smaller in size of two, as a size."""
+    first = min(one, other, key=lambda each: abs(each.value))
+    return Number(abs(first.value), first.uncertainty)
 
 
 class Released(NamedTuple):
@@ -161,7 +193,7 @@ class Kept(NamedTuple):
     @property
     def smallest(self) -> Number:
         """The smallest mu."""
-        return Number(float(self.mu.value[0]), float(self.mu.uncertainty[0]))
+        return self.mu.at(0)
 
 
 #: Prefixes by unit; other units have none.
@@ -192,7 +224,15 @@ def in_words(number: Number, unit: str = "", *, none: str = "none") -> str:
         return none
     factor, name = scale_of(number.value, unit)
     value, off = number.value / factor, abs(number.uncertainty) / factor
-    text = _rounded(value, off)
+    text = f"{value:.{_DIGITS}g}"
+    if off > _CERTAIN * abs(value):
+        # One digit of the uncertainty, rounded up.
+        digits = -math.floor(math.log10(off))
+        off = math.ceil(off * 10.0**digits - 1.0e-9) / 10.0**digits
+        if 0 <= digits <= _MOST_DECIMALS:
+            text = f"{value:.{digits}f} +- {off:.{digits}f}"
+        else:
+            text = f"{text} +- {off:.1g}"
     return f"{text} {name}" if name else text
 
 
@@ -203,17 +243,6 @@ def scale_of(value: float, unit: str) -> tuple[float, str]:
     if size == 0.0:
         return 1.0, unit
     return next((each for each in prefixes if size >= each[0]), prefixes[-1])
-
-
-def _rounded(value: float, off: float) -> str:
-    if not off > _CERTAIN * abs(value):
-        return f"{value:.{_DIGITS}g}"
-    # One digit of the uncertainty, rounded up.
-    digits = -math.floor(math.log10(off))
-    off = math.ceil(off * 10.0**digits - 1.0e-9) / 10.0**digits
-    if digits > _MOST_DECIMALS or digits < 0:
-        return f"{value:.{_DIGITS}g} +- {off:.1g}"
-    return f"{value:.{digits}f} +- {off:.{digits}f}"
 
 
 def percent(part: float) -> str:
@@ -351,12 +380,9 @@ class Design(Frozen):
     @property
     def first_parasitic(self) -> Number | None:
         """The lowest frequency that is not the drive's [Hz]; None without any."""
-        if self.frequencies is None:
+        if self.frequencies is None or all(self.is_drive):
             return None
-        for k, drives in enumerate(self.is_drive):
-            if not drives:
-                return Number(*(float(each[k]) for each in self.frequencies))
-        return None
+        return self.frequencies.at(self.is_drive.index(False))
 
     @property
     def tightest(self) -> Tolerance | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A design on the bench: its elastic model, its state at rest, and what pushes it off."""
+"""A design on the mechanism: its elastic model, its state at rest, and what pushes it off."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from .designs import (
     unit_of_direction,
     words_of_direction,
 )
-from .request import ReleaseAsked
+from .request import ReleaseRequest
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.
 _HELD = 1.0e-12
@@ -315,10 +315,10 @@ def with_unit_mass(data: ModelData, node: int) -> ModelData:
     return replace(data, properties=Properties(given.stiffness, none, mass))
 
 
-class Bench:
+class ElasticDesign:
     """A design: its elastic model, and its state at rest."""
 
-    def __init__(self, data: ModelData, choice: Choice, pairs: ReleaseAsked, drive: int) -> None:
+    def __init__(self, data: ModelData, choice: Choice, pairs: ReleaseRequest, drive: int) -> None:
         """Of a model as given.
 
         Args:
@@ -329,13 +329,13 @@ class Bench:
         """
         self.data, self.choice, self.pairs, self.drive = data, choice, pairs, drive
 
-    def with_beams(self, beams: int) -> Bench:
+    def with_beams(self, beams: int) -> ElasticDesign:
         """The same with another number of beams."""
-        return Bench(self.data, self.choice._replace(beams=beams), self.pairs, self.drive)
+        return ElasticDesign(self.data, self.choice._replace(beams=beams), self.pairs, self.drive)
 
-    def released(self, pairs: ReleaseAsked) -> Bench:
+    def released(self, pairs: ReleaseRequest) -> ElasticDesign:
         """The same with something else released."""
-        return Bench(self.data, self.choice, pairs, self.drive)
+        return ElasticDesign(self.data, self.choice, pairs, self.drive)
 
     def _elastic(self, data: ModelData) -> Elastic:
         held, drive, beams = self.choice
@@ -373,9 +373,9 @@ class Bench:
 class Level:
     """A design with one number of beams: what errors do to it whose stress is in proportion."""
 
-    def __init__(self, bench: Bench, number: int, solution: Solution) -> None:
+    def __init__(self, mechanism: ElasticDesign, number: int, solution: Solution) -> None:
         """Keep the design, which of its meshes this is, and its state at rest."""
-        self.bench, self.number, self.solution = bench, number, solution
+        self.mechanism, self.number, self.solution = mechanism, number, solution
 
     @cached_property
     def first_square(self) -> float:
@@ -384,7 +384,7 @@ class Level:
         Raises:
             ElasticError: a motion has no stiffness, or the design is unstable.
         """
-        loose = self.bench.rest.loose
+        loose = self.mechanism.rest.loose
         if loose:
             raise ElasticError(f"a motion has no stiffness: {loose[0]}")
         values = self.solution.squares.values
@@ -398,8 +398,8 @@ class Level:
         Raises:
             ElasticError: a self-stress of rigid parts is not determined.
         """
-        self.bench.elastic.require_determined()
-        solver, points = self.solution.solver, self.bench.elastic.points
+        self.mechanism.elastic.require_determined()
+        solver, points = self.solution.solver, self.mechanism.elastic.points
         shift = np.zeros((3, solver.nodes, len(misalignments)), order="F")
         for k, each in enumerate(misalignments):
             off = misalignment(
@@ -441,7 +441,10 @@ class Level:
         model = at.solver.model(at.held)
         found = core.frequencies(model, at.solver.arrays, raw, at.way.gravity, 1)
         square = float(found.values[0])
-        return max(square, 0.0) if not self.bench.has_masses else frequency_of(square)
+        if not self.mechanism.has_masses:
+            return max(square, 0.0)
+        # Of an unstable motion it is 0.
+        return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)
 
     def buckled(self, each: Misalignment, sense: float) -> FloatArray | None:
         """(nodes, 3) the shape in which it buckles, below or above zero; None where it does not."""
@@ -457,8 +460,3 @@ class Level:
         at = self.solution
         raw = at.raw._replace(stress=np.asfortranarray(stress))
         return Solution(at.solver, raw, at.way, at.held)
-
-
-def frequency_of(square: float) -> float:
-    """A frequency [Hz] of the square of an angular one; 0 of an unstable motion."""
-    return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a design costs as one tidy table: a row a number."""
+"""What a design costs as numbers: one tidy table, a row a number, and JSON."""
 
 from __future__ import annotations
 
@@ -8,14 +8,13 @@ import io
 import json
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import FloatArray
 from ..util.loading import VERSION
 from .designs import (
-    Clamp,
     CostValues,
     Design,
     Effect,
@@ -24,6 +23,7 @@ from .designs import (
     Numbers,
     StrokeCurve,
     Tolerance,
+    stiffness_unit,
     unit_of_direction,
 )
 
@@ -76,30 +76,18 @@ def rows(cost: CostValues, design: Design) -> Iterator[Row]:
     for i, first in enumerate(directions):
         for j, second in enumerate(directions):
             unit = f"{'rad' if first.startswith('r') else 'm'}/{_force_unit(second)}"
-            cell = _number(design.compliance, i, j)
-            yield _row(label, "compliance", cell, unit, direction=first, direction_2=second)
+            yield _row(
+                *(label, "compliance", design.compliance.at(i, j), unit),
+                direction=first,
+                direction_2=second,
+            )
     if design.kept is not None:
-        for k, mu in enumerate(_numbers(design.kept.mu)):
+        for k, mu in enumerate(design.kept.mu.each()):
             yield _row(label, "stiffness kept", mu, "1", number=k + 1)
     if design.frequencies is not None:
-        for k, hertz in enumerate(_numbers(design.frequencies)):
+        for k, hertz in enumerate(design.frequencies.each()):
             kind = "frequency of the drive" if design.is_drive[k] else "parasitic frequency"
             yield _row(label, kind, hertz, "Hz", number=k + 1)
-    yield from _tolerances(design)
-    if design.curve is not None:
-        unit = "Hz" if cost.measure.endswith("frequency") else "N/m"
-        for value, measure in zip(
-            design.curve.values.tolist(), _numbers(design.curve.measure), strict=True
-        ):
-            where = _where(design.curve.misalignment)
-            yield _row(label, cost.measure, measure, unit, misalignment=value, **where)
-    if design.stroke is not None:
-        yield from _stroke(cost, label, design.stroke)
-    if design.effect is not None:
-        yield from _effect(label, directions, design.effect)
-
-
-def _tolerances(design: Design) -> Iterator[Row]:
     for each in design.tolerances:
         for quantity, number in (
             ("tolerance below zero", each.negative),
@@ -108,7 +96,18 @@ def _tolerances(design: Design) -> Iterator[Row]:
             ("buckles above zero", each.critical_positive),
         ):
             where = _where(each.misalignment)
-            yield _row(design.label, quantity, number, each.misalignment.unit, **where)
+            yield _row(label, quantity, number, each.misalignment.unit, **where)
+    if design.curve is not None:
+        unit = "Hz" if cost.measure.endswith("frequency") else "N/m"
+        for value, measure in zip(
+            design.curve.values.tolist(), design.curve.measure.each(), strict=True
+        ):
+            where = _where(design.curve.misalignment)
+            yield _row(label, cost.measure, measure, unit, misalignment=value, **where)
+    if design.stroke is not None:
+        yield from _stroke(cost, label, design.stroke)
+    if design.effect is not None:
+        yield from _effect(label, directions, design.effect)
 
 
 def _where(each: Misalignment) -> dict[str, Cell]:
@@ -120,7 +119,7 @@ def _stroke(cost: CostValues, label: str, curve: StrokeCurve) -> Iterator[Row]:
     along = cost.stroke.coordinate
     for k, value in enumerate(curve.values.tolist()):
         for i, direction in enumerate(cost.directions):
-            stiffness = _number(curve.stiffness, k, i)
+            stiffness = curve.stiffness.at(k, i)
             unit = stiffness_unit(direction)
             yield _row(
                 label, "support stiffness", stiffness, unit, direction=direction, stroke=value
@@ -130,14 +129,14 @@ def _stroke(cost: CostValues, label: str, curve: StrokeCurve) -> Iterator[Row]:
             ("drive stiffness", curve.drive_stiffness, stiffness_unit(along)),
             ("drive force", curve.force, _force_unit(along)),
         ):
-            yield _row(label, quantity, _number(numbers, k), unit, stroke=value)
+            yield _row(label, quantity, numbers.at(k), unit, stroke=value)
         for quantity, found in (
             ("frequency", curve.frequencies),
             ("parasitic frequency", curve.parasitic),
         ):
             for j in range(0 if found is None else found.value.shape[1]):
                 assert found is not None
-                hertz = _number(found, k, j)
+                hertz = found.at(k, j)
                 yield _row(label, quantity, hertz, "Hz", number=j + 1, stroke=value)
         yield Row(label, "is stable", int(curve.is_stable[k]), stroke=value)
         yield Row(label, "under-constrained by", curve.under_constrained[k], stroke=value)
@@ -148,19 +147,19 @@ def _effect(label: str, directions: Sequence[str], effect: Effect) -> Iterator[R
     for state, name in enumerate(("before", "behind")):
         for j in range(0 if effect.frequencies is None else effect.frequencies.value.shape[1]):
             assert effect.frequencies is not None
-            hertz = _number(effect.frequencies, state, j)
+            hertz = effect.frequencies.at(state, j)
             yield _row(label, "frequency", hertz, "Hz", number=j + 1, state=name)
         for i, direction in enumerate(directions):
-            number, unit = _number(effect.stiffness, state, i), stiffness_unit(direction)
+            number, unit = effect.stiffness.at(state, i), stiffness_unit(direction)
             yield _row(label, "support stiffness", number, unit, direction=direction, state=name)
-        yield _row(label, "elastic energy", _number(effect.energy, state), "J", state=name)
+        yield _row(label, "elastic energy", effect.energy.at(state), "J", state=name)
         for j, (quantity, unit) in enumerate(
             (("normal force", "N"), ("torque", "N m"), ("bending moment", "N m"))
         ):
-            number = _number(effect.resultants, state, j)
+            number = effect.resultants.at(state, j)
             yield _row(label, f"largest {quantity}", number, unit, state=name)
         if effect.peak is not None:
-            yield _row(label, "largest stress", _number(effect.peak, state), "Pa", state=name)
+            yield _row(label, "largest stress", effect.peak.at(state), "Pa", state=name)
     yield _row(label, "stiffness kept", effect.kept, "1", state="behind")
     yield Row(label, "is stable", int(effect.is_stable), state="behind")
     yield Row(label, "part reached", effect.reached, state="behind")
@@ -169,20 +168,6 @@ def _effect(label: str, directions: Sequence[str], effect: Effect) -> Iterator[R
 def _row(label: str, quantity: str, found: Number, unit: str, **more: Cell) -> Row:
     made = Row(label, quantity, found.value, found.uncertainty, unit)
     return made._replace(**more)  # type: ignore[arg-type]
-
-
-def _number(numbers: Numbers, *place: int) -> Number:
-    return Number(float(numbers.value[place]), float(numbers.uncertainty[place]))
-
-
-def _numbers(numbers: Numbers) -> list[Number]:
-    pair: tuple[FloatArray, FloatArray] = numbers
-    return [Number(*each) for each in zip(*(side.tolist() for side in pair), strict=True)]
-
-
-def stiffness_unit(direction: str) -> str:
-    """Of the stiffness along or about a direction: N/m or N m/rad."""
-    return "N m/rad" if unit_of_direction(direction) == "rad" else "N/m"
 
 
 def _force_unit(direction: str) -> str:
@@ -209,11 +194,14 @@ def dictionary_of(cost: CostValues) -> dict[str, Any]:
         },
         "point": cost.point._asdict(),
         "directions": list(cost.directions),
-        "clamps": [_clamp(each) for each in cost.clamps],
-        "stroke": None if cost.stroke is None else _stroke_of_json_cost(cost),
+        "clamps": [_of_fields(each, "node", "orientation", "words") for each in cost.clamps],
+        "stroke": cost.stroke
+        and _of_fields(
+            cost.stroke,
+            *("node", "coordinate", "words", "unit", "rest", "asked", "reached", "why"),
+        ),
         "misaligned": [
-            {**_where_of_json_cost(each), "value": value, "unit": each.unit}
-            for each, value in cost.misaligned
+            {**_place(each), "value": value, "unit": each.unit} for each, value in cost.misaligned
         ],
         "designs": [_design(cost, each) for each in cost.designs],
         "left_out": list(cost.left_out),
@@ -226,129 +214,58 @@ def text_of(cost: CostValues) -> str:
 
 
 def _design(cost: CostValues, design: Design) -> dict[str, Any]:
-    kept = design.kept
+    kept, hertz, curve = design.kept, design.frequencies, design.curve
     return {
         "label": design.label,
         "released": [each._asdict() for each in design.released],
         "alike": list(design.alike),
         "under_constrained": design.under_constrained,
         "over_constrained": design.over_constrained,
-        "compliance": _numbers_of_json_cost(design.compliance),
-        "kept": None
-        if kept is None
-        else {
-            "mu": _numbers_of_json_cost(kept.mu),
-            "worst": kept.worst.tolist(),
-            "words": kept.words,
-        },
-        "frequencies": None
-        if design.frequencies is None
-        else {
-            **_numbers_of_json_cost(design.frequencies),
-            "unit": "Hz",
-            "is_drive": list(design.is_drive),
-        },
-        "tightest": _maybe(design.tightest),
-        "buckles_at": _maybe(design.buckles_at),
+        "compliance": _plain(design.compliance),
+        "kept": kept and _of_fields(kept, "mu", "worst", "words"),
+        "frequencies": hertz and {**_plain(hertz), "unit": "Hz", "is_drive": list(design.is_drive)},
+        "tightest": design.tightest and _tolerance(design.tightest),
+        "buckles_at": design.buckles_at and _tolerance(design.buckles_at),
         "tolerances": [_tolerance(each) for each in design.tolerances],
-        "curve": None
-        if design.curve is None
-        else {
-            **_where_of_json_cost(design.curve.misalignment),
-            "unit": design.curve.misalignment.unit,
-            "values": design.curve.values.tolist(),
-            "measure": _numbers_of_json_cost(design.curve.measure),
+        "curve": curve
+        and {
+            **_place(curve.misalignment),
+            "unit": curve.misalignment.unit,
+            **_of_fields(curve, "values", "measure"),
         },
-        "stroke": None if design.stroke is None else _along(cost, design.stroke),
-        "effect": None if design.effect is None else _effect_of_json_cost(cost, design.effect),
+        "stroke": design.stroke and _with_units(cost, design.stroke),
+        "effect": design.effect and _with_units(cost, design.effect),
         "remarks": list(design.remarks),
     }
 
 
-def _stroke_of_json_cost(cost: CostValues) -> dict[str, Any]:
-    made = cost.stroke
-    assert made is not None
-    return {
-        "node": made.node,
-        "coordinate": made.coordinate,
-        "words": made.words,
-        "unit": made.unit,
-        "rest": made.rest,
-        "asked": list(made.asked),
-        "reached": list(made.reached),
-        "why": made.why,
-    }
-
-
-def _along(cost: CostValues, curve: StrokeCurve) -> dict[str, Any]:
-    return {
-        "values": curve.values.tolist(),
-        "stiffness": {**_numbers_of_json_cost(curve.stiffness), "units": _units(cost)},
-        "kept": _numbers_of_json_cost(curve.kept),
-        "drive_stiffness": _numbers_of_json_cost(curve.drive_stiffness),
-        "force": _numbers_of_json_cost(curve.force),
-        "frequencies": _numbers_or_null(curve.frequencies),
-        "parasitic": _numbers_or_null(curve.parasitic),
-        "is_stable": list(curve.is_stable),
-        "under_constrained": list(curve.under_constrained),
-        "over_constrained": list(curve.over_constrained),
-    }
-
-
-def _effect_of_json_cost(cost: CostValues, effect: Effect) -> dict[str, Any]:
-    return {
-        "frequencies": _numbers_or_null(effect.frequencies),
-        "stiffness": {**_numbers_of_json_cost(effect.stiffness), "units": _units(cost)},
-        "energy": _numbers_of_json_cost(effect.energy),
-        "resultants": _numbers_of_json_cost(effect.resultants),
-        "peak": _numbers_or_null(effect.peak),
-        "where": effect.where,
-        "kept": _number_of_json_cost(effect.kept),
-        "is_stable": effect.is_stable,
-        "reached": effect.reached,
-    }
-
-
-def _units(cost: CostValues) -> list[str]:
-    return [stiffness_unit(each) for each in cost.directions]
-
-
-def _maybe(tolerance: Tolerance | None) -> dict[str, Any] | None:
-    return None if tolerance is None else _tolerance(tolerance)
+def _with_units(cost: CostValues, given: StrokeCurve | Effect) -> dict[str, Any]:
+    """All fields, and the units of the stiffness."""
+    made = _of_fields(given, *(each.name for each in fields(given)))
+    made["stiffness"]["units"] = [stiffness_unit(each) for each in cost.directions]
+    return made
 
 
 def _tolerance(each: Tolerance) -> dict[str, Any]:
-    return {
-        **_where_of_json_cost(each.misalignment),
-        "unit": each.misalignment.unit,
-        "negative": _number_of_json_cost(each.negative),
-        "positive": _number_of_json_cost(each.positive),
-        "critical_negative": _number_of_json_cost(each.critical_negative),
-        "critical_positive": _number_of_json_cost(each.critical_positive),
-    }
+    numbers = ("negative", "positive", "critical_negative", "critical_positive")
+    unit = each.misalignment.unit
+    return {**_place(each.misalignment), "unit": unit, **_of_fields(each, *numbers)}
 
 
-def _where_of_json_cost(each: Misalignment) -> dict[str, Any]:
-    return {"clamp": each.clamp.node, "direction": each.direction, "about": each.about}
+def _place(each: Misalignment) -> dict[str, Any]:
+    return {"clamp": each.clamp.node, **_of_fields(each, "direction", "about")}
 
 
-def _clamp(each: Clamp) -> dict[str, Any]:
-    return {"node": each.node, "orientation": each.orientation, "words": each.words}
+def _of_fields(given: object, *names: str) -> dict[str, Any]:
+    return {name: _plain(getattr(given, name)) for name in names}
 
 
-def _number_of_json_cost(number: Number) -> dict[str, Any]:
-    value = number.value if math.isfinite(number.value) else None
-    return {"value": value, "uncertainty": number.uncertainty}
-
-
-def _numbers_of_json_cost(numbers: Numbers) -> dict[str, Any]:
-    return {"value": _finite(numbers.value), "uncertainty": _finite(numbers.uncertainty)}
-
-
-def _numbers_or_null(numbers: Numbers | None) -> dict[str, Any] | None:
-    return None if numbers is None else _numbers_of_json_cost(numbers)
-
-
-def _finite(array: FloatArray) -> list[Any]:
-    """Nested lists, with null in place of what is infinite."""
-    return np.where(np.isfinite(array), array, None).tolist()  # type: ignore[call-overload, no-any-return]
+def _plain(value: Any) -> Any:
+    """A value as JSON has it: null in place of what is infinite, lists in place of arrays."""
+    if isinstance(value, (Number, Numbers)):
+        return _of_fields(value, "value", "uncertainty")
+    if isinstance(value, np.ndarray):
+        return np.where(np.isfinite(value), value, None).tolist()  # type: ignore[call-overload]
+    if isinstance(value, tuple):
+        return list(value)
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 from html import escape
 
-from ..show.page import Compared, Side, Told, designs_page
+from ..show.charts import Key
+from ..show.page import Side, designs_page
 from ..show.page.assets import image, text
 from ..show.page.charts import bars_svg, chart_svg
 from ..show.page.viewer import Shape as Played
 from ..show.page.viewer import Shaped
 from ..show.picture import has_packages, shape_bytes
+from ..show.writers import as_bytes
 from ..util.text import file_name, harmless
-from .charts import LARGEST, Key, bars_of, charts_of, choices_of, key_of, typeset
+from .charts import LARGEST, bars_of, charts_of, choices_of, key_of, typeset
 from .designs import CostValues, Design, Number, in_words
 from .plot import plot_bytes
 from .shape import Shape
@@ -25,24 +27,23 @@ _DRAWN = 2
 def page_bytes(cost: CostValues) -> bytes:
     """The page as the content of a file."""
     key = key_of(cost)
-    rows = (Told(row.series, row.label, row.words, row.cells) for row in key.rows)
-    curves, bars = map(chart_svg, charts_of(cost)), map(bars_svg, bars_of(cost))
-    compared = Compared(
-        file_name(cost.name),
-        typeset(first_line(cost)),
-        choices_of(cost),
-        key.heads,
-        tuple(rows),
-        (tuple(curves), tuple(bars)),
-        _sides(cost, key),
-        tuple(_notes(cost)),
-    )
-    return designs_page(compared).encode("utf-8", "backslashreplace")
-
-
-def _sides(cost: CostValues, key: Key) -> tuple[Side, ...]:
     chosen = [(series, design) for series, design in enumerate(cost.designs) if _shown(design)]
-    return tuple(_side(series, design, key) for series, design in chosen[:_DRAWN])
+    # Remarks on the designs, and what the deck does not allow.
+    remarks = [f"{design.label}: {remark}" for design in cost.designs for remark in design.remarks]
+    return as_bytes(
+        designs_page(
+            file_name(cost.name),
+            typeset(first_line(cost)),
+            choices_of(cost),
+            key,
+            (
+                [chart_svg(each) for each in charts_of(cost)],
+                [bars_svg(each) for each in bars_of(cost)],
+            ),
+            [_side(series, design, key) for series, design in chosen[:_DRAWN]],
+            [harmless(each) for each in (*remarks, *cost.left_out)],
+        )
+    )
 
 
 def _shown(design: Design) -> tuple[Shape, ...]:
@@ -55,13 +56,11 @@ def _shown(design: Design) -> tuple[Shape, ...]:
         each
         for each in design.shapes
         if each.displacement.shape == nodes
-        and (each.kind == "vibrating" or abs(each.value) <= LARGEST * _size(design, each))
+        and (
+            each.kind == "vibrating"
+            or abs(each.value) <= LARGEST * (design.size if _unit(design, each) == "m" else 1.0)
+        )
     )
-
-
-def _size(design: Design, shape: Shape) -> float:
-    """By what the error at which it buckles is measured."""
-    return design.size if _unit(design, shape) == "m" else 1.0
 
 
 def _side(series: int, design: Design, key: Key) -> Side:
@@ -80,7 +79,11 @@ def _side(series: int, design: Design, key: Key) -> Side:
         )
         for each in shapes
     )
-    return Side(series, title, words, Shaped(shapes[0].data, played), _still(shapes[0]))
+    still, first = None, shapes[0]
+    if has_packages():
+        drawn = first.data, first.configuration, first.displacement
+        still = shape_bytes(*drawn, typeset(first.words))
+    return Side(series, title, words, Shaped(first.data, played), still)
 
 
 def _unit(design: Design, shape: Shape) -> str:
@@ -94,18 +97,6 @@ def _label(design: Design, shape: Shape) -> str:
     """Its frequency, or the error at which it buckles."""
     unit = "Hz" if shape.kind == "vibrating" else _unit(design, shape)
     return typeset(in_words(Number(abs(float(f"{shape.value:.3g}"))), unit))
-
-
-def _still(shape: Shape) -> bytes | None:
-    if not has_packages():
-        return None
-    return shape_bytes(shape.data, shape.configuration, shape.displacement, typeset(shape.words))
-
-
-def _notes(cost: CostValues) -> list[str]:
-    """Remarks on the designs, and what the deck does not allow."""
-    remarks = [f"{design.label}: {remark}" for design in cost.designs for remark in design.remarks]
-    return [harmless(each) for each in (*remarks, *cost.left_out)]
 
 
 def html_of(cost: CostValues) -> str:

@@ -13,14 +13,14 @@ from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
 from ..elasticity import ElasticError
-from ..elasticity.reduced import resultants_of
+from ..elasticity.reduced import peak_of, resultants_of
 from ..elasticity.solution import Solution
-from ..elasticity.state import peak_of
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import MISMATCH, Bench, Choice, Level, has_stiffness
+from .elastic_design import MISMATCH, Choice, ElasticDesign, Level, has_stiffness
+from .request import SHIFT
 from .resolve import Places
 from .tolerances import extrapolated, tolerances_of
 from .words import costs, costs_nothing, off
@@ -33,17 +33,15 @@ _MOST_LOOKED_AT = 16_000
 _MOST_NEAR = 6
 #: The error that is told where that is too much [m, rad].
 _SMALL = 1.0e-6
-#: The shift of the first frequency, as `flexact cost` has it.
-_SHIFT = -0.05
 
 
-def with_glance(words: str, result: Result, width: int = USUAL) -> str:
+def with_quick_cost(words: str, result: Result, width: int = USUAL) -> str:
     """The words about a result, and a paragraph of what over-constraint costs, if it is known."""
-    told = glance(result)
+    told = quick_cost(result)
     return f"{words}\n\n{filled(sentence(told), width=width)}" if told else words
 
 
-def glance(result: Result) -> str:
+def quick_cost(result: Result) -> str:
     """A sentence on the clamp and direction that matter most; empty where nothing is known.
 
     Only of over-constrained models with stiffness (ESTIFF) that are not very large. It is the
@@ -55,13 +53,13 @@ def glance(result: Result) -> str:
     if not result.over_constrained or too_large or not has_stiffness(data):
         return ""
     try:
-        return _Glance(result).sentence()
+        return _QuickCost(result).sentence()
     except FlexactError:
         return ""
 
 
-class _Glance:
-    """One glance in the making."""
+class _QuickCost:
+    """What the sentence is made of: the errors of a result that cost something."""
 
     def __init__(self, result: Result) -> None:
         self.result, self.data = result, result.given
@@ -74,17 +72,19 @@ class _Glance:
             return ""
         drives = self.places.drives()
         node = drives[0][0] if drives else self.places.point(None).node
-        bench = Bench(self.data, Choice("elastic", "free", "auto"), {}, self.data.node_index[node])
-        order = self._in_order(bench.with_beams(1))
+        mechanism = ElasticDesign(
+            self.data, Choice("elastic", "free", "auto"), {}, self.data.node_index[node]
+        )
+        order = self._in_order(mechanism.with_beams(1))
         if not order:
             return ""
-        if len(self.errors) * bench.levels[-1].solution.solver.elements > _MOST_LOOKED_AT:
-            return f"{self._small(bench.with_beams(1), order[0])}. {self._more()}"
-        name = FREQUENCY if bench.has_masses else STIFFNESS
-        found = self._tightest(bench, order)
+        if len(self.errors) * mechanism.levels[-1].solution.solver.elements > _MOST_LOOKED_AT:
+            return f"{self._small(mechanism.with_beams(1), order[0])}. {self._more()}"
+        name = FREQUENCY if mechanism.has_masses else STIFFNESS
+        found = self._tightest(mechanism, order)
         if found is None:
-            return f"{costs_nothing(name, _SHIFT, self.size)}. {self._more()}"
-        return f"{costs(found, name, _SHIFT, True)}{self._behind(bench, found)}. {self._more()}"
+            return f"{costs_nothing(name, SHIFT, self.size)}. {self._more()}"
+        return f"{costs(found, name, SHIFT, True)}{self._behind(mechanism, found)}. {self._more()}"
 
     def _more(self) -> str:
         if self.data.source is None or not self.result.name:
@@ -92,7 +92,7 @@ class _Glance:
         deck = shlex.quote(harmless(self.result.name)).replace(" ", TIE)
         return f"flexact{TIE}cost{TIE}{deck} has all clamps and directions."
 
-    def _in_order(self, one: Bench) -> list[Misalignment]:
+    def _in_order(self, one: ElasticDesign) -> list[Misalignment]:
         """Errors that store energy, that which stores most for its length first.
 
         Energy is linear, and exact with the deck's own elements.
@@ -109,13 +109,13 @@ class _Glance:
     def _lengths(self, errors: tuple[Misalignment, ...] | list[Misalignment]) -> FloatArray:
         return np.array([self.size if each.unit == "rad" else 1.0 for each in errors])
 
-    def _tightest(self, bench: Bench, order: list[Misalignment]) -> Tolerance | None:
+    def _tightest(self, mechanism: ElasticDesign, order: list[Misalignment]) -> Tolerance | None:
         """The tolerance that `flexact cost` would find tightest; None where it finds none.
 
         With the coarser division all but those that are about as tight are ruled out.
         """
-        coarse = bench.levels[0]
-        square = coarse.first_square * (1.0 + _SHIFT) ** 2
+        coarse = mechanism.levels[0]
+        square = coarse.first_square * (1.0 + SHIFT) ** 2
         stresses, lengths = coarse.stresses(order), self._lengths(order)
         able: BoolArray = np.asarray(np.isfinite(stresses).all(axis=(0, 1)))
         stresses = np.asfortranarray(stresses[:, :, able])
@@ -126,41 +126,43 @@ class _Glance:
         near = {f"{least[k]:.5g}": some[k] for k in reversed(first)}
         chosen = sorted(near.values(), key=self.errors.index)[:_MOST_NEAR]
         if len(chosen) > 1:
-            chosen = [self._tighter(bench, chosen)]
-        made = tolerances_of(bench, chosen, _SHIFT, self.size, lambda _done: None)
+            chosen = [self._tighter(mechanism, chosen)]
+        made = tolerances_of(mechanism, chosen, SHIFT, self.size, lambda _done: None)
         return smallest(made, self.size, lambda each: each.tightest)
 
-    def _tighter(self, bench: Bench, chosen: list[Misalignment]) -> Misalignment:
+    def _tighter(self, mechanism: ElasticDesign, chosen: list[Misalignment]) -> Misalignment:
         """The one of several with which less is enough, with both divisions."""
         found = []
-        for level in bench.levels:
-            square = level.first_square * (1.0 + _SHIFT) ** 2
+        for level in mechanism.levels:
+            square = level.first_square * (1.0 + SHIFT) ** 2
             found.append(level.errors(np.asfortranarray(level.stresses(chosen)), square))
         least = np.abs(extrapolated(found).value).min(axis=1) * self._lengths(chosen)
         return chosen[int(np.argmin([float(f"{value:.5g}") for value in least]))]
 
-    def _behind(self, bench: Bench, found: Tolerance) -> str:
+    def _behind(self, mechanism: ElasticDesign, found: Tolerance) -> str:
         """What is stressed most at the tolerance, and where the same error makes it buckle."""
-        loads = self._loads(bench, found.misalignment, found.tightest.value)
+        loads = self._loads(mechanism, found.misalignment, found.tightest.value)
         told = f" and loads {loads}" if loads else ""
         if not found.critical.is_finite:
             return told
         return f"{told}; at {in_words(found.critical, found.misalignment.unit)} it buckles"
 
-    def _small(self, one: Bench, each: Misalignment) -> str:
+    def _small(self, one: ElasticDesign, each: Misalignment) -> str:
         loads = self._loads(one, each, _SMALL)
         return f"It costs: {off(each, Number(_SMALL))} loads {loads}, to first order"
 
-    def _loads(self, bench: Bench, each: Misalignment, size: float) -> str:
+    def _loads(self, mechanism: ElasticDesign, each: Misalignment, size: float) -> str:
         """Such as "sheet 1 with 12 MPa": the flexure that an error stresses most, linearly."""
         parts = self.result.parts
-        stiff = bench.elastic.policy.stiff.any(axis=0)
+        stiff = mechanism.elastic.policy.stiff.any(axis=0)
         which = [
             e
             for e in np.flatnonzero(stiff).tolist()
             if parts.of_element(e).kind is not PartKind.BODY
         ]
-        states = [level.stressed(size * level.stresses((each,))[:, :, 0]) for level in bench.levels]
+        states = [
+            level.stressed(size * level.stresses((each,))[:, :, 0]) for level in mechanism.levels
+        ]
         known = [e for e in which if _is_known(states[-1], e)]
         if known:
             values, unit = _of(states, known, lambda at, e: (peak_of(at, e),)), "Pa"

@@ -6,40 +6,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
-from ..model.words import is_word
+from ..model.deformations import is_word
 from ..util.errors import FlexactError
 from ..util.quantities import NOTCH, QuantityError, measured, quantity
-from ..util.text import in_short, table, wrapped
-
-#: Columns of text where nobody says how many there are.
-WIDTH = 80
-
-
-class Row(NamedTuple):
-    """A sentence, and what stands in front of its further rows."""
-
-    words: str
-    indent: str = ""
-
-
-class Table(NamedTuple):
-    """A table whose first row has its headings; they may go on in a second one."""
-
-    rows: tuple[tuple[str, ...], ...]
-    second: bool = False
-
-
-Told = Row | Table
-
-
-def shown(told: Told, width: int) -> str:
-    """As text in rows of at most `width` columns."""
-    if isinstance(told, Row):
-        return wrapped(told.words, width, told.indent)
-    return table(told.rows, width, second=told.second)
-
+from ..util.text import in_short
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 _COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
@@ -53,7 +25,7 @@ _NAMES = ("x", "y", "z", "rx", "ry", "rz")
 NONE = "none"
 
 
-class AskedError(FlexactError, ValueError):
+class RequestError(FlexactError, ValueError):
     """What was asked for is not understood; its text says what is wanted.
 
     Attributes:
@@ -65,24 +37,18 @@ class AskedError(FlexactError, ValueError):
         super().__init__("; ".join(messages))
         self.messages = messages
 
-    def __reduce__(self) -> tuple[type[AskedError], tuple[str, ...]]:
+    def __reduce__(self) -> tuple[type[RequestError], tuple[str, ...]]:
         """What makes it anew, as a worker of a sweep does."""
         return type(self), self.messages
 
 
-class PointText(NamedTuple):
-    """A point by its number, or by its name."""
-
-    text: str
-
-    @property
-    def target(self) -> int | str:
-        """As a number where it is one."""
-        text = self.text.strip()
-        return int(text) if re.fullmatch(r"\d{1,9}", text) else text
+def _target(text: str) -> int | str:
+    """A point or element as it is written: its number, or its name."""
+    text = text.strip()
+    return int(text) if re.fullmatch(r"\d{1,9}", text) else text
 
 
-class StrokeAsked(NamedTuple):
+class StrokeRequest(NamedTuple):
     """A stroke: of which point, along what, from where to where."""
 
     point: object
@@ -93,7 +59,7 @@ class StrokeAsked(NamedTuple):
     """Whether the values count from where the point is in the deck."""
 
 
-class MisalignmentAsked(NamedTuple):
+class MisalignmentRequest(NamedTuple):
     """A misalignment: of which clamp, along what, by how much, and about which point."""
 
     clamp: object
@@ -104,80 +70,70 @@ class MisalignmentAsked(NamedTuple):
 
 #: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
 #: (element, deformation) by numbers or names, or with the end as the third.
-ReleaseAsked = dict[tuple[Any, ...], float]
+ReleaseRequest = dict[tuple[Any, ...], float]
 
 
 def shift_of(text: str | float) -> float:
     """A shift of a frequency, such as "-5%" or -0.05.
 
     Raises:
-        AskedError: it is none, 0, or a fall by all or more.
+        RequestError: it is none, 0, or a fall by all or more.
     """
     wanted = "a shift is wanted, such as -5% (or -0.05): more than -100%, at most 100%, not 0"
     if isinstance(text, str):
         found = _NUMBER.fullmatch(text)
         if found is None or found[2] not in ("", "%"):
-            raise AskedError(f"{wanted}; {in_short(text.strip())} is none")
+            raise RequestError(f"{wanted}; {in_short(text.strip())} is none")
         value = float(found[1]) / (100.0 if found[2] else 1.0)
     else:
         value = float(text)
     if not (-1.0 < value <= 1.0) or value == 0.0:
-        raise AskedError(f"{wanted}; {in_short(text)} is none")
+        raise RequestError(f"{wanted}; {in_short(text)} is none")
     return value
 
 
-def release_of(text: str) -> ReleaseAsked:
+def release_of(text: str) -> ReleaseRequest:
     """What is released together: "1:5", "1:5=3.5" with a notch, "1:5+2:5"; "none": nothing.
 
     Names and words do as well as numbers, "sheet 1:in-plane bending", at one end "...@stage".
 
     Raises:
-        AskedError: it is not written so.
+        RequestError: it is not written so.
     """
     if text.strip() == NONE:
         return {}
-    made: ReleaseAsked = {}
-    for part in _parts(text):
+    made: ReleaseRequest = {}
+    # Between plus signs, but not those of exponents, such as in 1e+3.
+    for part in re.split(r"(?<![eE])\+", text):
         found = _RELEASE.fullmatch(part)
         which = "" if found is None else found["which"]
         if found is None or not (which.isdigit() or is_word(which)):
-            raise AskedError(
+            raise RequestError(
                 "a release is written ELEMENT:DEFORMATION, such as 1:5 or 'sheet 1:in-plane "
                 "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
                 f"1:5+2:5; not {in_short(text)}"
             )
-        part_of = PointText(found["part"]).target
+        part_of = _target(found["part"])
         one = part_of, int(which) if which.isdigit() else which
-        at = () if found["at"] is None else (PointText(found["at"]).target,)
-        made[(*one, *at)] = _notch(found["notch"])
+        at = () if found["at"] is None else (_target(found["at"]),)
+        try:
+            notch = 0.0 if found["notch"] is None else quantity(found["notch"], NOTCH)
+        except QuantityError:
+            notch = -1.0
+        if not notch >= 0.0:
+            raise RequestError(
+                "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
+                f"not {in_short(found['notch'].strip())}"
+            )
+        made[(*one, *at)] = notch
     return made
 
 
-def _parts(text: str) -> list[str]:
-    """Between plus signs, but not those of exponents, such as in 1e+3."""
-    return re.split(r"(?<![eE])\+", text)
-
-
-def _notch(text: str | None) -> float:
-    if text is None:
-        return 0.0
-    try:
-        value = quantity(text, NOTCH)
-    except QuantityError:
-        value = -1.0
-    if not value >= 0.0:
-        raise AskedError(
-            "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
-            f"not {in_short(text.strip())}"
-        )
-    return value
-
-
-def stroke_of(text: str) -> StrokeAsked:
+def stroke_of(text: str) -> StrokeRequest:
     """A stroke: "1:z=25mm..35mm", or from the deck's place "1:z+=-5mm..5mm", "1:z=+-5mm".
 
     Raises:
-        AskedError: it is not written so.
+        RequestError: it is not written so.
     """
     found = _COORDINATE.fullmatch(text)
     start, dots, stop = found["value"].partition("..") if found else ("", "", "")
@@ -186,39 +142,39 @@ def stroke_of(text: str) -> StrokeAsked:
         dots, stop = "+-", start.strip()[2:]
         start = f"-{stop.strip()}"
     if found is None or not dots:
-        raise AskedError(
+        raise RequestError(
             "a stroke is written POINT:COORDINATE=FROM..TO, such as 1:z=25mm..35mm, or counted "
             f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
     first, last = _quantity(start, unit), _quantity(stop, unit)
     if first == last:
-        raise AskedError(f"the stroke {in_short(text)} ends where it begins")
-    point = PointText(found["point"]).target
-    return StrokeAsked(point, name, first, last, bool(found["by"]) or dots == "+-")
+        raise RequestError(f"the stroke {in_short(text)} ends where it begins")
+    point = _target(found["point"])
+    return StrokeRequest(point, name, first, last, bool(found["by"]) or dots == "+-")
 
 
-def misalignment_of(text: str) -> MisalignmentAsked:
+def misalignment_of(text: str) -> MisalignmentRequest:
     """A misalignment: "11:x=50um", or turned about a point "11:rx=1mrad@13".
 
     Raises:
-        AskedError: it is not written so.
+        RequestError: it is not written so.
     """
     found = _COORDINATE.fullmatch(text)
     if found is None or found["by"]:
-        raise AskedError(
+        raise RequestError(
             "a misalignment is written CLAMP:COORDINATE=VALUE, such as 11:x=50um, and turned "
             f"about a point 11:rx=1mrad@13; not {in_short(text)}"
         )
     value, _, about = found["value"].partition("@")
     name, unit = _coordinate(found["name"])
     if about and unit == "m":
-        raise AskedError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
-    return MisalignmentAsked(
-        PointText(found["point"]).target,
+        raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
+    return MisalignmentRequest(
+        _target(found["point"]),
         name,
         _quantity(value, unit),
-        PointText(about).target if about else None,
+        _target(about) if about else None,
     )
 
 
@@ -226,26 +182,26 @@ def _quantity(text: str, unit: str) -> float:
     try:
         return quantity(text, unit)
     except QuantityError as error:
-        raise AskedError(str(error)) from None
+        raise RequestError(str(error)) from None
 
 
 def _coordinate(name: str) -> tuple[str, str]:
     if name not in _NAMES:
-        raise AskedError(f"a coordinate is one of {', '.join(_NAMES)}, not {in_short(name)}")
+        raise RequestError(f"a coordinate is one of {', '.join(_NAMES)}, not {in_short(name)}")
     return name, "rad" if name.startswith("r") else "m"
 
 
 HELD, DRIVE, AUTO = ("elastic", "rigid"), ("free", "locked"), "auto"
+#: The shift of the first frequency by default.
+SHIFT = -0.05
 #: Places along a stroke by default, and at most.
 POINTS, _MOST_POINTS = 21, 2001
 #: Beams a sheet at most.
 _MOST_BEAMS = 1000
 
-Made = TypeVar("Made")
-
 
 @dataclass(frozen=True)
-class Asked:
+class Request:
     """What is asked of a cost; see `flexact.cost`.
 
     Attributes:
@@ -262,81 +218,77 @@ class Asked:
         beyond: Whether strokes and misalignments may be larger than the model.
     """
 
-    at: object = None
-    release: tuple[ReleaseAsked, ...] | None = None
-    stroke: StrokeAsked | None = None
-    misalign: tuple[MisalignmentAsked, ...] = ()
-    shift: float = -0.05
-    held: str = HELD[0]
-    drive: str = DRIVE[0]
-    beams: int | str = AUTO
-    points: int = POINTS
-    bodies: bool = False
-    beyond: bool = False
+    at: object
+    release: tuple[ReleaseRequest, ...] | None
+    stroke: StrokeRequest | None
+    misalign: tuple[MisalignmentRequest, ...]
+    shift: float
+    held: str
+    drive: str
+    beams: int | str
+    points: int
+    bodies: bool
+    beyond: bool
 
     @classmethod
     def of(
         cls,
         *,
         at: object,
-        release: object,
-        stroke: object,
-        misalign: object,
-        shift: object,
-        held: object,
-        drive: object,
-        beams: object,
-        points: object,
-        bodies: object = False,
-        beyond: object = False,
-    ) -> Asked:
+        release: Iterable[object] | None,
+        stroke: str | Sequence[object] | None,
+        misalign: Iterable[object],
+        shift: float | str,
+        held: str,
+        drive: str,
+        beams: int | str,
+        points: int,
+        bodies: bool,
+        beyond: bool,
+    ) -> Request:
         """From arguments as users give them.
 
         Raises:
-            AskedError: some are not understood; all of them are told.
+            RequestError: some are not understood; all of them are told.
         """
         wrong: list[str] = []
 
-        def tried(make: Callable[[], Made], default: Made) -> Made:
+        def tried(make: Callable[..., Any], *given: object) -> Any:
             try:
-                return make()
+                return make(*given)
             except (TypeError, ValueError) as error:
                 wrong.append(str(error))
-                return default
+                return None
 
         made = cls(
             at,
-            tried(lambda: None if release is None else _releases(release), None),
-            tried(lambda: None if stroke is None else _stroke(stroke), None),
-            tried(lambda: _misalignments(misalign), ()),
-            tried(lambda: shift_of(shift), -0.05),  # type: ignore[arg-type]
-            tried(lambda: _one_of("held", held, HELD), ""),
-            tried(lambda: _one_of("drive", drive, DRIVE), ""),
-            tried(lambda: _beams(beams), _AUTO),
-            tried(lambda: _whole("the number of places along a stroke", points, _MOST_POINTS), 2),
-            tried(lambda: _flag("bodies", bodies), False),
-            tried(lambda: _flag("beyond", beyond), False),
+            None if release is None else tried(_releases, release),
+            None if stroke is None else tried(_stroke, stroke),
+            tried(_misalignments, misalign),
+            tried(shift_of, shift),
+            tried(_one_of, "held", held, HELD),
+            tried(_one_of, "drive", drive, DRIVE),
+            tried(_beams, beams),
+            tried(_whole, "the number of places along a stroke", points, _MOST_POINTS),
+            tried(_flag, "bodies", bodies),
+            tried(_flag, "beyond", beyond),
         )
-        if made.points < 2 and not wrong:
+        if not wrong and made.points < 2:
             wrong.append("a stroke has 2 places at least")
         if wrong:
-            raise AskedError(*wrong)
+            raise RequestError(*wrong)
         return made
-
-
-#: Of its type a number or a word.
-_AUTO: int | str = AUTO
 
 
 def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:
     if not isinstance(given, str) or given not in allowed:
-        raise AskedError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
+        raise RequestError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
     return given
 
 
 def _flag(what: str, given: object) -> bool:
     if not isinstance(given, bool):
-        raise AskedError(f"{what} is True or False, not {in_short(given)}")
+        raise RequestError(f"{what} is True or False, not {in_short(given)}")
     return given
 
 
@@ -346,17 +298,17 @@ def _beams(given: object) -> int | str:
     if isinstance(given, str) and given.isdigit():
         given = int(given)
     if isinstance(given, str):
-        raise AskedError(f"the number of beams is a whole number or auto, not {in_short(given)}")
+        raise RequestError(f"the number of beams is a whole number or auto, not {in_short(given)}")
     return _whole("the number of beams", given, _MOST_BEAMS)
 
 
 def _whole(what: str, given: Any, most: int) -> int:
     if isinstance(given, bool) or not isinstance(given, int) or not 1 <= given <= most:
-        raise AskedError(f"{what} is a whole number from 1 to {most}, not {in_short(given)}")
+        raise RequestError(f"{what} is a whole number from 1 to {most}, not {in_short(given)}")
     return given
 
 
-def _releases(given: object) -> tuple[ReleaseAsked, ...]:
+def _releases(given: object) -> tuple[ReleaseRequest, ...]:
     """Designs; what releases nothing is the one as built, which is there anyway."""
     if isinstance(given, (str, Mapping)):
         given = [given]
@@ -365,14 +317,14 @@ def _releases(given: object) -> tuple[ReleaseAsked, ...]:
     given = list(given)
     made = [_release(each) for each in given]
     if any(made) and any(isinstance(each, str) and each.strip() == NONE for each in given):
-        raise AskedError(
+        raise RequestError(
             f"{NONE!r} asks for the design as built alone, and the others ask for releases: "
             "choose; the design as built is shown in any case"
         )
     return tuple(each for each in made if each)
 
 
-def _release(given: object) -> ReleaseAsked:
+def _release(given: object) -> ReleaseRequest:
     if isinstance(given, str):
         return release_of(given)
     if isinstance(given, Mapping):
@@ -406,21 +358,21 @@ def _pair(given: object) -> tuple[Any, ...]:
 def _stiffness(given: Any) -> float:
     value = 0.0 if given is None else measured(given, NOTCH)
     if not 0.0 <= value < float("inf"):
-        raise AskedError(
+        raise RequestError(
             f"the stiffness of a notch is a finite number from 0, not {in_short(given)}"
         )
     return value
 
 
-def _stroke(given: object) -> StrokeAsked:
-    if isinstance(given, StrokeAsked):
+def _stroke(given: object) -> StrokeRequest:
+    if isinstance(given, StrokeRequest):
         return given
     if isinstance(given, str):
         return stroke_of(given)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
         name = _named(name)
-        return StrokeAsked(point, name, _measured(start, name), _measured(stop, name))
+        return StrokeRequest(point, name, _measured(start, name), _measured(stop, name))
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
@@ -428,14 +380,14 @@ def _stroke(given: object) -> StrokeAsked:
 
 
 def _named(name: object) -> str:
-    return _one_of("a coordinate", name, ("x", "y", "z", "rx", "ry", "rz"))
+    return _one_of("a coordinate", name, _NAMES)
 
 
 def _measured(given: object, coordinate: str) -> float:
     return measured(given, "rad" if coordinate.startswith("r") else "m")
 
 
-def _misalignments(given: object) -> tuple[MisalignmentAsked, ...]:
+def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
     if isinstance(given, str):
         given = [given]
     if not isinstance(given, Iterable):
@@ -443,15 +395,15 @@ def _misalignments(given: object) -> tuple[MisalignmentAsked, ...]:
     return tuple(map(_misalignment, given))
 
 
-def _misalignment(given: object) -> MisalignmentAsked:
-    if isinstance(given, MisalignmentAsked):
+def _misalignment(given: object) -> MisalignmentRequest:
+    if isinstance(given, MisalignmentRequest):
         return given
     if isinstance(given, str):
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
         clamp, name, value, *about = given
         name = _named(name)
-        return MisalignmentAsked(clamp, name, _measured(value, name), *about)
+        return MisalignmentRequest(clamp, name, _measured(value, name), *about)
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

@@ -15,8 +15,8 @@ from ..elasticity import ElasticError, State
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from ..show.picture import shape_bytes
+from ..show.writers import require_name, write
 from ..util.errors import require_kind
-from ..util.outputs import OutputError, write_together
 from ..util.records import Frozen
 
 
@@ -71,10 +71,9 @@ class Shape(Frozen):
         Raises:
             FlexactError: As of `picture`, or the file cannot be written.
         """
-        if "\0" in str(path):
-            raise OutputError("a file's name cannot hold a NUL")
         target = Path(path)
-        write_together({target: self.picture(target.suffix, view, size)})
+        require_name(target)
+        write(target, self.picture(target.suffix, view, size))
 
     def _repr_png_(self) -> bytes:
         return self.picture()
@@ -104,17 +103,16 @@ def shape(state: State, mode: int = 1, *, buckled: bool = False) -> Shape:
         raise ElasticError(f"there is no {what} {mode}: this state gives {count}")
     value = float(values[order[mode - 1]])
     field = modes[order[mode - 1]]
-    placed = state.data.arrays.node_kind <= NodeKind.POSITION
-    far = float(np.linalg.norm(field[placed], axis=1).max(initial=0.0))
-    size = far or float(np.abs(field).max(initial=0.0)) or 1.0
-    words = f"{_told(value, buckled)} ({state.label})"
-    kind = "buckled" if buckled else "vibrating"
-    return Shape(kind, words, value, state.data, state.configuration, field / size)
-
-
-def _told(value: float, buckled: bool) -> str:
+    words = "unstable" if value < 0.0 else f"vibrates at {value:.4g} Hz"
     if buckled:
-        return f"buckles at {value:.4g} times its stresses"
-    if value < 0.0:
-        return "unstable"
-    return f"vibrates at {value:.4g} Hz"
+        words = f"buckles at {value:.4g} times its stresses"
+    kind, drawn = "buckled" if buckled else "vibrating", unit_mode(state.data, field)
+    return Shape(kind, f"{words} ({state.label})", value, state.data, state.configuration, drawn)
+
+
+def unit_mode(data: ModelData, mode: FloatArray) -> FloatArray:
+    """(nodes, 3) with the largest displacement 1, or rotation where only rotations move."""
+    places = data.arrays.node_kind <= NodeKind.POSITION
+    size = np.linalg.norm(mode[places], axis=1).max(initial=0.0)
+    size = size if size > 1e-9 * np.abs(mode).max(initial=0.0) else np.abs(mode).max(initial=0.0)
+    return mode / size if size > 0.0 else mode.copy()

@@ -16,7 +16,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..elasticity import Elastic, Estimate
 from .designs import Misalignment, MisalignmentCurve, Number, Numbers, Tolerance
-from .elastic_design import Bench, Level
+from .elastic_design import ElasticDesign, Level
 
 #: Errors of so many sizes of the model, or radians, are none that anybody makes, and far beyond
 #: where the stress is in proportion to them.
@@ -29,7 +29,7 @@ _PLACES, _FEW_PLACES = 9, 3
 
 
 def tolerances_of(
-    bench: Bench,
+    mechanism: ElasticDesign,
     misalignments: Sequence[Misalignment],
     shift: float,
     size: float,
@@ -40,7 +40,7 @@ def tolerances_of(
     Those that rigid parts cannot follow are left out: nothing can be off so.
 
     Args:
-        bench: The design.
+        mechanism: The design.
         misalignments: Of which clamps, in which directions.
         shift: Of the first frequency, relative.
         size: Of the model [m].
@@ -50,20 +50,20 @@ def tolerances_of(
         ElasticError: there is no answer, as of a self-stress of rigid parts.
     """
     found, able = [], np.ones(len(misalignments), bool)
-    for k, level in enumerate(bench.levels):
+    for k, level in enumerate(mechanism.levels):
         square = level.first_square * (1.0 + shift) ** 2
         stresses = level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
         critical = level.errors(stresses, 0.0)
-        progress((k + 0.5) / len(bench.levels))
+        progress((k + 0.5) / len(mechanism.levels))
         if shift < 0.0:
             aimed = level.errors(stresses, square)
         else:
             some = [each for each, fits in zip(misalignments, able, strict=True) if fits]
             aimed = np.array([_rising(level, each, shift) for each in some]).reshape(-1, 2)
         found.append(np.concatenate([aimed, critical], axis=1))
-        progress((k + 1.0) / len(bench.levels))
+        progress((k + 1.0) / len(mechanism.levels))
     kept = [each for each, fits in zip(misalignments, able, strict=True) if fits]
     whole = extrapolated(found)
     return tuple(
@@ -74,7 +74,7 @@ def tolerances_of(
 
 def _rising(level: Level, each: Misalignment, shift: float) -> tuple[float, float]:
     """Errors that raise the first frequency: of several modes it stays the lowest."""
-    model: Elastic = level.bench.measured
+    model: Elastic = level.mechanism.measured
     node, about = each.clamp.node, each.about
     return model.alone[level.number].misalignment_for(shift, node, each.direction, about)
 
@@ -91,11 +91,13 @@ def _number(whole: Estimate, row: int, column: int, size: float, unit: str) -> N
     return Number(value, off if math.isfinite(off) else 0.0)
 
 
-def curve_against(bench: Bench, tolerance: Tolerance, reach: float) -> MisalignmentCurve:
+def curve_against(
+    mechanism: ElasticDesign, tolerance: Tolerance, reach: float
+) -> MisalignmentCurve:
     """The first frequency, or stiffness, against one misalignment, up to where it buckles.
 
     Args:
-        bench: The design.
+        mechanism: The design.
         tolerance: Of that misalignment.
         reach: How far it is followed where it does not buckle before, about [m, rad].
     """
@@ -105,7 +107,7 @@ def curve_against(bench: Bench, tolerance: Tolerance, reach: float) -> Misalignm
     )
     values = np.concatenate([_places(first, low)[::-1], [0.0], _places(last, high)])
     rows = []
-    for level in bench.levels:
+    for level in mechanism.levels:
         stress = level.stresses((tolerance.misalignment,))[:, :, 0]
         rows.append(np.array([level.measure(value * stress) for value in values.tolist()]))
     whole = extrapolated(rows)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elastic states, strokes and misalignment; uses `core`, `model`, `deck` and `result`."""
+"""Elastic states, strokes and misalignment of models with stiffness and mass."""
 
-from .elastic import Elastic, elastic
+from .elastic import Elastic, State, elastic
 from .errors import ElasticError, Estimate, StrokeError, StrokeWarning, UnknownError
-from .state import State
 
 __all__ = [
     "Elastic",

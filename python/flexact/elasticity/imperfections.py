@@ -14,6 +14,7 @@ from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..model.data import ModelData
 from ..util.quantities import without_units
 from ..util.records import Frozen
+from ..util.rotations import about, turned
 from ..util.text import in_short
 from .errors import ElasticError, require_within
 from .points import Coordinate, Points
@@ -35,16 +36,6 @@ class Angle(float):
         return 1
 
 
-def vector_of(euler: FloatArray) -> FloatArray:
-    """(3,) rotation vector [rad] of Euler parameters (4,), angles up to pi."""
-    unit = euler / np.linalg.norm(euler) * (1.0 if euler[0] >= 0.0 else -1.0)
-    sine = float(np.linalg.norm(unit[1:]))
-    if sine == 0.0:
-        return np.zeros(3)
-    made: FloatArray = unit[1:] * (2.0 * math.atan2(sine, unit[0]) / sine)
-    return made
-
-
 def dual_to_parameters(euler: FloatArray, moment: FloatArray) -> FloatArray:
     """(3,) what does work on twice the changes of lambda1..3, of a moment (3,) on the spin.
 
@@ -55,24 +46,6 @@ def dual_to_parameters(euler: FloatArray, moment: FloatArray) -> FloatArray:
     made: FloatArray = (
         scalar * moment + (vector @ moment) / scalar * vector - np.cross(vector, moment)
     )
-    return made
-
-
-def turn_about(axis: int, angle: float) -> FloatArray:
-    """(3, 3) rotation about a global axis by an angle [rad]."""
-    made = np.eye(3)
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    c, s = math.cos(angle), math.sin(angle)
-    made[[i, i, j, j], [i, j, i, j]] = c, -s, s, c
-    return made
-
-
-def turned(euler: FloatArray, axis: int, angle: float) -> FloatArray:
-    """(4,) Euler parameters after a further rotation about a global axis."""
-    scalar, vector = math.cos(angle / 2.0), np.eye(3)[axis] * math.sin(angle / 2.0)
-    made = np.empty(4)
-    made[0] = scalar * euler[0] - vector @ euler[1:]
-    made[1:] = scalar * euler[1:] + euler[0] * vector + np.cross(vector, euler[1:])
     return made
 
 
@@ -126,18 +99,20 @@ class Imperfection(Frozen):
         made = value.copy(order="F")
         if self.axis < 0:
             return made
+        direction = np.eye(3)[self.axis]
         for node in np.flatnonzero(self.moved.any(axis=0)).tolist():
             kind, there = data.arrays.node_kind[node], self.moved[:, node] > 0.0
             if kind == NodeKind.ANGLE:
                 made[0, node] += self.value
             elif kind == NodeKind.ORIENTATION:
                 # Of single Euler parameters those that are held count.
-                made[:, node] = turned(value[:, node], self.axis, self.value)
+                rotation = self.value * direction[None]
+                made[:, node] = turned(value[:, node][None], rotation)[0]
             else:
                 old = value[:3, node]
-                new = old + self.value * np.eye(3)[self.axis]
+                new = old + self.value * direction
                 if self.is_turn:
-                    turn = turn_about(self.axis, self.value)
+                    turn = about(direction, self.value)
                     new = self.centre + turn @ (old - self.centre)
                 made[:3, node][there] = new[there]
         return made

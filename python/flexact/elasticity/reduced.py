@@ -205,3 +205,18 @@ def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float
             area, bending = b * h, 6.0 * my / (b * h * h) + 6.0 * mz / (h * b * b)
         largest = max(largest, abs(each.normal_force) / area + float(bending.max()))
     return largest
+
+
+def peak_of(at: Solution, element: int) -> float:
+    """The largest normal stress [Pa] in the pieces of an element, by its index.
+
+    Raises:
+        ElasticError: its section is not known.
+    """
+    mesh = at.solver.mesh
+    first, count = int(mesh.first[element]), int(mesh.pieces[element])
+    every = [
+        resultants_of(mesh.data, piece, at.raw.stress[:, piece])
+        for piece in range(first, first + count)
+    ]
+    return peak_stress(mesh.own, element, every)

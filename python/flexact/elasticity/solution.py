@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.limits import NO_COMPLIANCE, NODE_RESTS, POINT_RESTS, ROUNDING
 from ..core import calls, elastic
 from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
 from ..core.elastic import (
@@ -20,8 +21,9 @@ from ..core.elastic import (
     Waypoint,
     element_stiffness,
 )
-from ..core.elements import Class, Dual, NodeKind, dual_table
+from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
+from ..util.matrices import complement, span
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
@@ -167,14 +169,6 @@ def indexed(data: ModelData, release: Mapping[tuple[int, int], float]) -> Releas
     return {(data.element_index[e], k - 1): value for (e, k), value in release.items()}
 
 
-#: Below this part of the largest, with rotations times a length, a compliance is none.
-_NONE = 1.0e-13
-#: Components of unit vectors below this are rounding.
-_ROUNDING = 1.0e-9
-#: A point rests in a motion without stiffness that moves others by 1 and it by less.
-_RESTS = 1.0e-8
-
-
 class Compliance(NamedTuple):
     """What a point does under unit loads, rotations times a length of the model.
 
@@ -199,10 +193,10 @@ class Compliance(NamedTuple):
     @property
     def stiffness(self) -> FloatArray:
         """Stiffness in SI units: infinite for what is held, 0 for motions without stiffness."""
-        across = _complement(self.loose)
+        across = complement(self.loose)
         inner = across.T @ self.finite @ across
         values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
-        none = np.abs(values) <= _NONE * np.abs(values).max(initial=0.0)
+        none = np.abs(values) <= NO_COMPLIANCE * np.abs(values).max(initial=0.0)
         turned = across @ vectors
         some = turned[:, ~none]
         made = (some / values[~none]) @ some.T * np.outer(self.scale, self.scale)
@@ -228,7 +222,7 @@ def compliance_at(
     if np.abs(finite).max(initial=0.0) < least:
         finite[:] = 0.0
     free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
-    return Compliance(finite, _span(free), scale, is_held)
+    return Compliance(finite, span(free, POINT_RESTS), scale, is_held)
 
 
 def kept(before: Compliance, after: Compliance) -> FloatArray:
@@ -239,10 +233,10 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
     """
     free = ~after.is_held
     scale = before.scale / after.scale
-    across = _complement(after.loose[free])
+    across = complement(after.loose[free])
     inner = across.T @ after.finite[np.ix_(free, free)] @ across
     values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
-    some = values > _NONE * np.abs(values).max(initial=0.0)
+    some = values > NO_COMPLIANCE * np.abs(values).max(initial=0.0)
     root = across @ (vectors[:, some] / np.sqrt(values[some]))
     first = (before.finite * np.outer(1.0 / scale, 1.0 / scale))[np.ix_(free, free)]
     reduced = root.T @ first @ root
@@ -251,25 +245,9 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
     return np.sort(np.concatenate([np.zeros(lost), np.maximum(made, 0.0)]))
 
 
-def _span(vectors: FloatArray) -> FloatArray:
-    """(n, r) an orthonormal basis of what columns (n, m) span."""
-    if not vectors.size:
-        return np.zeros((vectors.shape[0], 0))
-    left, values, _ = np.linalg.svd(vectors, full_matrices=False)
-    made: FloatArray = left[:, values > _RESTS]
-    return made
-
-
-def _complement(basis: FloatArray) -> FloatArray:
-    """(n, n - r) an orthonormal basis of what is across another one."""
-    left, _, _ = np.linalg.svd(basis, full_matrices=True)
-    made: FloatArray = left[:, basis.shape[1] :]
-    return made
-
-
 def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:
     """The matrix with infinity, signed, where a projector has entries."""
-    there = np.abs(along) > _ROUNDING
+    there = np.abs(along) > ROUNDING
     return np.where(there, np.copysign(np.inf, along), finite)
 
 
@@ -543,3 +521,47 @@ class Solution:
         """
         if not (self.solver.policy.has_stiffness or self.is_stressed):
             raise ElasticError(NO_STIFFNESS)
+
+
+#: How many coordinates of a motion without stiffness are named.
+_MOST_NAMED = 4
+
+
+@dataclass(frozen=True, eq=False)
+class LooseMotion(Frozen):
+    """A motion without any stiffness.
+
+    Attributes:
+        displacement: (nodes, 3) displacements and turns of the finer mesh; the largest is one.
+        coordinates: Node and coordinate of what moves in the deck, the most first.
+    """
+
+    displacement: FloatArray
+    coordinates: tuple[tuple[int, str], ...]
+
+    def __str__(self) -> str:
+        """Such as "y of node 2 and z of node 2"."""
+        shown = [f"{name} of node {node}" for node, name in self.coordinates[:_MOST_NAMED]]
+        more = len(self.coordinates) - len(shown)
+        if more > 0:
+            shown.append(f"{more} more")
+        return " and ".join(filter(None, [", ".join(shown[:-1]), *shown[-1:]])) or "inner nodes"
+
+
+def loose_motion(at: Solution, k: int) -> LooseMotion:
+    """A motion without stiffness of a state, by its index."""
+    mesh = at.solver.mesh
+    arrays = mesh.own.arrays
+    moved = at.unit_motions(at.tangent.loose)[:, :, k]
+    size = np.abs(moved) * at.scale
+    found = []
+    for node in range(mesh.nodes):
+        kind = int(arrays.node_kind[node])
+        found += [
+            (float(size[axis, node]), int(arrays.node_number[node]), coordinate_name(kind, axis))
+            for axis in AXES[kind]
+            if size[axis, node] > NODE_RESTS
+        ]
+    # Of equal ones the first of the deck; rounding does not decide.
+    found.sort(key=lambda each: -round(each[0], 6))
+    return LooseMotion(moved.T.copy(), tuple((node, name) for _, node, name in found))

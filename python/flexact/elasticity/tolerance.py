@@ -14,7 +14,6 @@ from collections.abc import Callable
 import numpy as np
 
 from ..core import elastic
-from ..core.arrays import FloatArray
 from ..core.elastic import ElasticState
 from ..util.records import cached_property
 from .drives import at_rest
@@ -244,8 +243,3 @@ class Linear:
         far = min(abs(self.critical[0 if sign < 0.0 else 1]), self._far)
         begin = _BEGIN * nearest
         return sign * rises_to(lambda d: self.square(sign * d), wanted, self.first, begin, far)
-
-
-def finite(pair: FloatArray) -> Pair:
-    """A pair of plain numbers."""
-    return float(pair[0]), float(pair[1])

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.decomposition import asked_for
+from ..analysis.limits import ZERO_ELSEWHERE
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind
@@ -17,9 +18,6 @@ from ..model.data import ModelData
 from ..util.records import cached_property
 from .errors import ElasticError
 
-#: Away from the reference, scaled singular values up to here are zero: rounding and the residual
-#: of an equilibrium are in its places.
-_ZERO = 1.0e-10
 #: More rows times columns than these are not decomposed in full.
 _MOST = 6_000_000
 
@@ -107,4 +105,4 @@ class Verdicts:
         gap, noise = self.result.gap, float(self.result.raw.noise)
         above = gap.smallest_nonzero or 1.0
         below = max(noise, gap.largest_zero or 0.0)
-        return max(min(_ZERO, math.sqrt(above * below)), noise)
+        return max(min(ZERO_ELSEWHERE, math.sqrt(above * below)), noise)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -157,6 +158,12 @@ class Properties(Frozen):
             return None
         # What was read lies in a larger array.
         return cls(*(part.T.copy() for part in raw))
+
+
+def rows_of(table: FloatArray) -> Iterator[tuple[int, tuple[float, ...]]]:
+    """Index and numbers of each row of which something is given."""
+    for i in np.flatnonzero(~np.isnan(table[:, 0])).tolist():
+        yield i, tuple(value for value in table[i].tolist() if value == value)
 
 
 Labels = tuple[tuple[int, str], ...]

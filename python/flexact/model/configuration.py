@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray, IntArray, floats
 from ..core.elements import NodeKind
+from ..util import rotations
 from ..util.records import Frozen
 
 #: Kinds of nodes; a search among all of them would take as long as all else that is done here.
@@ -59,7 +60,7 @@ class Configuration(Frozen):
         angles = self.kinds == NodeKind.ANGLE
         value[angles, 0] += move[angles, 2]
         turned = self.kinds == NodeKind.ORIENTATION
-        value[turned] = _turned(value[turned], move[turned])
+        value[turned] = rotations.turned(value[turned], move[turned])
         return Configuration(self.kinds, value)
 
 
@@ -68,26 +69,3 @@ def _kinds(given: ArrayLike) -> IntArray:
     if not np.all((kinds >= _FIRST) & (kinds <= _LAST) & (kinds % 1 == 0)):
         raise ValueError("kinds has a number that is no kind of node")
     return kinds.astype(np.int32)
-
-
-def _turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
-    """Euler parameters (k, 4) after a further rotation by vectors (k, 3)."""
-    angle = np.linalg.norm(rotation, axis=1)[:, None]
-    scalar = np.cos(angle / 2)
-    vector = rotation * np.sinc(angle / (2 * np.pi)) / 2
-    old_scalar, old_vector = euler[:, :1], euler[:, 1:]
-    made: FloatArray = np.hstack(
-        [
-            scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
-            scalar * old_vector + old_scalar * vector + _cross(vector, old_vector),
-        ]
-    )
-    return made
-
-
-def _cross(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Products of vectors (k, 3); numpy's own looks at their shapes for longer."""
-    made = np.empty_like(one)
-    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
-        made[:, k] = one[:, i] * other[:, j] - one[:, j] * other[:, i]
-    return made

@@ -1,25 +1,116 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Deformations: which of a part are meant, and giving them classes."""
+"""Deformations by number and word: which of a part are meant, and giving them classes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from ..core.elements import Class, Role, element_kinds
 from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.text import in_short
-from .draft import Draft
-from .handles import Assembly, Body, Element, FoldedSheet, Node, Part
-from .names import is_coordinate
-from .selection import end_positions, existing, indices_of, part, planes_of, whole, words_for
-from .words import AT_Q, is_word, numbers_of
+from .arguments import whole
+from .draft import NO_VECTOR, Draft
+from .handles import Assembly, Body, Element, FoldedSheet, Node, Part, Sheet
+from .names import is_coordinate, nearest
+from .selection import existing, indices_of, part
+
+_XZ = (Role.BENDING_XZ_P, Role.BENDING_XZ_Q)
+_XY = (Role.BENDING_XY_P, Role.BENDING_XY_Q)
+_PLANAR = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
+#: Roles of what happens at p, and at q; what is not among them has no end.
+AT_P = frozenset((Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P))
+AT_Q = frozenset((Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q))
+#: What each word means, as `_plain` spells it.
+_ROLES: dict[str, tuple[Role, ...]] = {
+    "elongation": (Role.ELONGATION,),
+    "twist": (Role.TORSION,),
+    "torsion": (Role.TORSION,),
+    "bending": (*_XZ, *_XY, *_PLANAR),
+    "bending about y": _XZ,
+    "bending about z": (*_XY, *_PLANAR),
+    "rotation": (Role.ROTATION, Role.ANGLE),
+    "tilt": (Role.TILT_Y, Role.TILT_Z),
+}
+_IN_PLANES = ("in-plane bending", "out-of-plane bending")
+WORDS = (*_ROLES, *_IN_PLANES)
+
+#: Of a flexure, the bendings in its plane and out of it.
+Planes = tuple[tuple[Role, ...], tuple[Role, ...]]
+#: Of a sheet whose width is along local z, as the builder makes it.
+_WIDE_Z: Planes = (_XZ, _XY)
+_WIDE_Y: Planes = (_XY, _XZ)
+#: Of a sheet in a planar model, which sees it from its side.
+_SIDE_VIEW: Planes = ((), _PLANAR)
+
+
+def is_word(given: str) -> bool:
+    """Whether a text is the word of a deformation."""
+    return _plain(given) in map(_plain, WORDS)
+
+
+def _numbers_of(
+    kind: ElementKind, word: str, planes: Planes | None, end: str, what: str
+) -> list[int]:
+    """Numbers of the deformations of an element that a word means.
+
+    Args:
+        kind: The element.
+        word: One of `WORDS`.
+        planes: Which bending is in the plane; None where that is not known.
+        end: "p", "q" or empty for both.
+        what: The part, for messages.
+
+    Raises:
+        ModelError: it is no such word, or the element has no such deformation.
+    """
+    roles = _roles(word, planes, what)
+    if end and roles:
+        roles = tuple(role for role in roles if role in (AT_P if end == "p" else AT_Q))
+        if not roles:
+            raise model_error(
+                "no-end", f"the {word} of {what} is not at one of its ends", "leave out at"
+            )
+    found = [kind.role.index(role) + 1 for role in roles if role in kind.role]
+    if not found:
+        has = [each for each, of_it in _ROLES.items() if set(of_it) & set(kind.role)]
+        has = [each for each in has if each != "torsion"]
+        if planes is not None:
+            has += [each for each, of_it in zip(_IN_PLANES, planes, strict=True) if of_it]
+        raise model_error(
+            "component-out-of-range", f"{what} has no {word}", f"it has {', '.join(has)}"
+        )
+    return found
+
+
+def _roles(word: str, planes: Planes | None, what: str) -> tuple[Role, ...]:
+    plain = _plain(word)
+    if plain in _ROLES:
+        return _ROLES[plain]
+    plain_planes = [*map(_plain, _IN_PLANES)]
+    if plain not in plain_planes:
+        near = nearest(word, WORDS) or WORDS
+        raise model_error(
+            "component-out-of-range",
+            f"there is no deformation {in_short(word)}",
+            f"say {' or '.join(map(in_short, near))}, or its number",
+        )
+    if planes is None:
+        raise model_error(
+            "no-plane",
+            f"{what} has no plane of its own, so that no bending is in it",
+            'say "bending about y" or "bending about z", its local axes',
+        )
+    return planes[plain_planes.index(plain)]
+
+
+def _plain(word: str) -> str:
+    return " ".join(word.lower().replace("-", " ").split())
+
 
 #: (index of an element, number of a deformation), and with its class.
 Place = tuple[int, int]
 Given = tuple[int, int, Class]
-
 #: The bending at the other end, in the same plane.
 _OTHER_END = {
     Role.BENDING_XZ_P: Role.BENDING_XZ_Q,
@@ -29,11 +120,25 @@ _OTHER_END = {
 _P_OF = {q: p for p, q in _OTHER_END.items()}
 
 
-def declare_inner(draft: Draft, indices: Iterable[int], released: Iterable[int]) -> None:
-    """Make the released deformations of all beams but the first independent."""
-    for index in list(indices)[1:]:
-        for number in released:
-            draft.set_deformation(index, number, Class.INDEPENDENT)
+def _planes_of(draft: Draft, made: Part | Element, indices: list[int]) -> Planes | None:
+    """Which bending of a part is in its plane; None where it has no plane.
+
+    The width is where more bending is held, else where the section is wider, else where the
+    builder puts it.
+    """
+    if draft.planar:
+        return _SIDE_VIEW
+    first, last = draft.classes[indices[0]], draft.classes[indices[-1]]
+    held_xz = (first[2] == Class.FIXED) + (last[3] == Class.FIXED)
+    held_xy = (first[4] == Class.FIXED) + (last[5] == Class.FIXED)
+    if held_xz != held_xy:
+        return _WIDE_Z if held_xz > held_xy else _WIDE_Y
+    shape = draft.said.get(indices[0], {}).get("shape")
+    if shape is not None and shape.y != shape.z:
+        return _WIDE_Z if shape.z > shape.y else _WIDE_Y
+    # A round wire has no vector as a rule, a sheet of the builder has one.
+    own = draft.vectors[indices[0]] != NO_VECTOR
+    return _WIDE_Z if own or isinstance(made, Sheet) else None
 
 
 def classes_of_division(
@@ -58,7 +163,7 @@ def classes_of_division(
     if len(indices) == 1:
         places = [(indices[0], number) for number in numbers]
         return places, [(*place, value) for place in places]
-    first, last, inner = indices[0], indices[-1], indices[1:]
+    first, last = indices[0], indices[-1]
     now = {i: list(classes[i]) for i in indices}
     places = []
     for number in numbers:
@@ -70,11 +175,11 @@ def classes_of_division(
         elif role in _OTHER_END or role in _P_OF:
             p = kind.role.index(_P_OF.get(role, role))
             q = kind.role.index(_OTHER_END[Role(kind.role[p])])
-            _give_bending(now, first, inner, (p, q), {number - 1: value})
+            _give_bending([now[i] for i in indices], p, q, {number - 1: value})
         else:
             now[first][number - 1] = value
             if value == Class.FIXED:
-                for i in inner:
+                for i in indices[1:]:
                     now[i][number - 1] = value
     new = [
         (i, k, Class(made))
@@ -85,35 +190,17 @@ def classes_of_division(
     return places, new
 
 
-def _give_bending(
-    now: dict[int, list[int]],
-    first: int,
-    inner: Sequence[int],
-    pair: tuple[int, int],
-    given: dict[int, Class],
-) -> None:
-    """Give one or both ends of a bending that the flexure released a class."""
-    p, q = pair
-    last = inner[-1]
-    at_q = Class.DEPENDENT if now[last][q] == Class.DEPENDENT else now[first][q]
-    at_p, at_q = given.get(p, now[first][p]), given.get(q, at_q)
-    now[first][p], now[first][q], now[last][q] = at_p, at_q, int(Class.INDEPENDENT)
+def _give_bending(beams: list[list[int]], p: int, q: int, given: dict[int, Class]) -> None:
+    """Give one end, p or q, of a bending that the flexure released a class."""
+    first, last = beams[0], beams[-1]
+    at_q = Class.DEPENDENT if last[q] == Class.DEPENDENT else first[q]
+    at_p, at_q = given.get(p, first[p]), given.get(q, at_q)
+    first[p], first[q], last[q] = at_p, at_q, int(Class.INDEPENDENT)
     if at_p == at_q == Class.FIXED:
-        for i in inner:
-            now[i][p] = now[i][q] = int(Class.FIXED)
+        for beam in beams[1:]:
+            beam[p] = beam[q] = int(Class.FIXED)
     elif at_q == Class.DEPENDENT and at_p != Class.DEPENDENT:
-        now[first][q], now[last][q] = int(Class.INDEPENDENT), int(Class.DEPENDENT)
-
-
-_BY_NUMBER = "a deformation is given by its number"
-
-
-class Deformations(NamedTuple):
-    """Deformations of a part, by their numbers from 1, as if it were one element."""
-
-    part: Part | Element
-    indices: list[int]
-    numbers: list[int]
+        first[q], last[q] = int(Class.INDEPENDENT), int(Class.DEPENDENT)
 
 
 def deformations(kind: ElementKind, given: Iterable[int | str]) -> tuple[int, ...]:
@@ -135,14 +222,14 @@ def deformations(kind: ElementKind, given: Iterable[int | str]) -> tuple[int, ..
                 raise model_error(
                     "bad-number", f"deformations are given by number or word, not {in_short(item)}"
                 )
-            numbers += numbers_of(kind, item, None, "", f"a {kind.keyword}")
+            numbers += _numbers_of(kind, item, None, "", f"a {kind.keyword}")
         else:
             numbers.append(_checked(kind.deformations, item, f"a {kind.keyword}"))
     return tuple(numbers)
 
 
 def _checked(last: int, number: object, what: str) -> int:
-    made = whole(number, _BY_NUMBER)
+    made = whole(number, "a deformation is given by its number")
     if not 1 <= made <= last:
         raise model_error(
             "component-out-of-range",
@@ -154,15 +241,19 @@ def _checked(last: int, number: object, what: str) -> int:
 
 def find_deformations(
     draft: Draft, target: object, which: Sequence[str | int], at: object
-) -> Deformations:
+) -> tuple[list[int], list[int]]:
     """The deformations of a part that are meant, all where none is named.
+
+    Returns:
+        Indices of the elements of the part; numbers of the deformations, from 1, as if it were
+        one element.
 
     Raises:
         ModelError: there is no such part, it has no such deformation, or no such end.
     """
     made = part(draft, target)
     indices = indices_of(draft, made)
-    what = words_for(draft, made, indices)
+    what = in_short(made.name) if made.name else draft.element_words(indices[0])
     if isinstance(made, Body) and len(indices) > 1:
         names = " or ".join(draft.element_words(i) for i in indices[:3])
         raise model_error(
@@ -175,10 +266,10 @@ def find_deformations(
     end = _end(draft, what, indices, at)
     numbers: list[int] = []
     if not which:
-        numbers += numbers_of(kind, "bending", None, end, what) if end else range(1, last + 1)
+        numbers += _numbers_of(kind, "bending", None, end, what) if end else range(1, last + 1)
     for item in which:
         if isinstance(item, str):
-            numbers += numbers_of(kind, item, planes_of(draft, made, indices), end, what)
+            numbers += _numbers_of(kind, item, _planes_of(draft, made, indices), end, what)
         elif end:
             raise model_error(
                 "no-end",
@@ -187,16 +278,18 @@ def find_deformations(
             )
         else:
             numbers.append(_checked(last, item, what))
-    return Deformations(made, indices, numbers)
+    return indices, numbers
 
 
 def _end(draft: Draft, what: str, indices: list[int], at: object) -> str:
     """Which end of a part is meant: "p", "q", or empty for both."""
     if at is None or (isinstance(at, str) and at in ("p", "q")):
         return at or ""
-    ends = end_positions(draft, indices)
-    body = _body(draft, at)
-    if body is not None:
+    ends = draft.slots[indices[0]][0], draft.slots[indices[-1]][2]
+    body = at
+    if isinstance(at, str) and at not in draft.points_by_name and at in draft.parts_by_name:
+        body = part(draft, at)
+    if isinstance(body, Body):
         met = [number in {node.position for node in body.nodes} for number in ends]
         if met[0] != met[1]:
             return "p" if met[0] else "q"
@@ -211,20 +304,13 @@ def _end(draft: Draft, what: str, indices: list[int], at: object) -> str:
     )
 
 
-def _body(draft: Draft, at: object) -> Body | None:
-    """The body that is meant where an end is said by what it is fastened to."""
-    if isinstance(at, str) and at not in draft.points_by_name and at in draft.parts_by_name:
-        at = part(draft, at)
-    return at if isinstance(at, Body) else None
-
-
 def give_deformations(
     draft: Draft, target: object, which: Sequence[str | int], value: Class, at: object = None
 ) -> None:
     """Give deformations of a part a class; of a divided one as if it were one beam."""
-    found = find_deformations(draft, target, which, at)
-    kind = element_kinds()[draft.kinds[found.indices[0]] - 1]
-    stated, new = classes_of_division(draft.classes, kind, found.indices, found.numbers, value)
+    indices, numbers = find_deformations(draft, target, which, at)
+    kind = element_kinds()[draft.kinds[indices[0]] - 1]
+    stated, new = classes_of_division(draft.classes, kind, indices, numbers, value)
     if value == Class.FIXED:
         for place in stated:
             draft.stated.pop(place, None)

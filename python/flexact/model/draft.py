@@ -1,29 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A model in the making: lists that grow, and the arrays made from them."""
+"""A model in the making: columns of nodes and elements that grow, and finding things in them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from bisect import insort
+from collections.abc import Iterable
+from functools import cached_property
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..core.arrays import FloatArray, IntArray, model_arrays
-from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
+from ..core.elements import Class, Member, NodeKind, coordinate_name, is_position, member_table
 from ..core.raw import ElementKind
-from ..deck.diagnostics import Diagnostic, Problems, Severity, Source
+from ..deck.diagnostics import Source
 from ..deck.rendering import ModelError, model_error
 from ..util.text import in_short
-from .attributes import NUMBERS, Appearance, Loads, Properties
-from .data import ModelData
-from .handles import Owner
-from .places import Lookup
+from .attributes import NUMBERS
+from .names import grouped, one_line, part_name
+from .places import ROUNDING, Places, RigidComponents
 
 Colour = tuple[float, float, float]
+Vector = tuple[float, float, float]
 
-#: What is given of an element, and how many.
-_NUMBERS: dict[str, tuple[int, ...]] = {"colour": (3,), "edge_colour": (3,), "opacity": ()}
+#: What the vector of an element is where none is given.
+NO_VECTOR: Vector = (0.0, 0.0, 0.0)
+
+#: Of the numbers of nodes and elements.
+LARGEST = 2**31 - 1
+#: What a draft finds by names, numbers and places, made when it is asked for.
+_TABLES = (
+    *("parts_by_name", "points_by_name", "index_by_number"),
+    *("_at_place", "size", "_components"),
+)
+_CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
 class Shape(NamedTuple):
@@ -36,250 +44,42 @@ class Shape(NamedTuple):
 
 #: What is said about drawing an element: shape, colour, edge_colour, opacity, drawn, each if given.
 Said = dict[str, Any]
+Numbers = tuple[float, ...]
+Slots = tuple[int, int, int, int]
 
 
-class AppearanceDraft:
-    """What was said about drawing elements, by their indices."""
+class Draft:
+    """Nodes and elements as columns: by number those of nodes, by index those of elements."""
 
-    def __init__(self) -> None:
-        """Nothing is said yet."""
-        self.said: dict[int, Said] = {}
-
-    @classmethod
-    def of(cls, appearance: Appearance) -> AppearanceDraft:
-        """The draft that gives this appearance."""
-        draft = cls()
-        for i in np.flatnonzero(appearance.cross_section).tolist():
-            sizes = appearance.dimensions[i].tolist()
-            draft.give([i], {"shape": Shape(int(appearance.cross_section[i]), *sizes)})
-        for name in _NUMBERS:
-            values = getattr(appearance, name)
-            rows = values.reshape(len(values), -1)[:, 0]
-            for i in np.flatnonzero(~np.isnan(rows)).tolist():
-                draft.give([i], {name: values[i].tolist()})
-        draft.give(np.flatnonzero(~appearance.drawn).tolist(), {"drawn": False})
-        return draft
-
-    def give(self, indices: Iterable[int], said: Said) -> None:
-        """Say something about elements; what is not said now stays as it was."""
-        if said:
-            for i in indices:
-                self.said.setdefault(i, {}).update(said)
-
-    def freeze(self, elements: int) -> Appearance | None:
-        """The appearance of this number of elements; None where nothing is said."""
-        if all(said == {"drawn": True} for said in self.said.values()):
-            return None
-        shapes, drawn = np.zeros((elements, 3)), np.ones(elements, bool)
-        numbers = {name: np.full((elements, *size), np.nan) for name, size in _NUMBERS.items()}
-        for i, said in self.said.items():
-            shapes[i] = said.get("shape", 0.0)
-            drawn[i] = said.get("drawn", True)
-            for name in said.keys() & _NUMBERS.keys():
-                numbers[name][i] = said[name]
-        kinds = shapes[:, 0].astype(np.int32)
-        return Appearance(kinds, shapes[:, 1:].copy(), **numbers, drawn=drawn)
-
-
-_Load = tuple[float, float, float]
-_NONE: _Load = (0.0, 0.0, 0.0)
-
-
-class LoadsDraft:
-    """What was said about loads, by numbers of nodes; x, y, z of each, zero where not given."""
-
-    def __init__(self) -> None:
-        """Nothing is said yet."""
-        self.force: dict[int, _Load] = {}
-        self.increment: dict[int, _Load] = {}
-        self.gravity: _Load = _NONE
-
-    @classmethod
-    def of(cls, loads: Loads, node_numbers: Sequence[int]) -> LoadsDraft:
-        """The draft that gives these loads."""
-        draft = cls()
-        draft.force = _rows(loads.force, node_numbers)
-        draft.increment = _rows(loads.increment, node_numbers)
-        x, y, z = loads.gravity.tolist()
-        draft.gravity = x, y, z
-        return draft
-
-    @property
-    def nodes(self) -> list[int]:
-        """Numbers of the nodes that bear something."""
-        both = (*self.force.items(), *self.increment.items())
-        return list(dict.fromkeys(number for number, load in both if any(load)))
-
-    def drop(self, number: int) -> None:
-        """Say nothing of a node any more."""
-        self.force.pop(number, None)
-        self.increment.pop(number, None)
-
-    def on(self, numbers: Iterable[int]) -> LoadsDraft:
-        """The loads on some nodes, without gravity."""
-        chosen, made = set(numbers), LoadsDraft()
-        made.force = {n: load for n, load in self.force.items() if n in chosen}
-        made.increment = {n: load for n, load in self.increment.items() if n in chosen}
-        return made
-
-    def add(
-        self, loads: LoadsDraft, new: Mapping[int, int], moved: Callable[[int, _Load], _Load]
-    ) -> None:
-        """Add the loads on nodes after a move to those that their images bear.
-
-        Args:
-            loads: Of which only those on nodes that have an image are taken.
-            new: Numbers of the images.
-            moved: The image of a load on a node.
-        """
-        for said, there in ((loads.force, self.force), (loads.increment, self.increment)):
-            for number, load in said.items():
-                if number in new:
-                    a, b, c = there.get(new[number], _NONE)
-                    x, y, z = moved(number, load)
-                    there[new[number]] = (a + x, b + y, c + z)
-
-    def freeze(self, node_numbers: Sequence[int]) -> Loads | None:
-        """The loads on these nodes; None where all are zero."""
-        loaded = self.nodes
-        place = {number: i for i, number in enumerate(node_numbers)} if loaded else {}
-        if not (any(number in place for number in loaded) or any(self.gravity)):
-            return None
-        rows = len(node_numbers)
-        force, increment = (_table(each, place, rows) for each in (self.force, self.increment))
-        return Loads(force, increment, np.array(self.gravity))
-
-
-def _rows(table: FloatArray, node_numbers: Sequence[int]) -> dict[int, _Load]:
-    made = {}
-    for i in np.flatnonzero(table.any(axis=1)).tolist():
-        x, y, z = table[i].tolist()
-        made[node_numbers[i]] = (x, y, z)
-    return made
-
-
-def _table(said: Mapping[int, _Load], place: Mapping[int, int], rows: int) -> FloatArray:
-    table = np.zeros((rows, 3))
-    for number, load in said.items():
-        if number in place:
-            table[place[number]] = load
-    return table
-
-
-_Numbers = tuple[float, ...]
-
-
-class PropertiesDraft:
-    """What was said about stiffness and mass, by indices of elements and numbers of nodes."""
-
-    def __init__(self) -> None:
-        """Nothing is said yet."""
-        self.stiffness: dict[int, _Numbers] = {}
-        self.mass: dict[int, _Numbers] = {}
-        self.node_mass: dict[int, _Numbers] = {}
-
-    @classmethod
-    def of(cls, properties: Properties, node_numbers: Sequence[int]) -> PropertiesDraft:
-        """The draft that gives these properties."""
-        draft = cls()
-        draft.stiffness = dict(rows_of(properties.stiffness))
-        draft.mass = dict(rows_of(properties.mass))
-        draft.node_mass = {node_numbers[i]: row for i, row in rows_of(properties.node_mass)}
-        return draft
-
-    def give(self, index: int, stiffness: _Numbers | None, mass: _Numbers | None) -> None:
-        """Say something about an element; what is not said now stays as it was."""
-        if stiffness is not None:
-            _require("stiffness", stiffness)
-        if mass is not None:
-            self.mass[index] = _require("mass", mass)
-        if stiffness is not None:
-            self.stiffness[index] = stiffness
-
-    def give_node(self, number: int, values: _Numbers) -> None:
-        """Say something about a node."""
-        self.node_mass[number] = _require("node_mass", values)
-
-    def renumber(self, new: Mapping[int, int]) -> None:
-        """Give elements new indices; of those that get none nothing is said any more."""
-        self.stiffness = {new[i]: row for i, row in self.stiffness.items() if i in new}
-        self.mass = {new[i]: row for i, row in self.mass.items() if i in new}
-
-    def freeze(self, elements: int, node_numbers: Sequence[int]) -> Properties | None:
-        """The properties of these elements and nodes; None where nothing is said."""
-        if not (self.stiffness or self.mass or self.node_mass):
-            return None
-        place = {number: i for i, number in enumerate(node_numbers)} if self.node_mass else {}
-        at_nodes = {place[n]: row for n, row in self.node_mass.items() if n in place}
-        return Properties(
-            _table_of_properties_draft("stiffness", elements, self.stiffness),
-            _table_of_properties_draft("mass", elements, self.mass),
-            _table_of_properties_draft("node_mass", len(node_numbers), at_nodes),
-        )
-
-
-def rows_of(table: FloatArray) -> Iterable[tuple[int, _Numbers]]:
-    """Index and numbers of each row of which something is given."""
-    for i in np.flatnonzero(~np.isnan(table[:, 0])).tolist():
-        yield i, tuple(value for value in table[i].tolist() if value == value)
-
-
-def _table_of_properties_draft(name: str, rows: int, said: Mapping[int, _Numbers]) -> FloatArray:
-    table = np.full((rows, NUMBERS[name]), np.nan)
-    for i, row in said.items():
-        table[i, : len(row)] = row
-    return table
-
-
-def _require(name: str, values: _Numbers) -> _Numbers:
-    what = "mass" if name == "node_mass" else name
-    if not 1 <= len(values) <= NUMBERS[name]:
-        raise model_error(
-            "bad-number", f"a {what} is 1 to {NUMBERS[name]} numbers, not {len(values)}"
-        )
-    if not all(map(math.isfinite, values)):
-        raise model_error("bad-number", f"a number of the {what} is not finite")
-    return values
-
-
-Vector = tuple[float, float, float]
-
-#: What the vector of an element is where none is given.
-NO_VECTOR: Vector = (0.0, 0.0, 0.0)
-
-#: Of the numbers of nodes and elements.
-LARGEST = 2**31 - 1
-#: Nodes that one message names.
-_MOST_LISTED = 5
-_CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
-
-
-class Draft(Lookup):
-    """Nodes and elements as lists and dictionaries, by their numbers."""
-
-    def __init__(self, planar: bool, owner: Owner) -> None:
-        """Start without nodes or elements; `owner` is what its handles are known by."""
-        super().__init__()
+    def __init__(self, planar: bool) -> None:
+        """Start without nodes or elements."""
         self.planar = planar
-        self.owner = owner
-        owner.draft = self
         self.node_kind: dict[int, int] = {}
-        self.node_value: dict[int, tuple[float, ...]] = {}
+        self.node_value: dict[int, Numbers] = {}
         #: Names of points, by the numbers of their position nodes.
         self.node_names: dict[int, str] = {}
+        self.node_mass: dict[int, Numbers] = {}
+        #: Loads: x, y, z of nodes that have some, and the acceleration of free fall.
+        self.force: dict[int, Vector] = {}
+        self.increment: dict[int, Vector] = {}
+        self.gravity: Vector = NO_VECTOR
         self.coordinate_class: dict[tuple[int, int], int] = {}
         #: Coordinates that were named one by one, so that they must exist.
         self.named: set[tuple[int, int]] = set()
         #: Nodes whose classes were given as a whole; one of the two must exist.
         self.whole: list[tuple[int, int]] = []
+        #: The first orientation of each point by its position node, and the other way round.
+        self.orientation_at: dict[int, int] = {}
+        self.position_of: dict[int, int] = {}
         self.kinds: list[int] = []
         self.numbers: list[int] = []
-        self.slots: list[tuple[int, int, int, int]] = []
+        self.slots: list[Slots] = []
         self.vectors: list[Vector] = []
         self.classes: list[tuple[int, ...]] = []
-        self.appearance = AppearanceDraft()
-        self.properties = PropertiesDraft()
-        self.loads = LoadsDraft()
+        self.names: dict[int, str] = {}
+        self.said: dict[int, Said] = {}
+        self.stiffness: dict[int, Numbers] = {}
+        self.mass: dict[int, Numbers] = {}
         #: Classes that were stated for single deformations, by index.
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
@@ -290,51 +90,11 @@ class Draft(Lookup):
         self.began_as: Source | None = None
         self.last_node = 0
         self.last_element = 0
-        #: The first orientation of each point by its position node, and the other way round.
-        self.orientation_at: dict[int, int] = {}
-        self.position_of: dict[int, int] = {}
+        self._places: tuple[float, Places] | None = None
 
-    @classmethod
-    def of(cls, data: ModelData, owner: Owner) -> Draft:
-        """The draft that gives the same arrays."""
-        draft = cls(data.planar, owner)
-        a = data.arrays
-        numbers = a.node_number.tolist()
-        draft.node_kind = dict(zip(numbers, a.node_kind.tolist(), strict=True))
-        draft.node_value = dict(zip(numbers, map(tuple, a.node_value.T.tolist()), strict=True))
-        for axis, node in np.argwhere(
-            (a.coordinate_class != Class.NONE) & (a.coordinate_class != Class.DEPENDENT)
-        ).tolist():
-            key = numbers[node], axis
-            draft.coordinate_class[key] = int(a.coordinate_class[axis, node])
-        with_zero = np.concatenate([np.zeros(1, np.int32), a.node_number])
-        draft.kinds = a.element_kind.tolist()
-        draft.numbers = a.element_number.tolist()
-        draft.slots = list(map(tuple, with_zero[a.element_node].T.tolist()))
-        draft.vectors = list(map(tuple, a.element_vector.T.tolist()))
-        draft.classes = list(map(tuple, a.deformation_class.T.tolist()))
-        draft.names = {i: name for i, name in enumerate(data.element_names) if name}
-        draft.node_names = {
-            number: name for number, name in zip(numbers, data.node_names, strict=True) if name
-        }
-        if data.properties is not None:
-            draft.properties = PropertiesDraft.of(data.properties, numbers)
-        if data.loads is not None:
-            draft.loads = LoadsDraft.of(data.loads, numbers)
-        if data.given_appearance is not None:
-            draft.appearance = AppearanceDraft.of(data.given_appearance)
-        draft.has_long_numbers = data.has_long_numbers
-        draft.began_as = data.source or data.began_as
-        draft.elements_given = len(draft.kinds)
-        draft.last_node = max(numbers, default=0)
-        draft.last_element = max(draft.numbers, default=0)
-        # Of several orientations at a place that with the lowest number was made with it.
-        ends = [end for p, op, q, oq in draft.slots for end in ((p, op), (q, oq)) if all(end)]
-        for position, orientation in sorted(ends, key=lambda end: end[1]):
-            draft.join(position, orientation)
-        return draft
+    # Nodes and elements -----------------------------------------------------
 
-    def add_node(self, kind: int, value: tuple[float, ...]) -> int:
+    def add_node(self, kind: int, value: Numbers) -> int:
         """Add a node and return its number."""
         number = self.last_node + 1
         if number > LARGEST:
@@ -342,7 +102,14 @@ class Draft(Lookup):
         self.last_node = number
         self.node_kind[number] = kind
         self.node_value[number] = value
-        self._added_node(number)
+        if is_position(kind):
+            known = vars(self)
+            if "_at_place" in known:
+                self._at_place.setdefault(value, []).append(number)
+            if "size" in known:
+                self.size = max(self.size, *map(abs, value[:3]))
+            if self._places is not None:
+                self._places[1].add(number)
         return number
 
     def join(self, position: int, orientation: int) -> None:
@@ -359,10 +126,10 @@ class Draft(Lookup):
     def add_element(
         self,
         kind: ElementKind,
-        slots: tuple[int, int, int, int],
+        slots: Slots,
         name: str,
         vector: Vector = NO_VECTOR,
-        released: Iterable[int] = (),
+        released: tuple[int, ...] = (),
         shape: Shape | None = None,
     ) -> int:
         """Add an element and return its number; `released` are part of what it is.
@@ -372,15 +139,15 @@ class Draft(Lookup):
         """
         self.require_two_ends(slots)
         index = len(self.kinds)
-        classes = _classes(kind.deformations, tuple(released))
+        classes = classes_of(kind.deformations, released)
         number = self.append_element(kind.number, slots, vector, classes)
         if name:
             self.name_element(index, name)
         if shape is not None:
-            self.appearance.give([index], {"shape": shape})
+            self.say_looks([index], {"shape": shape})
         return number
 
-    def require_two_ends(self, slots: tuple[int, int, int, int]) -> None:
+    def require_two_ends(self, slots: Slots) -> None:
         """Raise unless an element between these nodes has two ends, at two places.
 
         Raises:
@@ -405,26 +172,61 @@ class Draft(Lookup):
             )
 
     def append_element(
-        self, kind: int, slots: tuple[int, int, int, int], vector: Vector, classes: tuple[int, ...]
+        self, kind: int, slots: Slots, vector: Vector, classes: tuple[int, ...]
     ) -> int:
         """Add an element without a name, by the number of its kind, and return its number."""
         number = self.last_element + 1
         if number > LARGEST:
             raise model_error("number-too-large", "the model has no element number left")
         self.last_element = number
+        if "index_by_number" in vars(self):
+            self.index_by_number[number] = len(self.kinds)
         self.numbers.append(number)
         self.kinds.append(kind)
         self.slots.append(slots)
         self.vectors.append(vector)
         self.classes.append(classes)
-        self._added_element(len(self.kinds) - 1)
         return number
 
+    def keep_elements(self, kept: list[int]) -> None:
+        """Delete all elements but these, by their indices."""
+        new = {old: k for k, old in enumerate(kept)}
+        for name in ("kinds", "numbers", "slots", "vectors", "classes"):
+            column = getattr(self, name)
+            setattr(self, name, [column[i] for i in kept])
+        for name in ("names", "said", "stiffness", "mass"):
+            column = getattr(self, name)
+            setattr(self, name, {new[i]: each for i, each in column.items() if i in new})
+        self.stated = {(new[i], k): value for (i, k), value in self.stated.items() if i in new}
+        self.rigid = {new[i] for i in self.rigid if i in new}
+        self.elements_given = sum(i < self.elements_given for i in kept)
+        self.changed_names_or_places()
+
+    def drop_node(self, number: int) -> None:
+        """Delete a node that no element uses, and all that was said of it."""
+        columns: tuple[dict[int, Any], ...] = (
+            *(self.node_kind, self.node_value, self.node_names, self.node_mass),
+            *(self.force, self.increment, self.position_of, self.orientation_at),
+        )
+        for column in columns:
+            column.pop(number, None)
+        self.coordinate_class = {
+            place: value for place, value in self.coordinate_class.items() if place[0] != number
+        }
+        self.named = {place for place in self.named if place[0] != number}
+        self.whole = [both for both in self.whole if number not in both]
+        self.changed_names_or_places()
+
+    # What is said of them ---------------------------------------------------
+
+    def say_looks(self, indices: Iterable[int], said: Said) -> None:
+        """Say how elements are drawn; what is not said now stays as it was."""
+        if said:
+            for i in indices:
+                self.said.setdefault(i, {}).update(said)
+
     def give_properties(
-        self,
-        index: int,
-        stiffness: tuple[float, ...] | None = None,
-        mass: tuple[float, ...] | None = None,
+        self, index: int, stiffness: Numbers | None = None, mass: Numbers | None = None
     ) -> None:
         """Give an element the numbers of ESTIFF, of EM, or of both; see `Properties`.
 
@@ -433,19 +235,51 @@ class Draft(Lookup):
         Raises:
             ModelError: there are too many numbers, or one is not finite; nothing has changed.
         """
-        self.properties.give(index, stiffness, mass)
+        if stiffness is not None:
+            _require_numbers("stiffness", stiffness, "stiffness")
+        if mass is not None:
+            _require_numbers("mass", mass, "mass")
+            self.mass[index] = mass
+        if stiffness is not None:
+            self.stiffness[index] = stiffness
 
-    def give_node_mass(self, number: int, values: tuple[float, ...]) -> None:
+    def give_node_mass(self, number: int, values: Numbers) -> None:
         """Give a node the numbers of XM; see `Properties`.
 
         Raises:
             ModelError: there are too many numbers, or one is not finite; nothing has changed.
         """
-        self.properties.give_node(number, values)
+        _require_numbers("node_mass", values, "mass")
+        self.node_mass[number] = values
+
+    @property
+    def loaded(self) -> list[int]:
+        """Numbers of the nodes that bear a load."""
+        both = (*self.force.items(), *self.increment.items())
+        return list(dict.fromkeys(number for number, load in both if any(load)))
 
     def deformations_of(self, index: int) -> int:
         """How many deformations an element has, a rigid one counted as a beam."""
         return sum(c != Class.NONE for c in self.classes[index])
+
+    def is_rigid(self, index: int) -> bool:
+        """Whether an element is a rigid link: a beam or link that holds everything."""
+        if int(member_table()[self.kinds[index]]) not in (Member.BEAM, Member.LINK):
+            return False
+        return all(value in (Class.NONE, Class.FIXED) for value in self.classes[index])
+
+    @cached_property
+    def _components(self) -> RigidComponents:
+        return RigidComponents()
+
+    def rigid_components(self) -> RigidComponents:
+        """Points by the rigid links between them; elements that are new are added."""
+        made = self._components
+        for index in range(made.seen, len(self.kinds)):
+            if self.is_rigid(index):
+                made.add(self.slots[index])
+        made.seen = len(self.kinds)
+        return made
 
     def state_deformations(self, places: Iterable[tuple[int, int]], value: Class) -> None:
         """Note that deformations (index, number from 1) are stated to have a class.
@@ -466,16 +300,14 @@ class Draft(Lookup):
         classes = list(self.classes[index])
         classes[number - 1] = value
         self.classes[index] = tuple(classes)
-        if self.components is not None and index < self.components.seen:
-            self.components = None
+        if index < self._components.seen:
+            del self._components
 
     def declare(self, index: int, numbers: Iterable[int]) -> None:
         """Make deformations (from 1) of an element independent, whatever was said of them."""
-        classes = list(self.classes[index])
         for number in numbers:
-            classes[number - 1] = Class.INDEPENDENT
+            self.set_deformation(index, number, Class.INDEPENDENT)
             self.stated[index, number] = Class.INDEPENDENT
-        self.classes[index] = tuple(classes)
 
     def state_coordinates(self, places: Iterable[tuple[int, int]], value: Class) -> None:
         """Give coordinates (node number, axis) a class, all or none of them.
@@ -491,163 +323,132 @@ class Draft(Lookup):
                 raise _conflict(f"coordinate {name} of {self.node_words(number)}", before, value)
         self.coordinate_class.update((place, value) for place in wanted)
 
-    def freeze(self, name: str) -> ModelData:
-        """The model as it is now, with an error for each class of a node that nobody uses."""
-        kinds, slots, classes = self._decided()
-        used = np.unique(slots[slots > 0])
-        numbers = used.tolist()
-        node_kind = np.array([self.node_kind[n] for n in numbers], np.int32)
-        value = np.array([self.node_value[n] for n in numbers], np.float64).reshape(-1, 4)
-        arrays = model_arrays(
-            node_number=used,
-            node_kind=node_kind,
-            node_value=value.T,
-            coordinate_class=self._coordinate_classes(used, node_kind),
-            element_number=np.array(self.numbers, np.int64),
-            element_kind=kinds,
-            element_node=np.where(slots > 0, np.searchsorted(used, slots) + 1, 0).T,
-            element_vector=np.array(self.vectors, np.float64).reshape(-1, 3).T,
-            deformation_class=classes.T,
-        )
-        names = tuple(self.names.get(i, "") for i in range(len(self.kinds)))
-        node_names = tuple(self.node_names.get(n, "") for n in numbers) if self.node_names else ()
-        in_use = set(numbers)
-        in_vain = self._given_in_vain(in_use)
-        return ModelData(
-            arrays,
-            self.planar,
-            name,
-            names,
-            node_names,
-            found=self._wrong(in_vain),
-            besides=(*self._left_over(in_use), *self._same_names()),
-            given_appearance=self.appearance.freeze(len(self.kinds)),
-            properties=self.properties.freeze(len(self.kinds), numbers),
-            loads=self.loads.freeze(numbers),
-            has_long_numbers=self.has_long_numbers,
-            began_as=self.began_as,
-            called=frozenset(at for at, given in self.stated.items() if given == Class.DEPENDENT),
+    # Names and places -------------------------------------------------------
+
+    def changed_names_or_places(self) -> None:
+        """Forget what was found by names, numbers and places; it is found anew when asked for."""
+        for table in _TABLES:
+            vars(self).pop(table, None)
+        self._places = None
+
+    @cached_property
+    def size(self) -> float:
+        """The largest coordinate [m]."""
+        return max(
+            (
+                abs(x)
+                for number, kind in self.node_kind.items()
+                if is_position(kind)
+                for x in self.node_value[number][:3]
+            ),
+            default=0.0,
         )
 
-    def _wrong(self, in_vain: Sequence[int]) -> Problems | None:
-        wrong = [_unused(self.node_words(number)) for number in in_vain]
-        return Problems.of(wrong) if wrong else None
+    def nodes_at(self, value: Numbers) -> list[int]:
+        """Numbers of the position nodes at a place, in the order they were made.
 
-    def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
-        """Kinds, slots and classes, with the kind of every rigid element decided.
-
-        A rigid element is an RBEAM unless somebody needs the orientation of its
-        far end, which may have been given a class, as one of its deformations may.
+        Where there are none at exactly this place, those within 1e-9 of the model's size; the
+        table of them is made anew when the model has doubled.
         """
-        kinds = np.array(self.kinds, np.int32)
-        slots = np.array(self.slots, np.int64).reshape(-1, 4).astype(np.int32)
-        classes = np.array(self.classes, np.int32).reshape(-1, 6)
-        if not self.rigid:
-            return kinds, slots, classes
-        rigid = np.zeros(kinds.size, bool)
-        rigid[list(self.rigid)] = True
-        needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
-        # One that is fixed or declared holds or drives the body, also where its whole point is.
-        needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.coordinate_class))
-        needed.update(self.loads.nodes)
-        # Two links that end at one point carry it both, so that they are one body.
-        far, times = np.unique(slots[rigid, 3], return_counts=True)
-        needed.update(far[times > 1].tolist())
-        stated = {index for index, _ in self.stated}
-        short = kind_of("PLRBEAM" if self.planar else "RBEAM")
-        for index in self.rigid:
-            if slots[index, 3] not in needed and index not in stated:
-                kinds[index] = short.number
-                slots[index, 3] = 0
-                classes[index] = _classes(short.deformations, ())
-        return kinds, slots, classes
+        found = self._at_place.get(value, [])
+        if found or not self.size:
+            return found
+        if self._places is None or self.size > 2.0 * self._places[0]:
+            places = Places(self.node_kind, self.node_value, ROUNDING * self.size)
+            self._places = self.size, places
+        return self._places[1].near(value[:3], ROUNDING * self.size)
 
-    def _coordinate_classes(self, used: IntArray, node_kind: IntArray) -> IntArray:
-        of_kind = np.zeros((len(NodeKind) + 1, 3), np.int32)
-        for kind, axes in AXES.items():
-            of_kind[kind, list(axes)] = Class.DEPENDENT
-        classes = of_kind[node_kind].reshape(-1, 3)
-        if self.coordinate_class and used.size:
-            stated = np.array(list(self.coordinate_class), np.int64)
-            values = np.array(list(self.coordinate_class.values()), np.int32)
-            place = np.minimum(np.searchsorted(used, stated[:, 0]), used.size - 1)
-            there = used[place] == stated[:, 0]
-            classes[place[there], stated[there, 1]] = values[there]
-        return classes.T
+    @cached_property
+    def _at_place(self) -> dict[Numbers, list[int]]:
+        positions = (number for number, kind in self.node_kind.items() if is_position(kind))
+        return grouped((self.node_value[number], number) for number in positions)
 
-    def _left_over(self, used: set[int]) -> Iterator[Diagnostic]:
-        """Warnings about points, masses and loads that nothing uses."""
-        points = [
-            number
-            for number, kind in self.node_kind.items()
-            if is_position(kind) and used.isdisjoint((number, self.orientation_at.get(number)))
-        ]
-        if points:
-            yield _warning_of_unused(
-                f"no element uses {self._listed(points)}", "join it to something, or leave it out"
-            )
-        if masses := [number for number in self.properties.node_mass if number not in used]:
-            yield _warning_of_unused(
-                f"{self._listed(masses)} is given a mass, but no element uses it",
-                "give it to a node that an element uses",
-            )
-        if loads := [number for number in self.loads.nodes if number not in used]:
-            yield _warning_of_unused(
-                f"{self._listed(loads)} is given a load, but no element uses it",
-                "give it to a node that an element uses",
-            )
+    @cached_property
+    def parts_by_name(self) -> dict[str, list[int]]:
+        """Indices of elements by the name of their part, ascending."""
+        return grouped((part_name(self.names[index]), index) for index in sorted(self.names))
 
-    def _same_names(self) -> Iterator[Diagnostic]:
-        """Warnings about parts of one name that hang together, so that the core sees one part.
+    @cached_property
+    def points_by_name(self) -> dict[str, list[int]]:
+        """Numbers of position nodes by their names."""
+        return grouped((name, number) for number, name in self.node_names.items())
 
-        Names in a deck are comments of its lines, which may be alike; twins are told as such.
+    @cached_property
+    def index_by_number(self) -> dict[int, int]:
+        """Index of each element by its number."""
+        return {number: i for i, number in enumerate(self.numbers)}
+
+    def shares(self, indices: list[int]) -> bool:
+        """Whether elements of one part's name are those of several parts.
+
+        Those of one part are numbered behind its name, or there is a single one.
         """
-        for name, found in self.parts_by_name.items():
-            twins = len({self.slots[index] for index in found}) < len(found)
-            if found[-1] < self.elements_given or twins or not self.shares(found):
-                continue
-            if self._is_one(found):
-                yield Diagnostic(
-                    Severity.WARNING,
-                    "repeated-name",
-                    f"several parts that hang together are called {in_short(name)}",
-                    help="give each a name of its own: this one finds none of them",
-                )
+        if len(indices) < 2:
+            return False
+        own = {self.names[index] for index in indices}
+        return len(own) < len(indices) or any(name == part_name(name) for name in own)
 
-    def _is_one(self, indices: Sequence[int]) -> bool:
-        """Whether elements hang together by their nodes."""
-        left, nodes = list(indices[1:]), {*self.slots[indices[0]]} - {0}
-        grown = True
-        while left and grown:
-            near = [index for index in left if not nodes.isdisjoint(self.slots[index])]
-            grown = bool(near)
-            nodes.update(node for index in near for node in self.slots[index] if node)
-            left = [index for index in left if index not in near]
-        return not left
+    def name_node(self, number: int, name: str) -> None:
+        """Name a node, or with an empty name take its name away."""
+        if number in self.node_names:
+            vars(self).pop("points_by_name", None)
+            del self.node_names[number]
+        if name := one_line(name):
+            self.node_names[number] = name
+            if "points_by_name" in vars(self):
+                self.points_by_name.setdefault(name, []).append(number)
 
-    def _listed(self, numbers: Sequence[int]) -> str:
-        """Nodes by name, or by number where they have none; of many the first."""
-        words = [
-            f"'{self.node_names[number]}'" if number in self.node_names else f"node {number}"
-            for number in numbers[:_MOST_LISTED]
-        ]
-        more = len(numbers) - _MOST_LISTED
-        return ", ".join(words) + (f" and {more} more" if more > 0 else "")
+    def name_element(self, index: int, name: str) -> None:
+        """Name an element, or with an empty name take its name away."""
+        old = self.names.pop(index, None)
+        made = one_line(name)
+        if made:
+            self.names[index] = made
+        known = vars(self).get("parts_by_name")
+        if known is not None and old is not None:
+            known[part_name(old)].remove(index)
+            if not known[part_name(old)]:
+                del known[part_name(old)]
+        if known is not None and made:
+            insort(known.setdefault(part_name(made), []), index)
 
-    def _given_in_vain(self, used: set[int]) -> list[int]:
-        """Nodes that were given a class and are not in use."""
-        vain = {number for number, _ in self.named if number not in used}
-        for position, orientation in self.whole:
-            if position not in used and orientation not in used:
-                vain.add(position)
-        return sorted(vain)
+    def index_of(self, number: int) -> int:
+        """Index of the element with this number.
+
+        Raises:
+            ModelError: there is none.
+        """
+        index = self.index_by_number.get(number)
+        if index is None:
+            raise model_error("no-such-element", f"there is no element {in_short(number)}")
+        return index
+
+    def element_words(self, index: int) -> str:
+        """What messages call an element."""
+        name = self.names.get(index)
+        return in_short(name) if name else f"element {self.numbers[index]}"
+
+    def node_words(self, number: int) -> str:
+        """What messages call a node."""
+        name = self.node_names.get(number)
+        return f"point {in_short(name)}" if name else f"node {number}"
 
 
-def _classes(deformations: int, released: tuple[int, ...]) -> tuple[int, ...]:
+def classes_of(deformations: int, released: tuple[int, ...]) -> tuple[int, ...]:
+    """(6,) classes of an element with so many deformations, all held but those released."""
     return tuple(
         0 if k > deformations else int(Class.DEPENDENT if k in released else Class.FIXED)
         for k in range(1, 7)
     )
+
+
+def _require_numbers(name: str, values: Numbers, what: str) -> None:
+    if not 1 <= len(values) <= NUMBERS[name]:
+        raise model_error(
+            "bad-number", f"a {what} is 1 to {NUMBERS[name]} numbers, not {len(values)}"
+        )
+    if not all(map(math.isfinite, values)):
+        raise model_error("bad-number", f"a number of the {what} is not finite")
 
 
 def _conflict(what: str, before: int, now: int) -> ModelError:
@@ -656,17 +457,4 @@ def _conflict(what: str, before: int, now: int) -> ModelError:
         "class-conflict",
         f"{what} is given two classes: {words}",
         "keep one of the two, or name other components",
-    )
-
-
-def _warning_of_unused(message: str, hint: str) -> Diagnostic:
-    return Diagnostic(Severity.WARNING, "unused-node", message, help=hint)
-
-
-def _unused(node: str) -> Diagnostic:
-    return Diagnostic(
-        Severity.ERROR,
-        "no-such-node",
-        f"{node} is given a class, but no element uses it",
-        help="name the node in an element, or leave its class out",
     )

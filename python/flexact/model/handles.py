@@ -5,36 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
+from .draft import Draft
 from .names import part_name
 
-if TYPE_CHECKING:
-    from .draft import Draft
-
 T = TypeVar("T")
-
-
-class Owner:
-    """One model, as its handles know it: they belong to it, and ask it for names and places."""
-
-    def __init__(self) -> None:
-        """Of a model without a draft so far."""
-        self.draft: Draft | None = None
-
-    def node_name(self, number: int) -> str:
-        """Name of a node, empty without one."""
-        return "" if self.draft is None else self.draft.node_names.get(number, "")
-
-    def node_place(self, number: int) -> tuple[float, ...]:
-        """Where a position node is [m]; empty where there is no such node any more."""
-        if self.draft is None or number not in self.draft.node_value:
-            return ()
-        return self.draft.node_value[number][: 2 if self.draft.planar else 3]
-
-    def element_name(self, number: int) -> str:
-        """Name of an element, empty without one."""
-        return "" if self.draft is None else self.draft.name_of(number)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -46,21 +22,23 @@ class Node:
     Attributes:
         position: Number of the position node.
         orientation: Number of the orientation node.
+        owner: The draft of its model, which knows its name and place.
     """
 
     position: int
     orientation: int
-    owner: Owner
+    owner: Draft
 
     @property
     def name(self) -> str:
         """What the point is called, empty without a name."""
-        return self.owner.node_name(self.position)
+        return self.owner.node_names.get(self.position, "")
 
     @property
     def place(self) -> tuple[float, ...]:
-        """(3,) or, in a planar model, (2,) position [m]."""
-        return self.owner.node_place(self.position)
+        """(3,) or, in a planar model, (2,) position [m]; empty where the point was deleted."""
+        value = self.owner.node_value.get(self.position, ())
+        return value[: 2 if self.owner.planar else 3]
 
     @property
     def words(self) -> str:
@@ -79,15 +57,16 @@ class Element:
 
     Attributes:
         number: Number of the element.
+        owner: The draft of its model.
     """
 
     number: int
-    owner: Owner
+    owner: Draft
 
     @property
     def name(self) -> str:
         """What the element is called, empty without a name."""
-        return self.owner.element_name(self.number)
+        return self.owner.names.get(self.owner.index_by_number.get(self.number, -1), "")
 
     @property
     def elements(self) -> tuple[Element, ...]:

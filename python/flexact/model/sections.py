@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -13,10 +13,10 @@ from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity, QuantityError
 from ..util.text import in_short
+from .arguments import numbers, numbers_of_size, real
 from .attributes import CrossSection
 from .draft import Shape
 from .names import nearest
-from .selection import Section, numbers_of_size, real, shape_of, sheet_shape, size_of
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -149,6 +149,40 @@ class Make(NamedTuple):
         return self._replace(stiffness=(axial, torsion * factor, *bending))
 
 
+#: A diameter, or two sizes [m].
+Section = Quantity | Sequence[Quantity]
+
+
+def shape_of(section: Section | None) -> Shape | None:
+    """A cross-section from a diameter, or from the sizes along local y and z [m], or none.
+
+    Raises:
+        ModelError: it is neither, or a size is not positive and finite.
+    """
+    if section is None:
+        return None
+    what = "a section is a diameter, or two sizes along the local y and z axes"
+    if isinstance(section, Iterable) and not isinstance(section, str):
+        sizes = numbers(section, 2, what, "m")
+    else:
+        sizes = numbers([section], 1, what, "m")
+    if not all(size > 0.0 for size in sizes):
+        raise model_error(
+            "bad-size", "a size of a cross-section is not positive", "give sizes in metres"
+        )
+    kind = CrossSection.CIRC if len(sizes) == 1 else CrossSection.RECT
+    return Shape(kind, sizes[0], sizes[-1])
+
+
+def sheet_shape(section: Section | None) -> Shape | None:
+    """A cross-section from the width and the thickness of a sheet, whose width is local z."""
+    if section is None:
+        return None
+    what = "the section of a sheet is its width and its thickness"
+    width, thickness = numbers(section, 2, what, "m")
+    return shape_of((thickness, width))
+
+
 class Constants(NamedTuple):
     """Of a cross-section: area [m2], second moments about local y and z, torsion [m4]."""
 
@@ -194,19 +228,16 @@ def sheet_section(
     Raises:
         ModelError: something is given twice, or one of the two sizes is missing.
     """
-    if section is None and thickness is None and breadth is None:
-        return None
-    if section is not None:
-        if thickness is not None or breadth is not None:
-            raise _twice()
+    if thickness is None and breadth is None:
         return sheet_shape(section)
+    _require_once(section)
     if thickness is None or breadth is None:
         raise model_error(
             "missing-section",
             "a sheet needs both its thickness and its breadth, the size along its width",
             _SIZES["sheet"],
         )
-    return sheet_shape((size_of(breadth, "breadth"), size_of(thickness, "thickness")))
+    return sheet_shape((_size(breadth, "breadth"), _size(thickness, "thickness")))
 
 
 def round_section(section: Section | None, thickness: Quantity | None) -> Shape | None:
@@ -217,15 +248,20 @@ def round_section(section: Section | None, thickness: Quantity | None) -> Shape 
     """
     if thickness is None:
         return shape_of(section)
+    _require_once(section)
+    return shape_of(_size(thickness, "thickness"))
+
+
+def _require_once(section: object) -> None:
     if section is not None:
-        raise _twice()
-    return shape_of(size_of(thickness, "thickness"))
+        raise model_error(
+            "given-twice", "the section is given twice", "leave out section, or the single sizes"
+        )
 
 
-def _twice() -> Exception:
-    return model_error(
-        "given-twice", "the section is given twice", "leave out section, or the single sizes"
-    )
+def _size(given: object, what: str) -> float:
+    """A size [m]; `shape_of` asks that it be positive."""
+    return numbers([given], 1, f"the {what} is a number", "m")[0]
 
 
 def constants_of(shape: Shape) -> Constants:

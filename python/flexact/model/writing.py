@@ -10,10 +10,9 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
 from ..deck.comments import ELEMENT, GRAVITY, DeckComments, comments_of
-from .attributes import Appearance, CrossSection
+from .attributes import Appearance, CrossSection, rows_of
 from .data import ModelData
-from .draft import rows_of
-from .places import one_line
+from .names import one_line
 
 _IDENTITY = {
     NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
-from ..analysis.decomposition import Outcome
+from ..analysis.decomposition import Decomposition
 from ..analysis.naming import Line, Pieces, length_in_words, sentence
 from ..util.records import Frozen
 from .follow import Ending
@@ -158,7 +158,7 @@ _STOPS = {
 }
 
 
-def extent_in_words(outcome: Outcome, extent: Extent) -> Pieces:
+def extent_in_words(outcome: Decomposition, extent: Extent) -> Pieces:
     """Whether a motion goes on, and what says so; such as "it goes on: followed over ..."."""
     if extent.reason is Reason.NO_SELF_STRESS:
         none = "as there is no self-stress"

@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..analysis.decomposition import column_weights
-from ..analysis.modes import Motion
-from ..analysis.spaces import Spaces
+from ..analysis.limits import CLEAR_SLOPE, RIGID, ROUNDING, STRAINED, UNSTRAINED
+from ..analysis.result import Motion, Result
 from ..core.arrays import FloatArray
 from ..model.parts.parts import Part
 from ..util.loading import load
@@ -241,13 +241,6 @@ def _branch(shares: FloatArray, vectors: dict[int, FloatArray]) -> Branch:
 
 #: More motions are not followed; forms that cost more than this work are not made.
 _MOST_FOLLOWED, _MOST_WORK = 40, 400_000.0
-#: Singular values of the derivatives of the forms above this are not zero.
-_CLEAR_OF_ZERO = 1.0e-6
-#: A motion is rigid where this part of it is not.
-_RIGID = 1.0e-7
-#: Beside the largest entry of the forms: values from the first on are not zero, and up to the
-#: second they are, as told motions are found by elimination.
-_STRAINED, _UNSTRAINED = 1.0e-6, 1.0e-7
 
 
 class Decided(NamedTuple):
@@ -262,7 +255,7 @@ class Decided(NamedTuple):
 class Judge:
     """A component whose motions feel a self-stress."""
 
-    def __init__(self, spaces: Spaces, component: Component) -> None:
+    def __init__(self, spaces: Result, component: Component) -> None:
         """Make the model of the component."""
         self.spaces, self.felt = spaces, Felt(spaces, component)
         self.size, self._asked = self.felt.held.size, 0
@@ -274,7 +267,7 @@ class Judge:
         vectors: dict[int, FloatArray] = {}
         for k, vector in told.items():
             within = self.felt.within(self.felt.of(vector))
-            if np.linalg.norm(within) <= _RIGID * self.felt.norm(vector):
+            if np.linalg.norm(within) <= RIGID * self.felt.norm(vector):
                 motions[k] = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.RIGID)
             else:
                 vectors[k] = within
@@ -332,17 +325,17 @@ class Judge:
         if self.motions <= self.stresses:
             return False
         values = np.linalg.svd(self.forms.along(unit), compute_uv=False)
-        return bool(values.min() > max(self.forms.error, _CLEAR_OF_ZERO))
+        return bool(values.min() > max(self.forms.error, CLEAR_SLOPE))
 
     def _of_motion(self, vector: FloatArray) -> Extent:
         unit = vector / np.linalg.norm(vector)
         strain = float(np.linalg.norm(self.forms.of(unit)))
         size = float(np.abs(self.forms.matrix).max(initial=0.0))
-        if strain > max(self.forms.error, _STRAINED * size):
+        if strain > max(self.forms.error, STRAINED * size):
             return self._extent(
                 *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.STRAINED), curvature=strain
             )
-        is_zero = strain <= max(self.forms.error, _UNSTRAINED * size)
+        is_zero = strain <= max(self.forms.error, UNSTRAINED * size)
         if is_zero and (self._is_indefinite or self._is_regular(unit)):
             return self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.REGULAR)
         self._asked += 1
@@ -411,12 +404,10 @@ def _lines_of(form: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 #: More components than this are not looked at, nor more motions in one, nor entries of these.
 _MOST_COMPONENTS, _MOST_MOTIONS, _MOST_ENTRIES = 60, 400, 4_000_000
-#: A told motion has no part in a component where it is below this.
-_UNSEEN = 1.0e-9
 _FREE = Extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS)
 
 
-def extents_of(spaces: Spaces) -> Extents:
+def extents_of(spaces: Result) -> Extents:
     """Whether each motion of an analysis goes on or only begins.
 
     A component without self-stress: D(x) = 0 is a manifold there, and each motion is finite
@@ -456,7 +447,7 @@ def _of_all(parts: list[Extent]) -> Extent:
     return min(felt, key=lambda part: (order[part.kind], by_proof.get(part.evidence, 3)))
 
 
-def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int, FloatArray]]:
+def _told_in(spaces: Result, components: tuple[Component, ...]) -> list[dict[int, FloatArray]]:
     """For each component (columns of it,) of each told motion that has a part in it."""
     told, made = spaces.motion_basis, []
     owner, there = np.full(spaces.columns, -1), np.zeros(spaces.columns, np.int64)
@@ -467,7 +458,7 @@ def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int
     vector, weighted = told.of_entries(), np.abs(told.value * column_weights(spaces)[told.place])
     largest = np.zeros(told.vectors)
     np.maximum.at(largest, vector, weighted)
-    seen = weighted > _UNSEEN * largest[vector]
+    seen = weighted > ROUNDING * largest[vector]
     pairs = np.unique(np.stack([owner[told.place], vector])[:, seen], axis=1)
     for index, k in pairs.T.tolist():
         if index < 0:
@@ -480,7 +471,7 @@ def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int
 
 
 def _of_component(
-    spaces: Spaces, component: Component, told: dict[int, FloatArray], looked_at: bool
+    spaces: Result, component: Component, told: dict[int, FloatArray], looked_at: bool
 ) -> Decided:
     many = len(component.motions)
     too_large = many > _MOST_MOTIONS or many * component.columns.size > _MOST_ENTRIES

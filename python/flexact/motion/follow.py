@@ -14,6 +14,7 @@ from enum import Enum
 import numpy as np
 
 from ..analysis.body_motions import Velocities
+from ..analysis.limits import TRUE, ZERO_ELSEWHERE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
 from ..util.records import Frozen
@@ -202,11 +203,6 @@ def station_there(
     return station_at(held, where, rank, along, arc, residual, 0.0, values)
 
 
-#: Held deformations up to this part of the size are zero.
-TRUE = 1.0e-12
-#: Scaled singular values up to here are zero away from the reference, where rounding of
-#: positions is magnified.
-ZERO = 1.0e-10
 #: Where the null space is larger than the path is wide, what exceeds rounding is corrected within
 #: it; a multiple zero of D(x) is known to half as many digits, and singular values that were zero
 #: count as such up to here.
@@ -226,7 +222,7 @@ _FEWEST = 6
 
 
 def follow_both_ways(
-    motion: Velocities, rank: int, wishes: Wishes, zero: float = ZERO
+    motion: Velocities, rank: int, wishes: Wishes, zero: float = ZERO_ELSEWHERE
 ) -> tuple[Followed, Followed]:
     """The path of a motion against it and along it; see `follow`."""
     held = Held(motion.data)
@@ -242,7 +238,7 @@ def follow(
     direction: FloatArray,
     rank: int,
     wishes: Wishes,
-    zero: float = ZERO,
+    zero: float = ZERO_ELSEWHERE,
     on_step: Callable[[float], None] | None = None,
 ) -> Followed:
     """The path from the reference on, along a motion.

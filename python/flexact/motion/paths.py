@@ -12,9 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.limits import TRUE
 from ..core.arrays import FloatArray
 from .extent import EvidenceKind, Extent, Fit, Kind, Reason
-from .follow import TRUE, Ending, Wishes, follow
+from .follow import Ending, Wishes, follow
 from .reduced import Here, Reduced, across
 
 #: Where several motions begin there may be several ways: the steps begin at so many further

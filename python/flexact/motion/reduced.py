@@ -14,10 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.decomposition import column_weights, row_weights
-from ..analysis.spaces import Spaces
+from ..analysis.limits import ROUNDING
+from ..analysis.result import Result
 from ..core.arrays import Basis, FloatArray, ModelArrays
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
+from ..util.groups import least_of_groups
+from ..util.matrices import complement, null_space, span
 from ..util.records import Frozen, cached_property
 from .constraints import Held
 
@@ -42,22 +45,23 @@ class Component(Frozen):
     stresses: int
 
 
-def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
+def components_of(spaces: Result) -> tuple[tuple[Component, ...], int]:
     """The components in which both motions and self-stresses are, and all other motions' number.
 
     All motions have to be known. A vector that reaches over several components makes one of them.
     """
     columns, basis = spaces.columns, spaces.motion_space
-    groups = _Groups(columns + spaces.data.arrays.element_number.size)
+    pairs = []
     nodes, elements = _incidence(spaces)
     node, axis = spaces.raw.column_label - 1
     column_at = np.full((spaces.data.arrays.node_kind.size, 3), -1)
     column_at[node, axis] = np.arange(columns)
     for k in range(3):
         there = column_at[nodes, k]
-        groups.join(there[there >= 0], elements[there >= 0] + columns)
-    groups.join(*_within_vectors(basis))
-    group = groups.found()
+        pairs.append((there[there >= 0], elements[there >= 0] + columns))
+    pairs.append(_within_vectors(basis))
+    one, other = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    group = least_of_groups(columns + spaces.data.arrays.element_number.size, one, other)
     moving = _of_vectors(group, basis)
     # Rows less rank, by component.
     stresses = np.bincount(group[spaces.raw.row_label[0] - 1 + columns], minlength=group.size)
@@ -104,7 +108,7 @@ def _seen(basis: Basis) -> NDArray[np.bool_]:
     return np.abs(basis.value) > _UNSEEN
 
 
-def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def _incidence(spaces: Result) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Nodes and elements that hold something, side by side."""
     arrays = spaces.data.arrays
     held = (arrays.deformation_class == Class.FIXED) | (
@@ -114,35 +118,6 @@ def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]
     return arrays.element_node[slot, element] - 1, element
 
 
-class _Groups:
-    """Numbers that are joined."""
-
-    def __init__(self, size: int) -> None:
-        self._pairs: list[tuple[NDArray[np.integer], NDArray[np.integer]]] = []
-        self._size = size
-
-    def join(self, one: NDArray[np.integer], other: NDArray[np.integer]) -> None:
-        """Join each of some with each of others, side by side."""
-        self._pairs.append((one, other))
-
-    def found(self) -> NDArray[np.integer]:
-        """(size,) the least number of the group of each."""
-        one = np.concatenate([pair[0] for pair in self._pairs])
-        other = np.concatenate([pair[1] for pair in self._pairs])
-        group = np.arange(self._size)
-        while True:
-            before = group.copy()
-            least = np.minimum(group[one], group[other])
-            # The roots of both are joined, then the ways are shortened.
-            np.minimum.at(group, group[one], least)
-            np.minimum.at(group, group[other], least)
-            np.minimum.at(group, one, least)
-            np.minimum.at(group, other, least)
-            group = group[group]
-            if np.array_equal(group, before):
-                return group
-
-
 #: The axes in which a node of each kind can move or turn.
 _AXES = {
     NodeKind.PLANAR_POSITION: (0, 1),
@@ -150,8 +125,6 @@ _AXES = {
     NodeKind.ANGLE: (2,),
     NodeKind.ORIENTATION: (0, 1, 2),
 }
-#: What is below this is zero.
-_ZERO = 1.0e-9
 
 
 def rigid_motions(held: Held) -> FloatArray:
@@ -164,12 +137,8 @@ def rigid_motions(held: Held) -> FloatArray:
     fields = _fields(held)
     free = np.isin(every, held.columns)
     stopped = fields[every[~free]]
-    ways = np.eye(6)
-    if stopped.size:
-        _, values, right = np.linalg.svd(np.linalg.qr(stopped, mode="r"))
-        ways = right[int(np.count_nonzero(values > _ZERO)) :].T
-    left, values, _ = np.linalg.svd(fields[held.columns] @ ways, full_matrices=False)
-    return np.asarray(left[:, values > _ZERO])
+    ways = null_space(np.asarray(np.linalg.qr(stopped, mode="r")), ROUNDING)
+    return span(fields[held.columns] @ ways, ROUNDING)
 
 
 def leading_rows(vectors: FloatArray) -> NDArray[np.integer]:
@@ -216,7 +185,7 @@ class Felt:
         is_small: Whether a position in it costs little.
     """
 
-    def __init__(self, spaces: Spaces, component: Component) -> None:
+    def __init__(self, spaces: Result, component: Component) -> None:
         """Make the model of a component and take the null vectors over."""
         data, node_place, element_place = _alone(spaces.data, component.elements)
         whole = Held(data)
@@ -271,7 +240,7 @@ class Felt:
 
 
 def _of_space(
-    spaces: Spaces, many: int, element_place: NDArray[np.integer], held: Held
+    spaces: Result, many: int, element_place: NDArray[np.integer], held: Held
 ) -> FloatArray | None:
     """(m, s) orthonormal, what the self-stresses of the analysis have in a component."""
     if spaces.raw.stresses.vectors < spaces.over_constrained:
@@ -383,8 +352,8 @@ class Reduced:
     def __init__(self, felt: Felt, stresses: FloatArray) -> None:
         """Complete the null vectors to bases of all coordinates and deformations."""
         self.felt, self.stresses = felt, stresses
-        self._across = _complement(felt.motions)
-        self._rest = _complement(stresses)
+        self._across = complement(felt.motions)
+        self._rest = complement(stresses)
         share = (_FEW_COORDINATES / max(felt.motions.shape[0], _FEW_COORDINATES)) ** 2
         self._left = _FEWEST_POSITIONS + int(_MOST_POSITIONS * share)
 
@@ -469,11 +438,6 @@ class Reduced:
         return here
 
 
-def _complement(vectors: FloatArray) -> FloatArray:
-    """(n, n - k) what completes orthonormal vectors (n, k) to a basis."""
-    return np.asarray(np.linalg.qr(vectors, mode="complete")[0][:, vectors.shape[1] :])
-
-
 def across(vectors: FloatArray) -> FloatArray:
-    """(N, N - k) likewise, of vectors of any length."""
-    return _complement(np.linalg.qr(vectors)[0])
+    """(N, N - k) orthonormal, across independent vectors (N, k)."""
+    return complement(np.linalg.qr(vectors)[0])

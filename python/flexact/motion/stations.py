@@ -16,8 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..analysis.body_motions import Velocities
+from ..analysis.limits import ZERO_AT_REFERENCE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
+from ..util.matrices import complement
 from ..util.records import Frozen
 from .constraints import Held, Place
 
@@ -322,8 +324,6 @@ _STATIONS_SETTLED = 2.0e-16
 _GOES_DOWN = 1.0e-4
 #: Damping, times the largest singular value squared: at first, and how it changes.
 _DAMPING, _MORE, _LESS, _MOST = 1.0e-3, 8.0, 0.1, 1.0e8
-#: Scaled singular values up to here are zero where no rank is given.
-_ZERO = 1.0e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -356,8 +356,9 @@ def least_error(
         rank: Of D(c) at the reference; by default as its scaled singular values say.
     """
     held = motion if isinstance(motion, Held) else Held(motion.data)
-    known = int(np.count_nonzero(held.values(held.reference) > _ZERO)) if rank is None else rank
-    chart = Chart(held, held.reference, known)
+    if rank is None:
+        rank = int(np.count_nonzero(held.values(held.reference) > ZERO_AT_REFERENCE))
+    chart = Chart(held, held.reference, rank)
     ahead = direction * (distance / held.reach(direction))
     near = least_near(chart, ahead)
     return Least(
@@ -372,7 +373,7 @@ def least_near(chart: Chart, ahead: FloatArray) -> Near:
     """The place of the least error after a step (n,) ahead from the middle of a chart."""
     held, along = chart.held, ahead / np.linalg.norm(ahead)
     change = _in_chart(chart, ahead, along)
-    basis = across(along)
+    basis = complement(along[:, None])
 
     def errors(share: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         place = held.at(chart.middle, ahead + change + basis @ share)
@@ -408,11 +409,6 @@ def _in_chart(chart: Chart, ahead: FloatArray, along: FloatArray) -> FloatArray:
         share = descend(rest, share, _MOST_IN_CHART)
     near = chart.near(ahead + free @ share) or first
     return free @ share + near.across
-
-
-def across(ahead: FloatArray) -> FloatArray:
-    """(n, n - 1) an orthonormal basis of all directions across a unit vector."""
-    return np.asarray(np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:])
 
 
 Descended = Callable[[FloatArray], "tuple[FloatArray, FloatArray] | None"]

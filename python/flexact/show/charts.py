@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -272,7 +273,6 @@ class Chart(Frozen):
         y: The axis up.
         curves: The earlier ones lie below.
         marks: Special places on curves.
-        note: A sentence below; may be empty.
     """
 
     name: str
@@ -282,7 +282,21 @@ class Chart(Frozen):
     y: Scale
     curves: tuple[Curve, ...]
     marks: tuple[Mark, ...] = ()
-    note: str = ""
+
+    @property
+    def heading(self) -> str:
+        """The title with the unit of what is up."""
+        return f"{self.title}{self.y.heading}"
+
+    @property
+    def along(self) -> str:
+        """What is along, with its unit."""
+        return f"{self.x_title}{self.x.heading}"
+
+    @property
+    def ends(self) -> list[tuple[Curve, tuple[float, float]]]:
+        """The curves that have a value, with their last points."""
+        return [(curve, curve.end) for curve in self.curves if curve.end is not None]
 
 
 class Bar(NamedTuple):
@@ -345,9 +359,60 @@ class BarChart(Frozen):
     note: str = ""
 
     @property
-    def rows(self) -> int:
-        """How many rows there are."""
-        return sum(len(group.rows) for group in self.groups)
+    def heading(self) -> str:
+        """The title with the unit of what is along."""
+        return f"{self.title}{self.x.heading}"
+
+    def height(self, row: float, between: float) -> float:
+        """How high all groups are together, of the heights of a row and of the room of a group."""
+        return sum(len(group.rows) for group in self.groups) * row + len(self.groups) * between
+
+    def layout(
+        self, top: float, row: float, between: float
+    ) -> Iterator[tuple[Group, float, float, list[tuple[Row, float]]]]:
+        """Each group, where it begins and how high it is, and its rows with where they begin."""
+        for group in self.groups:
+            first = top + between / 2
+            rows = [(each, first + k * row) for k, each in enumerate(group.rows)]
+            height = len(group.rows) * row + between
+            yield group, top, height, rows
+            top += height
+
+
+class KeyRow(NamedTuple):
+    """A design in the key of charts."""
+
+    series: int
+    """Which design, from 0."""
+    label: str
+    """What stands at its curves."""
+    words: str
+    """What it is."""
+    cells: tuple[str, ...]
+    """As many as there are headings."""
+
+
+class Key(NamedTuple):
+    """The key of charts, a table of the designs: headings of the columns, and rows."""
+
+    heads: tuple[str, ...]
+    rows: tuple[KeyRow, ...]
+
+
+#: A mark on a place that is higher than this part of an axis stands below it, else above.
+_HIGH = 0.2
+
+
+def mark_side(mark: Mark, across: float, up: float) -> tuple[int, bool]:
+    """On which side of its place a mark is told: 1 right, -1 left, 0 amid a pair; and if below.
+
+    Args:
+        mark: The mark.
+        across: Where its place is, from 0 at the left to 1.
+        up: Likewise, from 0 at the bottom.
+    """
+    side = 0 if len(mark.points) > 1 else 1 if across < 0.5 else -1
+    return side, up > _HIGH
 
 
 def apart(wanted: FloatArray, gap: float, low: float, high: float) -> FloatArray:

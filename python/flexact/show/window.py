@@ -18,6 +18,7 @@ from ..util.errors import BatchError, reason_of
 from ..util.loading import load
 from ..util.outputs import OutputError, write_together
 from ..util.text import file_name, harmless
+from .writers import PAGES
 
 #: How long it may take to hear whether a browser opens [s]; some commands wait for its end.
 _PATIENCE = 2.0
@@ -50,9 +51,6 @@ def _opened(address: str) -> bool:
     except (webbrowser.Error, OSError):
         return False
 
-
-#: Suffixes of pages.
-_PAGES = (".html", ".htm")
 
 #: Takes what is shown, and the line of the script; set where a script is watched.
 Taker = Callable[[Any, int], None]
@@ -117,7 +115,7 @@ def page_path(path: str | os.PathLike[str]) -> Path:
         FlexactError: It cannot.
     """
     target = Path(path)
-    if target.suffix.lower() not in _PAGES or "\0" in str(target):
+    if target.suffix.lower() not in PAGES or "\0" in str(target):
         raise BatchError(f"{harmless(str(target))} is not the name of a page, such as guide.html")
     return target
 

@@ -8,9 +8,12 @@ is whole.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
+
+import numpy as np
 
 from ..analysis.result import Result
+from ..core.arrays import BoolArray
 from ..deck.diagnostics import Diagnostic
 from ..deck.rendering import ProblemsError
 from ..util.text import harmless
@@ -29,6 +32,32 @@ class Column(NamedTuple):
     """What it says, with its unit."""
     least: str
     """From which of `WANTS` on it is there."""
+
+
+class Rows(Protocol):
+    """A table, a row a variant, as those see it who search in it or draw it."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of all columns."""
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """Which of them are parameters."""
+
+    @property
+    def is_doubtful(self) -> BoolArray:
+        """(variants,) whether the rank is in doubt."""
+
+    @property
+    def has_error(self) -> BoolArray:
+        """(variants,) whether there is no result."""
+
+    def __len__(self) -> int:
+        """Number of variants."""
+
+    def __getitem__(self, name: str, /) -> np.ndarray:
+        """(variants,) a column by its name."""
 
 
 COLUMNS = (

@@ -7,19 +7,21 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
+from ..analysis.decomposition import Asked
+from ..analysis.result import Result, result_of
 from ..analysis.verdict import Verdict
-from .columns import in_a_line
-from .crossing import ROWS, Crossing, Crossings, Missed, lines_of
+from ..core.arrays import FloatArray
+from ..util.errors import FlexactError
+from ..util.records import Frozen
+from ..util.roots import Zero, minimum, sign_change
+from .columns import Rows, in_a_line
 from .evaluate import Positions, Signed, SignedColumns, Source, columns_of_signed, signed_value
+from .parameters import Row, Value
 from .running import results_of
-from .search import Follow, Found, Search, parameters_between
-
-if TYPE_CHECKING:
-    from .table import Table
 
 #: With fewer searches than this nobody is sent for.
 _FEW = 8
@@ -27,10 +29,321 @@ _FEW = 8
 _ONE_PLACE = 1.0e-12
 #: How far beside a row that is singular itself the sign counts: a part of the step.
 _BESIDE = 2.0**-10
+#: A singular value this small is not told from zero, whatever the default says.
+_ZERO = 1.0e-10
+_ANOTHER = "another mechanism than those of the rows: its coordinates or deformations are others"
+#: In place of a parameter: rows are neighbours in the order in which they stand.
+ROWS = "rows"
+
+
+class Crossing(NamedTuple):
+    """A singular variant between two rows, or at one."""
+
+    parameters: Row
+    """What makes it."""
+    along: str
+    """The parameter that changes from one row to the next; "rows" where several do."""
+    rows: tuple[int, int]
+    """The rows on both sides, from 0."""
+    share: float
+    """Where it is between them, from 0 to 1."""
+    width: float
+    """How far the share is uncertain."""
+    kind: str
+    """"sign change"; "touch", a zero from which the singular value rises on both sides without
+    changing its sign, or has none; or "row", where a row is singular itself."""
+    singular_value: float
+    """What is left of it, of the scaled D(c)."""
+    verdict: Verdict
+    """There."""
+    before: Verdict
+    """Of the row before."""
+    after: Verdict
+    """Of the row behind."""
+    evaluations: int
+    """How many variants were made to find it."""
+
+
+class Missed(NamedTuple):
+    """A search that was given up, since a variant could not be made or analysed."""
+
+    parameters: Row
+    """What should have made it."""
+    along: str
+    """As of a `Crossing`."""
+    rows: tuple[int, int]
+    """The rows on both sides, or twice the row that it is."""
+    error: str
+    """Why not."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Crossings(Frozen, Sequence[Crossing]):
+    """The singular variants of a table, in the order of its rows.
+
+    Attributes:
+        found: Each of them.
+        evaluations: How many variants were made to find them, and to find that there are no
+            others.
+        missed: Where a search was given up, so that a crossing may be there that is not found.
+    """
+
+    found: tuple[Crossing, ...]
+    evaluations: int
+    missed: tuple[Missed, ...] = ()
+
+    def __len__(self) -> int:
+        """How many were found."""
+        return len(self.found)
+
+    @overload
+    def __getitem__(self, index: int) -> Crossing: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Crossing, ...]: ...
+    def __getitem__(self, index: int | slice) -> Crossing | tuple[Crossing, ...]:
+        """One of them, or some."""
+        return self.found[index]
+
+    def of(self, parameter: str) -> FloatArray:
+        """(crossings,) the values of a parameter.
+
+        Raises:
+            KeyError: there is no such parameter.
+        """
+        return np.array([each.parameters[parameter] for each in self.found], np.float64)
+
+    def __repr__(self) -> str:
+        """How many, and the first; and what was given up."""
+        told = "; ".join(
+            f"{_numbers(each.parameters) or _between_rows(each)}: {each.verdict}"
+            for each in self.found[:6]
+        )
+        more = "; ..." if len(self) > 6 else ""
+        given_up = ""
+        if self.missed:
+            first, many = self.missed[0], len(self.missed)
+            at = _numbers(first.parameters) or f"between rows {first.rows[0]} and {first.rows[1]}"
+            what = f"{many} search{'es' * (many > 1)} given up"
+            given_up = f"; {what}, {'first' if many > 1 else 'which'} at {at}: {first.error}"
+        return f"<Crossings: {len(self)}{': ' * bool(told)}{told}{more}{given_up}>"
+
+
+def _between_rows(each: Crossing) -> str:
+    return f"{each.share:.6g} from row {each.rows[0]} to {each.rows[1]}"
+
+
+def _numbers(row: Row) -> str:
+    return ", ".join(f"{name} {v:.10g}" for name, v in row.items() if isinstance(v, float))
+
+
+def lines_of(table: Rows, along: str | None, in_order: bool) -> list[tuple[str, list[int]]]:
+    """Lines of neighbours: a name, and the rows in their order.
+
+    Args:
+        table: The table.
+        along: The parameter that changes along a line, `ROWS`, or None for all.
+        in_order: Whether rows are neighbours in their order where no two differ in one parameter
+            alone.
+
+    Raises:
+        ValueError: there is no such parameter, or no row has a neighbour.
+    """
+    every = [(ROWS, list(range(len(table))))]
+    if along == ROWS:
+        return every
+    names = varying(table)
+    if along is not None and along not in names:
+        told = ", ".join(names) if names else "none"
+        raise ValueError(
+            f"there is no parameter {along!r} whose numbers vary; there are: {told}. Or say "
+            f"along={ROWS!r}"
+        )
+    chosen = names if along is None else [along]
+    made = [(name, line) for name in chosen for line in _lines(table, name) if len(line) > 1]
+    if made or len(table) < 2:
+        return made
+    if in_order and along is None:
+        return every
+    raise ValueError(
+        "no two rows differ in one number alone, so that none are neighbours; where parameters "
+        f"change together, say along={ROWS!r}"
+    )
+
+
+def varying(table: Rows) -> list[str]:
+    """The parameters of which there are different numbers."""
+    numbers = [name for name in table.parameter_names if table[name].dtype.kind in "if"]
+    return [n for n in numbers if np.unique(table[n][np.isfinite(table[n])]).size > 1]
+
+
+def _lines(table: Rows, name: str) -> Iterator[list[int]]:
+    """Rows that differ in one parameter alone, by its value; of equal ones the first."""
+    # Among values that are compared NaN is like NaN.
+    others = [
+        [None if value != value else value for value in table[other].tolist()]
+        for other in table.parameter_names
+        if other != name
+    ]
+    groups: dict[tuple[object, ...], list[int]] = defaultdict(list)
+    for row, key in enumerate(zip(*others, strict=True) if others else [()] * len(table)):
+        groups[key].append(row)
+    values = table[name]
+    for rows in groups.values():
+        _, first = np.unique(values[rows], return_index=True)
+        yield [rows[k] for k in first.tolist() if np.isfinite(values[rows[k]])]
+
+
+class Search(NamedTuple):
+    """Rows between which a zero may be; the first is at 0, the next at 1."""
+
+    along: str
+    rows: tuple[int, ...]
+    """Two, between which the sign changes, or up to three with a dip at the middle one."""
+    is_sign_change: bool
+    rank: int
+    """The singular value of this number is followed."""
+    values: tuple[float, ...]
+    """Of the rows."""
+    topology: int
+    """Of all of them; see `flexact.sweeps.evaluate`."""
+    ends: tuple[float, float] = (0.0, 1.0)
+    """Between which places the sign changes; `values` are of these then."""
+
+    def between(self, place: float) -> tuple[int, int, float]:
+        """The rows round a place, of which the first row's is 0, and the share between them."""
+        first = min(max(int(place), 0), len(self.rows) - 2)
+        return self.rows[first], self.rows[first + 1], place - first
+
+
+@dataclass(frozen=True)
+class Follow:
+    """The singular value between rows of a table, and searches along it."""
+
+    table: Rows
+    source: Source
+
+    def parameters(self, a: int, b: int, share: float) -> Row:
+        """The parameters between those of two rows, as Python's own numbers.
+
+        What is no number is that of the first.
+        """
+        columns = {name: self.table[name] for name in self.table.parameter_names}
+        ends = {n: [c[k : k + 1].tolist()[0] for k in (a, b)] for n, c in columns.items()}
+        return {name: _between(first, last, share) for name, (first, last) in ends.items()}
+
+    def signed(self, a: int, b: int, share: float, rank: int | None = None) -> Signed | str:
+        """The signed singular value between two rows, or why there is none."""
+        try:
+            data = self.source.variant(a, b, share, self.parameters(a, b, share))
+            data.require_sound()
+            return signed_value(data, rank)
+        except Exception as error:
+            return in_a_line(error)
+
+    def of_row(self, row: int) -> Signed | str:
+        """The signed smallest singular value of a row, or why there is none."""
+        return self.signed(row, row, 0.0)
+
+    def at(self, a: int, b: int, share: float, rank: int, topology: int) -> float | str:
+        """The value between two rows of one topology, or why there is none."""
+        found = self.signed(a, b, share, rank)
+        if isinstance(found, str):
+            return found
+        return found.value if found.topology == topology else _ANOTHER
+
+    def __call__(self, search: Search) -> Crossings:
+        """What one search finds."""
+        errors: list[tuple[float, str]] = []
+        calls = 0
+
+        def value_at(place: float) -> float | None:
+            nonlocal calls
+            calls += 1
+            found = self.at(*search.between(place), search.rank, search.topology)
+            if isinstance(found, str):
+                errors.append((place, found))
+                return None
+            return found
+
+        crossings = []
+        for zero, kind in list(_zeros(search, value_at)):
+            a, b, share = search.between(zero.place)
+            row = self.parameters(a, b, share)
+            try:
+                result = self._singular(self.source.variant(a, b, share, row), search, zero, kind)
+            except FlexactError as error:
+                errors.append((zero.place, in_a_line(error)))
+                continue
+            # An analysis there says so, too.
+            if result.rank < search.rank:
+                crossings.append(
+                    Crossing(
+                        *(row, search.along, (a, b), share, zero.width, kind, abs(zero.value)),
+                        result.verdict,
+                        Verdict(self.table["verdict"][a]),
+                        Verdict(self.table["verdict"][b]),
+                        calls,
+                    )
+                )
+        missed = [self.missed(search, *each) for each in errors[:1]]
+        return Crossings(tuple(crossings), calls, tuple(missed))
+
+    @staticmethod
+    def _singular(data: Any, search: Search, zero: Zero, kind: str) -> Result:
+        """The analysis at a zero, of which the last singular value that counts is one."""
+        # The numbers there are rounded: to prove something of them says nothing.
+        result: Result = result_of(data, Asked(prove=False))
+        if result.rank >= search.rank and (kind == "sign change" or abs(zero.value) < _ZERO):
+            # A root lies between two neighbouring numbers, at which it is not quite zero.
+            last = result.gap.smallest_nonzero or 0.0
+            tolerance = max(result.tolerance, 2.0 * abs(zero.value), 2.0 * last)
+            result = result_of(data, Asked(prove=False, tolerance=tolerance))
+        return result
+
+    def missed(self, search: Search, place: float, error: str) -> Missed:
+        """A search that an error at a place has ended."""
+        a, b, share = search.between(place)
+        return Missed(self.parameters(a, b, share), search.along, (a, b), error)
+
+
+def _between(a: Value, b: Value, share: float) -> Value:
+    if a == b or share == 0.0 or isinstance(a, bool) or isinstance(b, bool):
+        return a
+    if not (isinstance(a, (int, float)) and isinstance(b, (int, float))):
+        return a
+    return b if share == 1.0 else float(a + share * (b - a))
+
+
+def _zeros(search: Search, function: Callable[[float], float | None]) -> Iterator[tuple[Zero, str]]:
+    values = search.values
+    if search.is_sign_change:
+        zero = sign_change(function, *search.ends, values[0], values[1])
+        if zero is not None:
+            yield zero, "sign change"
+        return
+    sign = math.copysign(1.0, values[0])
+
+    def upward(place: float) -> float | None:
+        value = function(place)
+        return None if value is None else sign * value
+
+    end = float(len(values) - 1)
+    lowest = minimum(upward, 0.0, end)
+    if isinstance(lowest, Zero):
+        yield lowest, "touch"
+    elif lowest is not None:
+        # Two roots near to each other.
+        below = upward(lowest)
+        for place, value in ((0.0, values[0]), (end, values[-1])):
+            if below is None:
+                return
+            zero = sign_change(upward, place, lowest, sign * value, below)
+            if zero is not None:
+                yield zero, "sign change"
 
 
 def crossings_of(
-    table: Table,
+    table: Rows,
     source: Source,
     signed: SignedColumns | None,
     along: str | None,
@@ -40,33 +353,29 @@ def crossings_of(
     lines = lines_of(table, along, isinstance(source, Positions))
     made = 0
     missed: list[Missed] = []
-    if signed is None or bool(((signed.topology < 0) & ~table.has_error).any()):
-        signed, made = _signed_rows(table, source, workers, missed), len(table)
     follow = Follow(table, source)
-    at_rows: list[Crossing] = []
+    if signed is None or bool(((signed.topology < 0) & ~table.has_error).any()):
+        signed, made = _signed_rows(follow, workers, missed), len(table)
+    found: list[Crossing] = []
     searches: list[Search] = []
     for name, rows in lines:
-        for run in _runs(table, source, signed, rows):
+        for run in _runs(follow, signed, rows):
             candidates = _Candidates(follow, signed, name, run)
-            at_rows += candidates.at_rows
+            found += candidates.at_rows
             searches += candidates.searches
             missed += candidates.missed
             made += candidates.evaluations
     few = len(searches) < _FEW
-    found: list[Found] = []
     for each in results_of(follow, searches, workers=1 if few else workers):
         if each.result is None:
             missed.append(follow.missed(searches[each.index], 0.5, each.failure))
         else:
-            found.append(each.result)
-    missed += [one for each in found for one in each.missed]
-    everything = at_rows + [crossing for each in found for crossing in each.crossings]
-    order = sorted(everything, key=lambda each: (*each.rows, each.share, each.along))
-    return Crossings(
-        tuple(_once(order)),
-        made + sum(each.evaluations for each in found),
-        tuple(sorted(missed, key=lambda each: (*each.rows, each.along))),
-    )
+            found += each.result.found
+            missed += each.result.missed
+            made += each.result.evaluations
+    order = sorted(found, key=lambda each: (*each.rows, each.share, each.along))
+    missed.sort(key=lambda each: (*each.rows, each.along))
+    return Crossings(tuple(_once(order)), made, tuple(missed))
 
 
 def _once(every: Iterable[Crossing]) -> list[Crossing]:
@@ -99,54 +408,33 @@ def _is_same(one: Crossing, other: Crossing) -> bool:
     return apart <= one.width + other.width + _ONE_PLACE
 
 
-@dataclass(frozen=True)
-class _Rows:
-    """Makes the variants of rows, and signs them."""
-
-    table: Table
-    source: Source
-
-    def __call__(self, index: int) -> Signed | str:
-        """The signed smallest singular value of a row, or why there is none."""
-        try:
-            row = parameters_between(self.table, index, index, 0.0)
-            data = self.source.variant(index, index, 0.0, row)
-            data.require_sound()
-            return signed_value(data)
-        except Exception as error:
-            return in_a_line(error)
-
-
-def _signed_rows(
-    table: Table, source: Source, workers: int | None, missed: list[Missed]
-) -> SignedColumns:
+def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> SignedColumns:
+    table = follow.table
     every: list[Signed | None] = [None] * len(table)
-    work: Callable[[int], Signed | str] = _Rows(table, source)
-    for done in results_of(work, range(len(table)), workers=workers):
+    for done in results_of(follow.of_row, range(len(table)), workers=workers):
         if isinstance(done.result, Signed):
             every[done.index] = done.result
-        elif not table.error[done.index]:
-            row = parameters_between(table, done.index, done.index, 0.0)
+        elif not table["error"][done.index]:
+            row = follow.parameters(done.index, done.index, 0.0)
             error = done.result or done.failure
             missed.append(Missed(row, ROWS, (done.index, done.index), error))
     return columns_of_signed(every)
 
 
-def _runs(
-    table: Table, source: Source, signed: SignedColumns, rows: Sequence[int]
-) -> Iterator[list[int]]:
+def _runs(follow: Follow, signed: SignedColumns, rows: Sequence[int]) -> Iterator[list[int]]:
     """Rows of a line in pieces of one topology, without errors."""
     run: list[int] = []
     for row in rows:
-        there = not table.error[row] and not math.isnan(signed.value[row])
-        if run and there:
-            one = signed.topology[run[-1]] == signed.topology[row]
-            if not (one and source.goes_between(run[-1], row)):
-                yield run
-                run = []
-        elif not there:
-            if run:
-                yield run
+        there = not follow.table["error"][row] and not math.isnan(signed.value[row])
+        goes_on = there and (
+            not run
+            or (
+                signed.topology[run[-1]] == signed.topology[row]
+                and follow.source.goes_between(run[-1], row)
+            )
+        )
+        if run and not goes_on:
+            yield run
             run = []
         if there:
             run.append(row)
@@ -162,7 +450,7 @@ class _Candidates:
         self._topology = int(signed.topology[run[0]])
         self.missed: list[Missed] = []
         self.evaluations = 0
-        ranks = follow.table.rank[run]
+        ranks = follow.table["rank"][run]
         self._rank = int(ranks.max())
         is_zero = ranks < self._rank
         values = signed.value[run].copy()
@@ -171,7 +459,7 @@ class _Candidates:
             values = np.array([self._at(k, k, 0.0) for k in range(len(run))])
         values[is_zero] = 0.0
         self.at_rows = [
-            _at_row(follow.table, along, run, k, float(abs(signed.value[run[k]])))
+            self._at_row(k, float(abs(signed.value[run[k]])))
             for k in np.flatnonzero(is_zero).tolist()
             if not all(is_zero[max(k - 1, 0) : k + 2])
         ]
@@ -181,14 +469,25 @@ class _Candidates:
         """The value between two rows of the run; NaN, which is told, where there is none."""
         a, b = self._run[k], self._run[j]
         self.evaluations += 1
-        value, error = self._follow.at(a, b, share, self._rank, self._topology)
-        if value is None:
-            row = parameters_between(self._follow.table, a, b, share)
-            self.missed.append(Missed(row, self._along, (a, b), error))
+        found = self._follow.at(a, b, share, self._rank, self._topology)
+        if isinstance(found, str):
+            row = self._follow.parameters(a, b, share)
+            self.missed.append(Missed(row, self._along, (a, b), found))
             return math.nan
-        return value
+        return found
 
-    def _changes(self, values: np.ndarray, is_zero: np.ndarray) -> Iterator[Search]:
+    def _at_row(self, k: int, value: float) -> Crossing:
+        run, table = self._run, self._follow.table
+        beside = (k, max(k - 1, 0), min(k + 1, len(run) - 1))
+        verdicts = [Verdict(table["verdict"][run[j]]) for j in beside]
+        return Crossing(
+            self._follow.parameters(run[k], run[k], 0.0),
+            self._along,
+            (run[k], run[k]),
+            *(0.0, 0.0, "row", value, verdicts[0], verdicts[1], verdicts[2], 0),
+        )
+
+    def _changes(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
         """Between which rows the sign changes; it has none at a row that is singular itself."""
         for k in range(len(self._run) - 1):
             ends, there = [0.0, 1.0], [float(values[k]), float(values[k + 1])]
@@ -200,38 +499,28 @@ class _Candidates:
                 there[1] = self._at(k, k + 1, ends[1])
             # Their product may be too small for a number.
             if {*np.sign(there).tolist()} == {-1.0, 1.0}:
-                pair, found = (self._run[k], self._run[k + 1]), (there[0], there[1])
-                yield self._search(pair, True, found, (ends[0], ends[1]))
+                yield self._search(k, k + 2, there, (ends[0], ends[1]))
 
-    def _dips(self, values: np.ndarray, is_zero: np.ndarray) -> Iterator[Search]:
+    def _dips(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
         """Rows at which the value is lower than at those beside it."""
-        size, run = np.abs(values), self._run
+        size = np.abs(values)
         changes = np.sign(values[:-1]) * np.sign(values[1:]) < 0.0
-        for k in range(len(run)):
-            first, last = max(k - 1, 0), min(k + 1, len(run) - 1)
-            beside = size[first : last + 1]
-            is_dip = size[k] <= beside.min() and first < last
+        for k in range(len(self._run)):
+            first, last = max(k - 1, 0), min(k + 1, len(self._run) - 1)
+            is_dip = size[k] <= size[first : last + 1].min() and first < last
             if is_dip and not is_zero[first : last + 1].any() and not changes[first:last].any():
-                own = tuple(values[first : last + 1].tolist())
-                yield self._search(tuple(run[first : last + 1]), False, own)
+                yield self._search(first, last + 1, values[first : last + 1].tolist())
 
     def _search(
-        self,
-        rows: tuple[int, ...],
-        is_sign_change: bool,
-        values: tuple[float, ...],
-        ends: tuple[float, float] = (0.0, 1.0),
+        self, first: int, end: int, values: list[float], ends: tuple[float, float] | None = None
     ) -> Search:
-        return Search(self._along, rows, is_sign_change, self._rank, values, self._topology, ends)
-
-
-def _at_row(table: Table, along: str, run: list[int], k: int, value: float) -> Crossing:
-    row = run[k]
-    beside = (max(k - 1, 0), k, min(k + 1, len(run) - 1))
-    verdicts = [Verdict(table.verdict[run[j]]) for j in beside]
-    return Crossing(
-        parameters_between(table, row, row, 0.0),
-        along,
-        (row, row),
-        *(0.0, 0.0, "row", value, verdicts[1], verdicts[0], verdicts[2], 0),
-    )
+        """Between some rows of the run: where the sign changes if `ends` are given, else a dip."""
+        return Search(
+            self._along,
+            tuple(self._run[first:end]),
+            ends is not None,
+            self._rank,
+            tuple(values),
+            self._topology,
+            ends or (0.0, 1.0),
+        )

@@ -13,7 +13,7 @@ from typing import Any
 
 from ..util.loading import load
 from ..util.machine import processors
-from .running import Answer, Chunk, EngineError, Raised, Source, timed
+from .chunks import Answer, Chunk, EngineError, Raised, Source, timed
 
 #: How long a scheduler may take to answer, and how long there may be no worker [s].
 _ANSWER, _NO_WORKER = 10.0, 60.0

@@ -19,9 +19,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
 from ..analysis.decomposition import Asked
-from ..analysis.margin import NOTHING, least_misalignments
+from ..analysis.limits import CUT_OFF, NEAR, NO_CHANGE, REACH_OF_DIGITS
+from ..analysis.margin import least_misalignments
 from ..analysis.rank_evidence import MOST_OTHERS, MOST_WORK, MOST_ZEROS
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import AnalysisError, Certainty, Verdict
@@ -41,7 +41,7 @@ from ..util.machine import processors
 from ..util.records import Frozen
 from .columns import MISSING, columns_of, error_row, in_a_line, row_of
 from .columns import Value as Cell
-from .parameters import Row, Value
+from .parameters import Row
 
 
 class MotionArrays(NamedTuple):
@@ -304,30 +304,6 @@ def made_by(make: Make, row: Row) -> ModelData:
     return data
 
 
-def between(
-    names: Sequence[str], first: Sequence[Value], last: Sequence[Value], share: float
-) -> Row:
-    """The parameters between those of two rows, as Python's own numbers.
-
-    What is no number is that of the first.
-    """
-    return {name: _between(a, b, share) for name, a, b in zip(names, first, last, strict=True)}
-
-
-def _between(a: Value, b: Value, share: float) -> Value:
-    if a == b or share == 0.0 or not (is_number(a) and is_number(b)):
-        return a
-    if share == 1.0:
-        return b
-    assert isinstance(a, (int, float)) and isinstance(b, (int, float))
-    return float(a + share * (b - a))
-
-
-def is_number(value: Value) -> bool:
-    """Whether there is something between it and another one."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
 Columns = dict[str, np.ndarray]
 #: So many variants at once: some milliseconds of work, and few numbers.
 _MOST_AT_ONCE = 256
@@ -459,7 +435,7 @@ def _decided_by_core(some: _Variants, want: str, room: float) -> tuple[Columns, 
     wishes = calls.VariantWishes(
         *(NEAR, CUT_OFF, REACH_OF_DIGITS, with_values, room, None),
         some.data.has_long_numbers,
-        (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NOTHING),
+        (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NO_CHANGE),
     )
     positions = own if some.positions is None else some.positions
     raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())

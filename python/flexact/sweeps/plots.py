@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map of two parameters: the verdict in colour, and the singular curves."""
+"""Pictures of a table: curves over a parameter, maps of two, and histograms."""
 
 from __future__ import annotations
 
+import os
 from collections import defaultdict
 from collections.abc import Sequence
 from itertools import combinations, pairwise
@@ -15,18 +16,16 @@ import numpy as np
 from ..analysis.naming import length_in_words
 from ..analysis.verdict import Verdict
 from ..core.arrays import BoolArray, FloatArray
-from ..show.picture.files import STILLS, load_matplotlib, png_bytes, still_bytes
+from ..show.picture.files import load_matplotlib, png_bytes, still_bytes
 from ..show.picture.make import PictureError, check_packages
-from ..util.errors import FlexactError
+from ..show.writers import STILLS
 from ..util.outputs import write_together
 from ..util.text import harmless
-from .crossing import ROWS, Crossing, Crossings, lines_of, varying
-from .writing import described, in_short
+from .columns import Rows
+from .crossings import ROWS, Crossing, Crossings, lines_of, varying
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from .table import Table
 
 
 #: Of errors, of doubt, and of singular places.
@@ -39,7 +38,7 @@ MOST_SEARCHED = 20_000
 _SIZE, _PANEL, _DPI = (8.0, 6.2), 2.6, 120
 
 
-def chosen(table: Table, x: str | None, y: str | None) -> tuple[str | None, str | None]:
+def chosen(table: Rows, x: str | None, y: str | None) -> tuple[str | None, str | None]:
     """What is drawn along and up the picture; None: the number of the row, and by default.
 
     Raises:
@@ -76,13 +75,13 @@ def figure_of(panels: int = 1) -> Any:
     return Shown(figsize=(_SIZE[0], height), dpi=_DPI, layout="constrained", facecolor="white")
 
 
-def smallest_values(table: Table) -> FloatArray:
+def smallest_values(table: Rows) -> FloatArray:
     """(variants,) the smallest singular value of the scaled D(c), as far as it is known."""
     zero: FloatArray = table["largest_zero"]
     return np.where(np.isnan(zero), table["gap"], zero)
 
 
-def add_legend(axes: Any, table: Table, *, has_singular: bool, marks: bool) -> None:
+def add_legend(axes: Any, table: Rows, *, has_singular: bool, marks: bool) -> None:
     """The colours of the verdicts, in words with counts, and what else there is."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
@@ -90,7 +89,7 @@ def add_legend(axes: Any, table: Table, *, has_singular: bool, marks: bool) -> N
     handles: list[Any] = []
     mark: Any
     for verdict in Verdict:
-        if count := int((table.verdict == verdict.value).sum()):
+        if count := int((table["verdict"] == verdict.value).sum()):
             told = f"{verdict.value}: {count}"
             handles.append(_of_verdict(verdict, told, marks))
     if has_singular:
@@ -116,17 +115,17 @@ def _of_verdict(verdict: Verdict, told: str, marks: bool) -> Any:
     return Patch(facecolor=verdict.colour, label=told)
 
 
-def verdict_colours(table: Table) -> np.ndarray:
+def verdict_colours(table: Rows) -> np.ndarray:
     """(variants, 3) the colour of each row, from 0 to 1."""
     from matplotlib.colors import to_rgb
 
     made = np.tile(to_rgb(ERROR_COLOUR), (len(table), 1))
     for verdict in Verdict:
-        made[table.verdict == verdict.value] = to_rgb(verdict.colour)
+        made[table["verdict"] == verdict.value] = to_rgb(verdict.colour)
     return made
 
 
-def mark_rows(axes: Any, table: Table, x: np.ndarray, y: np.ndarray) -> None:
+def mark_rows(axes: Any, table: Rows, x: np.ndarray, y: np.ndarray) -> None:
     """Rings round what is doubtful, and crosses at errors."""
     doubtful, wrong = table.is_doubtful, table.has_error
     size = 70 if len(table) <= FEW_ROWS else 24
@@ -138,36 +137,30 @@ def mark_rows(axes: Any, table: Table, x: np.ndarray, y: np.ndarray) -> None:
         axes.scatter(x[wrong], y[wrong], zorder=6, clip_on=False, **cross)
 
 
-def found_crossings(table: Table, given: bool | Crossings) -> Crossings:
-    """The singular places to be drawn; none where rows have no neighbours."""
-    if isinstance(given, Crossings):
-        return given
-    if given and len(table) <= MOST_SEARCHED and varying(table):
-        try:
-            return table.crossings()
-        except (ValueError, FlexactError):
-            pass
-    return Crossings((), 0)
-
-
 def label(axes: Any, x: str, y: str) -> None:
     """Names of the axes; what they hold is never taken for a formula."""
     for put, words in ((axes.set_xlabel, x), (axes.set_ylabel, y)):
         put(harmless(words), parse_math=False, fontsize=11)
 
 
-def finished(figure: Figure, table: Table, path: Path | None) -> Figure:
+def finished(figure: Figure, path: str | os.PathLike[str] | None, title: str, words: str) -> Figure:
     """The figure, which is also written to a file if one is named.
+
+    Args:
+        figure: The figure.
+        path: The file, if any.
+        title: What it is, in a line.
+        words: What it shows.
 
     Raises:
         FlexactError: it cannot be written.
     """
     if path is not None:
+        path = Path(path)
         suffix = path.suffix.lower()
         if suffix not in STILLS:
             raise PictureError(f"{path} is no such picture: its suffix must be .png, .svg or .pdf")
-        words = in_short(table), described(table)
-        write_together({path: still_bytes(figure, suffix, *words)})
+        write_together({path: still_bytes(figure, suffix, title, words)})
     return figure
 
 
@@ -252,7 +245,7 @@ class _Quantity(NamedTuple):
     """Whether it is zero at singular places."""
 
 
-def curve(table: Table, x: str | None, y: str | None, crossings: Crossings) -> Any:
+def curve(table: Rows, x: str | None, y: str | None, crossings: Crossings) -> Any:
     """The figure of a curve over a parameter, or over the rows; see `Table.plot`."""
     quantities = _quantities(table, y)
     figure = figure_of(len(quantities))
@@ -267,12 +260,12 @@ def curve(table: Table, x: str | None, y: str | None, crossings: Crossings) -> A
     return figure
 
 
-def _quantities(table: Table, y: str | None) -> list[_Quantity]:
+def _quantities(table: Rows, y: str | None) -> list[_Quantity]:
     if y is not None:
         values = table[y].astype(float)
         return [_Quantity(y, values, y in _LOGARITHMIC, y in _FALLING)]
     if "gap" not in table.columns:
-        return [_Quantity("rank of D(c)", table.rank, False, False)]
+        return [_Quantity("rank of D(c)", table["rank"], False, False)]
     return [
         _Quantity("smallest singular value", smallest_values(table), True, True),
         _Quantity("margin [m]", table["margin"], True, True),
@@ -283,7 +276,7 @@ _FALLING = ("gap", "smallest_singular_value", "margin", "margin_angle")
 _LOGARITHMIC = (*_FALLING, "largest_zero", "condition_number")
 
 
-def _lines(table: Table, x: str | None) -> list[list[int]]:
+def _lines(table: Rows, x: str | None) -> list[list[int]]:
     if x is None and len(table) > _MOST_JOINED:
         return []
     try:
@@ -302,7 +295,7 @@ def _place(each: Crossing, x: str | None) -> float:
 
 def _draw(
     axes: Any,
-    table: Table,
+    table: Rows,
     along: FloatArray,
     quantity: _Quantity,
     lines: Sequence[Sequence[int]],
@@ -371,7 +364,7 @@ _BINS = 48
 _HISTOGRAM_ZERO = 1.0e-6
 
 
-def histograms(table: Table, nominal: Table, below: float | None) -> Any:
+def histograms(table: Rows, nominal: Rows, below: float | None) -> Any:
     """The figure; see `Tolerances.plot`."""
     figure = figure_of(2)
     value, margin = figure.subplots(2, 1)
@@ -379,16 +372,16 @@ def histograms(table: Table, nominal: Table, below: float | None) -> Any:
         value, table, smallest_values(table), [(smallest_values(nominal)[0], "as designed")]
     )
     label(value, "smallest singular value (scaled)", "samples")
-    lines = [(nominal.margin[0], "as designed")]
+    lines = [(nominal["margin"][0], "as designed")]
     lines += [] if below is None else [(below, "asked about")]
-    _draw_of_histogram(margin, table, table.margin, lines)
+    _draw_of_histogram(margin, table, table["margin"], lines)
     label(margin, "margin [m]", "samples")
     add_legend(value, table, has_singular=False, marks=False)
     return figure
 
 
 def _draw_of_histogram(
-    axes: Any, table: Table, values: FloatArray, lines: list[tuple[float, str]]
+    axes: Any, table: Rows, values: FloatArray, lines: list[tuple[float, str]]
 ) -> None:
     there = np.isfinite(values)
     axes.set_xscale("log")
@@ -400,7 +393,7 @@ def _draw_of_histogram(
         high = max([positive.max() * 1.0001, *drawn])
         edges = np.geomspace(low, max(high, 1.001 * low), _BINS + 1)
         found = [
-            (each, np.clip(values[there & (table.verdict == each.value)], edges[0], edges[-1]))
+            (each, np.clip(values[there & (table["verdict"] == each.value)], edges[0], edges[-1]))
             for each in Verdict
         ]
         found = [(each, part) for each, part in found if part.size]
@@ -433,7 +426,7 @@ WRONG = "#e5e7eb"
 _MOST_CONTOURS = 6
 
 
-def parameter_map(table: Table, x: str, y: str, crossings: Crossings) -> Any:
+def parameter_map(table: Rows, x: str, y: str, crossings: Crossings) -> Any:
     """The figure of a map; see `Table.plot`.
 
     Raises:
@@ -461,7 +454,7 @@ def parameter_map(table: Table, x: str, y: str, crossings: Crossings) -> Any:
 
 
 def _cells(
-    table: Table, x: str, y: str, columns: tuple[FloatArray, FloatArray]
+    table: Rows, x: str, y: str, columns: tuple[FloatArray, FloatArray]
 ) -> np.ndarray | None:
     """(values of y, values of x) row of each cell, -1 where there is none; None: no grid.
 
@@ -484,14 +477,14 @@ def _cells(
     return made if there >= _FULL * made.size and min(made.shape) > 1 else None
 
 
-def _shaded(table: Table) -> FloatArray:
+def _shaded(table: Rows) -> FloatArray:
     """(variants, 3) the colour of each row, paler for smaller singular values."""
     colours = verdict_colours(table)
     if "gap" not in table.columns:
         return colours
     values = smallest_values(table)
     # Singular rows keep their full colour.
-    there = (values > 0.0) & (table.rank == table.rank.max(initial=0))
+    there = (values > 0.0) & (table["rank"] == table["rank"].max(initial=0))
     if not there.any():
         return colours
     logs = np.log10(values[there])
@@ -528,7 +521,7 @@ def _edges(values: FloatArray) -> FloatArray:
 
 
 def _draw_contours(
-    axes: Any, table: Table, cells: np.ndarray, columns: tuple[FloatArray, FloatArray]
+    axes: Any, table: Rows, cells: np.ndarray, columns: tuple[FloatArray, FloatArray]
 ) -> None:
     """Where the margin has round values."""
     if "margin" not in table.columns or min(cells.shape) < 4:

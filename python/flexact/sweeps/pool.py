@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 from ..util.errors import reason_of
 from ..util.interruption import SIGNALS
 from ..util.loading import load
-from .running import NOTHING, Answer, Chunk, EngineError, Raised, Source, raised
+from .chunks import NOTHING, Answer, Chunk, EngineError, Raised, Source, raised
 
 #: Results that are there are not held back for longer [s].
 _FLUSH = 0.05

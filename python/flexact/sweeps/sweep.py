@@ -11,11 +11,11 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..analysis.decomposition import Asked
-from ..analysis.spaces import asked_for
+from ..analysis.decomposition import Asked, asked_for
 from ..core.progress import Progress
 from ..model.model import Model
 from ..model.variation import held_given, positions_given
+from .chunks import EngineError
 from .columns import ERROR, Column, columns_of
 from .evaluate import (
     NO_MOTIONS,
@@ -32,7 +32,7 @@ from .evaluate import (
     swept,
 )
 from .parameters import Parameters, Row, Wrong, array_of, given
-from .running import EngineError, results_of
+from .running import results_of
 from .table import Table
 
 Array = np.ndarray

@@ -8,7 +8,6 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -30,8 +29,8 @@ from ..util.records import Frozen
 from ..util.text import in_short
 from .plots import finished, histograms, smallest_values
 from .sweep import sweep
-from .table import Table
-from .writing import per_cent, share_in_words
+from .table import Table, described, per_cent, share_in_words
+from .table import in_short as table_in_short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -267,7 +266,7 @@ class Tolerances(Frozen):
             FlexactError: matplotlib is missing, or the file cannot be written.
         """
         figure = histograms(self.table, self.nominal, self.below)
-        return finished(figure, self.table, None if path is None else Path(path))
+        return finished(figure, path, table_in_short(self.table), described(self.table))
 
     def __repr__(self) -> str:
         """How many samples, and the verdicts."""

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A traced path as a picture: singular values and what moves, along the path."""
+"""A traced path as files: a table, a picture along the path, and meshes that play."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +11,13 @@ import numpy as np
 from ..analysis.naming import motion_in_words
 from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
-from ..show.mesh.collection import SUFFIX, Collection, folder_of, moved_mesh, write_collection
+from ..show.mesh.collection import STEM, Collection, folder_of
 from ..show.mesh.content import Meshes
-from ..show.mesh.file import find_format, mesh_bytes
-from ..show.picture.files import STILLS, load_matplotlib, still_bytes
+from ..show.mesh.file import find_format
+from ..show.picture.files import load_matplotlib, still_bytes
 from ..show.picture.make import check_packages
-from ..util.outputs import OutputError, write_together
+from ..show.writers import PLAYING, STILLS, Writers
+from ..util.outputs import OutputError
 from ..util.text import file_name, harmless
 from .values import Names, Traced, drive_unit
 from .words import csv_bytes
@@ -139,87 +139,47 @@ def _legend(figure: Any, trace: Traced) -> None:
     figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize=9.5)
 
 
-#: Names of the meshes: this, and a number each. Of more steps than so many some are left out,
-#: never the dead points.
+#: Names of the meshes: `STEM` of `show.mesh.collection`, and a number each. Of more steps than so
+#: many some are left out, never the dead points.
 MOST = 400
-STEM = "step_"
 ENDINGS = tuple(f"{k:03d}.vtu" for k in range(MOST))
 
 
-class Played(Collection):
-    """The files: a mesh a step, shown to the end along the motion, back, and to the other end.
+def played(trace: Traced, target: Path) -> Collection:
+    """The files that play: a mesh a step, to the end along the motion, back, and to the other end.
 
-    Time is the way that has been gone along the path [m]; it begins and ends at rest.
+    Time is the way that has been gone along the path [m]; it begins and ends at rest. The meshes
+    lie in a folder beside the .pvd file `target`.
     """
-
-    def __init__(self, trace: Traced, target: Path) -> None:
-        """The meshes lie in a folder beside the .pvd file `target`."""
-        find_format("vtu")
-        self._trace = trace
-        steps = _chosen(trace)
-        self._meshes = Meshes(trace.result, len(steps))
-        files = [folder_of(target) / f"{STEM}{ending}" for ending in ENDINGS[: len(steps)]]
-        self._step_of = dict(zip(files, steps, strict=True))
-        start = steps.index(trace.reference)
-        order = [*range(start, len(steps)), *range(len(steps) - 2, -1, -1), *range(1, start + 1)]
-        arc = trace.arc[steps][order]
-        times = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(arc)))))
-        shown = {time: files[k] for time, k in zip(times.tolist(), order, strict=True)}
-        super().__init__(target, files, shown)
-
-    def mesh(self, path: Path) -> bytes:
-        """What a mesh holds."""
-        pose = self._trace.steps[self._step_of[path]].pose
-        return mesh_bytes(moved_mesh(self._meshes, pose), "vtu")
-
-
-def _chosen(trace: Traced) -> list[int]:
-    """Which steps are shown."""
     many = len(trace.steps)
-    if many <= MOST:
-        return list(range(many))
-    every = np.linspace(0, many - 1, MOST // 2).round().astype(int).tolist()
-    dead = [k for k, step in enumerate(trace.steps) if step.dead is not None][: MOST // 2]
-    return sorted({*every, *dead, trace.reference})
+    steps = list(range(many))
+    if many > MOST:
+        every = np.linspace(0, many - 1, MOST // 2).round().astype(int).tolist()
+        dead = [k for k, step in enumerate(trace.steps) if step.dead is not None][: MOST // 2]
+        steps = sorted({*every, *dead, trace.reference})
+    meshes = Meshes(trace.result, len(steps))
+    files = [folder_of(target) / f"{STEM}{ending}" for ending in ENDINGS[: len(steps)]]
+    poses = {file: trace.steps[k].pose for file, k in zip(files, steps, strict=True)}
+    start = steps.index(trace.reference)
+    order = [*range(start, len(steps)), *range(len(steps) - 2, -1, -1), *range(1, start + 1)]
+    arc = trace.arc[steps][order]
+    times = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(arc)))))
+    shown = {time: files[k] for time, k in zip(times.tolist(), order, strict=True)}
+    return Collection(target, shown, lambda path: meshes.moved(poses[path]))
 
 
-#: Suffixes of the files.
-SUFFIXES = (SUFFIX, ".csv", *STILLS)
+#: Of paths.
+TRACES = Writers(
+    lambda path, _: OutputError(f"the suffix of {path} is to be .pvd, .csv, .png, .svg or .pdf")
+)
+TRACES.register((PLAYING,), require=lambda _: find_format("vtu"))(played)
 
 
-def require_suffix(path: Path) -> None:
-    """Raise where a path cannot be written to a file of this name.
-
-    Raises:
-        FlexactError: Its suffix is none of such a file, or a package is missing.
-    """
-    suffix = path.suffix.lower()
-    if suffix not in SUFFIXES:
-        raise OutputError(f"the suffix of {path} is to be .pvd, .csv, .png, .svg or .pdf")
-    if suffix == SUFFIX:
-        find_format("vtu")
-    if suffix in STILLS:
-        check_packages()
+@TRACES.register((".csv",))
+def _table(trace: Traced, path: Path) -> bytes:
+    return csv_bytes(trace)
 
 
-def save(trace: Traced, path: Path) -> None:
-    """Write a path; see `Trace.save`."""
-    if "\0" in str(path):
-        raise OutputError("a file's name cannot hold a NUL")
-    require_suffix(path)
-    _refuse_deck(trace, path)
-    suffix = path.suffix.lower()
-    if suffix == ".csv":
-        write_together({path: csv_bytes(trace)})
-    elif suffix in STILLS:
-        write_together({path: plot_bytes(trace, suffix)})
-    else:
-        write_collection(Played(trace, path))
-
-
-def _refuse_deck(trace: Traced, path: Path) -> None:
-    deck = trace.result.given.name
-    if trace.result.given.source is None or not deck or "\0" in deck:
-        return
-    if os.path.exists(deck) and os.path.realpath(deck) == os.path.realpath(path):
-        raise OutputError(f"{path} would overwrite the deck")
+@TRACES.register(STILLS, require=check_packages)
+def _picture(trace: Traced, path: Path) -> bytes:
+    return plot_bytes(trace, path.suffix.lower())

@@ -11,17 +11,17 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis.decomposition import asked_for
+from ..analysis.limits import TRUE
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..model.model import Model
 from ..model.reading import read
 from ..motion import Ending, Followed, Held, Wishes, follow, is_followed, least_error
 from ..motion.constraints import MOST_COORDINATES
-from ..motion.follow import TRUE
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
-from .output import save
+from .output import TRACES
 from .stroke import Stroke
 from .values import Traced, Way
 from .words import lines
@@ -47,7 +47,7 @@ class Trace(Traced):
             FlexactError: There is no such kind of file, a package is missing, or the file cannot
                 be written.
         """
-        save(self, Path(path))
+        TRACES.save(self, self.result.given, Path(path))
 
 
 #: How far each way by default, in sizes of the model, and by how many steps.

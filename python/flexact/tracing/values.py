@@ -19,9 +19,9 @@ from ..model.configuration import Configuration
 from ..model.parts.parts import natural
 from ..motion import Held, Stop
 from ..show.drawing.pose import Pose
-from ..show.drawing.rotations import vector_of
 from ..show.drawing.selection import Selection
 from ..util.records import Frozen, cached_property
+from ..util.rotations import vector_of
 
 #: Before the name of a body that only turns back in its rotation.
 ROTATION = "rotation of "

@@ -20,7 +20,8 @@ from ..analysis.naming import (
 )
 from ..analysis.places import listed, with_article
 from ..motion import Ending, Stop
-from ..show.drawing.rotations import vector_of
+from ..show.writers import as_bytes
+from ..util.rotations import vector_of
 from .values import ROTATION, DeadPoint, Names, Step, Traced, Way, drive_unit
 
 _RANGES = {
@@ -174,7 +175,7 @@ def csv_bytes(trace: Traced) -> bytes:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header(trace))
     writer.writerows(rows(trace))
-    return text.getvalue().encode("utf-8", "backslashreplace")
+    return as_bytes(text.getvalue())
 
 
 def header(trace: Traced) -> list[str]:

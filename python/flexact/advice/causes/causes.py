@@ -9,10 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.modes import Motion
-from ...analysis.result import Result
+from ...analysis.result import Motion, Result
 from ...core.arrays import FloatArray
-from ...model.parts.parts import groups_of
+from ...util.groups import groups_of
 from ...util.records import Frozen, cached_property
 from ..step import Step
 from .cause import Cause, CauseKind, Causes, Relation

@@ -14,17 +14,16 @@ from functools import partial
 
 import numpy as np
 
-from ...analysis.decomposition import Asked
-from ...analysis.margin import NOTHING
-from ...analysis.modes import Motion, SelfStress
-from ...analysis.result import Result
-from ...analysis.spaces import decompose
+from ...analysis.decomposition import Asked, decompose
+from ...analysis.limits import NO_CHANGE
+from ...analysis.result import Motion, Result, SelfStress
 from ...core import calls
 from ...core.arrays import Basis, FloatArray, ModelArrays, packed
 from ...core.elements import Class, NodeKind, Role, Vector, element_kinds, length_table, role_table
 from ...model.data import ModelData
-from ...model.parts.parts import PartKind, groups_of, natural
+from ...model.parts.parts import PartKind, natural
 from ...util.errors import FlexactError
+from ...util.groups import groups_of
 from ...util.records import Frozen, cached_property
 from .cause import Lift
 
@@ -369,7 +368,7 @@ class MisalignmentRates:
 
 
 #: Differences are good to some 1e-8.
-_NOTHING = max(NOTHING, 1.0e-7)
+_NOTHING = max(NO_CHANGE, 1.0e-7)
 
 
 def _largest(blocks: FloatArray) -> FloatArray:

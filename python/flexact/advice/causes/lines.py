@@ -15,13 +15,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...analysis.screws import Screw, ScrewKind, screw_of
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
-from ...model.parts.parts import Part, PartKind, groups_of, natural
+from ...model.parts.parts import Part, PartKind, natural
+from ...util.groups import groups_of
 from ...util.records import cached_property
 from .cause import RelationKind
 
@@ -56,7 +57,7 @@ class Limb(NamedTuple):
 class Limbs:
     """The limbs of a mechanism, and where they end."""
 
-    def __init__(self, outcome: Outcome) -> None:
+    def __init__(self, outcome: Decomposition) -> None:
         """Keep the analysis; what is asked for is found then."""
         self.outcome = outcome
         self.parts = outcome.parts
@@ -141,18 +142,12 @@ class Limbs:
         return next(iter(found)) if len(found) == 1 else None
 
 
-def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
-    """(3, 3) the matrix of a rotation about a unit axis, by Rodrigues' formula."""
-    cross = np.cross(np.eye(3), axis)
-    return np.asarray(np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
-
-
 def by_name(part: Part) -> tuple[object, ...]:
     """The key by which parts are sorted."""
     return natural(part.name), part.elements
 
 
-def position_of_hinge(outcome: Outcome, part: Part) -> int | None:
+def position_of_hinge(outcome: Decomposition, part: Part) -> int | None:
     """The position node at which a hinge stands; None where none is known."""
     arrays = outcome.given.arrays
     nodes = (arrays.element_node[:, part.elements[0]] - 1).tolist()

@@ -18,7 +18,6 @@ from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.mode_basis import without_sense
 from ...analysis.mode_words import conflict_in_words, line_words
-from ...analysis.modes import Motion
 from ...analysis.naming import (
     Named,
     Pieces,
@@ -35,17 +34,18 @@ from ...analysis.places import (
     part_words,
     place_words,
 )
-from ...analysis.result import Result, result_of
+from ...analysis.result import Motion, Result, result_of
 from ...analysis.screws import Screw, ScrewKind
 from ...core.arrays import FloatArray
 from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
 from ...util.records import cached_property
+from ...util.rotations import about as rotation_about
 from ..step import After, Purpose, Step, tried
 from .cause import CauseKind, Causes, Relation
 from .gradients import Gradients, node_key
-from .lines import Limb, Limbs, rotation_about
+from .lines import Limb, Limbs
 from .words import MOST_NAMED, limb_names, limbs_in_words, names_in_words, relations_in_words
 
 #: Components below this part of the size of the mechanism are zero.

@@ -19,8 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.mode_basis import without_sense
-from ...analysis.modes import Motion, SelfStress
-from ...analysis.result import Result
+from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.screws import Screw, ScrewKind, Wrench, WrenchKind
 from ...core.arrays import BoolArray, FloatArray
 from ...core.elements import Class, NodeKind

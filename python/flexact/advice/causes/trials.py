@@ -18,10 +18,10 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...util.records import Frozen, cached_property
+from ...util.rotations import about as rotation_about
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
 from .gradients import Geometry, rank_at
-from .lines import rotation_about
 
 #: Of more joints no symmetry is looked for.
 _MOST_JOINTS = 36

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
-from ...model.parts.parts import groups_of
+from ...util.groups import groups_of
 
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01

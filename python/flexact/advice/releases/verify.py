@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.change import Change
-from ...analysis.decomposition import Asked
+from ...analysis.decomposition import Asked, decompose
 from ...analysis.result import Result
-from ...analysis.spaces import decompose
 from ...analysis.verdict import Alternative, AnalysisError
 from ...analysis.ways import entry_columns, entry_rows
 from ...core.arrays import FloatArray

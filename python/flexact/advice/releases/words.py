@@ -11,7 +11,7 @@ import numpy as np
 
 from ...analysis.calls import HOLD, calls_of_change, method_of
 from ...analysis.change import Change
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.deformation_words import bending_of, deformation_words, role_of
 from ...analysis.naming import (
     Named,
@@ -65,11 +65,11 @@ class Phrase(NamedTuple):
         return self.before, self.what
 
 
-def outcome_as_given(result: Result) -> Outcome:
+def outcome_as_given(result: Result) -> Decomposition:
     """The outcome on the elements and nodes of the model as given, for words alone."""
     if not result.condensed.chains:
         return result
-    return Outcome(result.name, as_given(result.given), result.raw, result.asked)
+    return Decomposition(result.name, as_given(result.given), result.raw, result.asked)
 
 
 #: Words before and behind the name of a part, and what is free or held then, by role.
@@ -95,7 +95,7 @@ _HINGE = {
 class _Deformation:
     """A deformation of an element of the model as given, and what words are made of."""
 
-    def __init__(self, outcome: Outcome, element: int, number: int) -> None:
+    def __init__(self, outcome: Decomposition, element: int, number: int) -> None:
         """Of the number of an element, and of a deformation of it, from 1."""
         self.outcome, self.element, self.number = outcome, element, number
         self.index = outcome.data.element_index[element]
@@ -165,7 +165,7 @@ class _Deformation:
         return Phrase("stiffen ", self.name, "", "", f" ({self.word} held)")
 
 
-def released(outcome: Outcome, deformations: Iterable[Deformation]) -> Iterator[Phrase]:
+def released(outcome: Decomposition, deformations: Iterable[Deformation]) -> Iterator[Phrase]:
     """What is done to release deformations, part by part; those of a body by its members.
 
     Args:
@@ -182,7 +182,7 @@ def released(outcome: Outcome, deformations: Iterable[Deformation]) -> Iterator[
         yield from _of_part(outcome, part, mine)
 
 
-def _of_part(outcome: Outcome, part: Part, mine: list[_Deformation]) -> Iterator[Phrase]:
+def _of_part(outcome: Decomposition, part: Part, mine: list[_Deformation]) -> Iterator[Phrase]:
     name, (first, *more) = mine[0].name, mine
     is_hinge, is_body = part.kind is PartKind.HINGE, part.kind is PartKind.BODY
     rest = [] if is_body else _held_without(outcome, part, mine)
@@ -223,7 +223,7 @@ def _of_part(outcome: Outcome, part: Part, mine: list[_Deformation]) -> Iterator
 _SLIDES = ", or let it slide along its length"
 
 
-def _held_without(outcome: Outcome, part: Part, mine: Sequence[_Deformation]) -> list[int]:
+def _held_without(outcome: Decomposition, part: Part, mine: Sequence[_Deformation]) -> list[int]:
     """What a part holds, or has declared, without some: deformations of one beam, from 1."""
     row = next((c for c in outcome.data.chains if c.elements[0] == part.elements[0]), None)
     if row is None:
@@ -238,7 +238,7 @@ def _held_without(outcome: Outcome, part: Part, mine: Sequence[_Deformation]) ->
     return [k for k, given in enumerate(classes, 1) if k not in gone and given not in free]
 
 
-def _can_go(outcome: Outcome, part: Part) -> bool:
+def _can_go(outcome: Decomposition, part: Part) -> bool:
     """Whether every node at an end of a part that can move is one of another part as well."""
     arrays = outcome.given.arrays
     slots = arrays.element_node - 1
@@ -284,7 +284,7 @@ class Release(Step):
         told = _told(phrases)
         return (*told, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
 
-    def _declared(self, outcome: Outcome) -> Pieces:
+    def _declared(self, outcome: Decomposition) -> Pieces:
         """What is declared or held."""
         change = self.change
         declared, fixed = (_statements(outcome, change, word) for word in ("DYNX", "FIX"))
@@ -303,7 +303,7 @@ class Release(Step):
         return tuple(piece for piece in pieces if piece)
 
 
-def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> list[Phrase]:
+def _phrases(outcome: Decomposition, purpose: Purpose, change: Change) -> list[Phrase]:
     deformations = [(element, number) for element, number, _ in change.deformations]
     if purpose is Purpose.HOLD:
         made = [_Deformation(outcome, *one).held() for one in deformations]
@@ -312,7 +312,7 @@ def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> list[Phrase]
     return made + [_freed(outcome, node, name) for node, name, _ in change.coordinates]
 
 
-def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
+def _freed(outcome: Decomposition, node: int, name: str) -> Phrase:
     """A support that lets a coordinate go."""
     where = coordinate_in_words(outcome, node, name)[0]
     assert isinstance(where, Named)
@@ -322,7 +322,7 @@ def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
     return Phrase("let ", where, " slide", f" along {name}")
 
 
-def _which_end(outcome: Outcome, node: int) -> str:
+def _which_end(outcome: Decomposition, node: int) -> str:
     """Where a support is, if the part that it holds has another that is called the same."""
     place = outcome.parts.place_of(outcome.given.node_index[node])
     here = () if place is None else outcome.parts.at(place)
@@ -332,7 +332,7 @@ def _which_end(outcome: Outcome, node: int) -> str:
     return f" at ({at}" if words else ""
 
 
-def _coordinates(outcome: Outcome, change: Change) -> Pieces:
+def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
     """Coordinates by their points and bodies; those inside of sheets and wires are counted."""
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
@@ -365,7 +365,7 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
     return row_of(items, _MOST_NAMED)
 
 
-def _of_several_points(outcome: Outcome, change: Change) -> dict[str, set[int]]:
+def _of_several_points(outcome: Decomposition, change: Change) -> dict[str, set[int]]:
     """Positions by what they are called, of those where several are called the same."""
     data = outcome.given.arrays
     called: dict[str, set[int]] = {}
@@ -436,7 +436,7 @@ def _named(parts: Sequence[Named]) -> Pieces:
     return row_of([(part,) for part in parts])
 
 
-def _statements(outcome: Outcome, change: Change, keyword: str, before: str = "") -> str:
+def _statements(outcome: Decomposition, change: Change, keyword: str, before: str = "") -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
     if outcome.given.source is not None:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
@@ -449,7 +449,7 @@ def _statements(outcome: Outcome, change: Change, keyword: str, before: str = ""
     return ", ".join(calls)
 
 
-def _operands(outcome: Outcome, change: Change) -> list[str]:
+def _operands(outcome: Decomposition, change: Change) -> list[str]:
     """Numbers of elements and their deformations, and of nodes and their components."""
     of_element: dict[int, list[int]] = {}
     for element, number, _ in change.deformations:
@@ -462,7 +462,7 @@ def _operands(outcome: Outcome, change: Change) -> list[str]:
     return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
 
 
-def coordinate_named(outcome: Outcome, node: int, name: str) -> Coordinate:
+def coordinate_named(outcome: Decomposition, node: int, name: str) -> Coordinate:
     """The coordinate of a name of a node, by the number of the node."""
     index = outcome.data.node_index[node]
     kind = int(outcome.data.arrays.node_kind[index])

@@ -28,7 +28,8 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...analysis.screws import ROUNDING, sense_of
+from ...analysis.limits import ROUNDING
+from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray, floats
 from ...util.records import Frozen, cached_property
 

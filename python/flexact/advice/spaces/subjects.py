@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.carriers import Joint
-from ...analysis.decomposition import Asked, column_weights
+from ...analysis.decomposition import Asked, column_weights, decompose
+from ...analysis.limits import ROUNDING
 from ...analysis.result import Result
-from ...analysis.screws import ROUNDING
-from ...analysis.spaces import decompose
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...core.raw import RawAnalysis

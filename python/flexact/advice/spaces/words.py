@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.mode_words import line_words
 from ...analysis.naming import Pieces
 from ...analysis.places import axis_words, listed, part_words, place_words, with_article
@@ -35,7 +35,7 @@ _FAMILIES = {
 class Geometry:
     """Lines, planes and points of a mechanism in words: by names where something lies there."""
 
-    def __init__(self, outcome: Outcome) -> None:
+    def __init__(self, outcome: Decomposition) -> None:
         """Of the mechanism as it was given."""
         self.outcome = outcome
         self._values = outcome.given.arrays.node_value[:3].T

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -92,10 +92,14 @@ def bars(side: int) -> Mechanism:
     are held already, a self-stress.
     """
     lines: list[str] = []
-    number = {index: node for node, index in enumerate(_indices(side), start=1)}
+    # Joints of the lattice, and those on the ground before its first ones.
+    every = product(range(-1, side), repeat=3)
+    joints = (index for index in every if sum(c < 0 for c in index) <= 1)
+    number = {index: node for node, index in enumerate(joints, start=1)}
     rest: list[str] = []
     for index, node in number.items():
-        rest.append(f"X {node} {_place(index)}")
+        place = (sum(c * s[axis] for c, s in zip(index, _STEPS, strict=True)) for axis in range(3))
+        rest.append(f"X {node} {' '.join(map(repr, place))}")
         if min(index) < 0:
             rest.append(f"FIX {node}")
             continue
@@ -113,22 +117,6 @@ def bars(side: int) -> Mechanism:
 def _at(i: int, j: int) -> tuple[float, float, float]:
     """Where a stage is; no two neighbours at one height, so that links couple all their motions."""
     return _PITCH * i, _PITCH * j, _HEIGHT * ((2 * i + 3 * j) % 5)
-
-
-def _indices(side: int) -> Iterator[tuple[int, int, int]]:
-    """Joints of the lattice, and those on the ground before its first ones."""
-    for i in range(-1, side):
-        for j in range(-1, side):
-            for k in range(-1, side):
-                if sum(c < 0 for c in (i, j, k)) <= 1:
-                    yield i, j, k
-
-
-def _place(index: tuple[int, int, int]) -> str:
-    return " ".join(
-        repr(sum(c * step[axis] for c, step in zip(index, _STEPS, strict=True)))
-        for axis in range(3)
-    )
 
 
 class _Deck:
@@ -276,13 +264,13 @@ def measure(
     """
     work = [_columns(case) ** _POWERS[case.method] for case in cases]
     for k, case in enumerate(cases):
-        part = partial(_part, progress, sum(work[:k]) / sum(work), work[k] / sum(work))
+        before, whole = sum(work[:k]) / sum(work), work[k] / sum(work)
+
+        def part(name: str, done: float, before: float = before, whole: float = whole) -> None:
+            """Say how far all is, where this case is so far."""
+            progress(name, before + done * whole)
+
         yield _measured(FAMILIES[case.family](case.side), case.method, threads, part)
-
-
-def _part(progress: Progress, before: float, whole: float, name: str, done: float) -> None:
-    """Say how far all is, where a part of it is so far."""
-    progress(name, before + done * whole)
 
 
 def _columns(case: Case) -> float:
@@ -299,7 +287,7 @@ def _measured(
         full = full_matrix(data) if max(count.rows, count.columns) <= _MOST_OF_SVD else None
         for k, number in enumerate(threads):
             progress(f"{mechanism.name}, {method}", k / len(threads))
-            with _threads(number):
+            with load("threadpoolctl").threadpool_limits(number):
                 calls: list[Callable[[], object]] = [lambda: _analysed(data, method)]
                 if full is not None:
                     calls.append(partial(np.linalg.svd, full))
@@ -320,11 +308,6 @@ def _analysed(data: ModelData, method: str) -> Result:
     result: Result = result_of(replace(data), Asked(method=method))
     _ = result.certainty, result.margin
     return result
-
-
-def _threads(number: int) -> AbstractContextManager[Any]:
-    limits: AbstractContextManager[Any] = load("threadpoolctl").threadpool_limits(number)
-    return limits
 
 
 _NAME, _SIZE, _TIME = 29, 13, 12

@@ -4,18 +4,16 @@
 from __future__ import annotations
 
 import math
-import socket
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
 
+from ...analysis.decomposition import asked_for
 from ...analysis.result import result_of
-from ...analysis.spaces import asked_for
 from ...analysis.verdict import AnalysisError
 from ...core.arrays import FloatArray
 from ...core.progress import Progress
@@ -48,32 +46,23 @@ MOST_NAMED = 6
 TAKES_PART = 1e-6
 
 
-@dataclass(frozen=True)
-class Tolerances:
-    """How far answers may lie apart.
-
-    Attributes:
-        singular_values: Largest difference, as a fraction of the largest singular value.
-        projectors: Largest difference of an entry of a projector, or of an image under one.
-    """
-
-    singular_values: float = 1e-9
-    projectors: float = 1e-8
-
-
-STRICT = Tolerances()
+#: How far answers may lie apart by default: singular values, as a fraction of the largest; and an
+#: entry of a projector, or of an image under one.
+WITHIN = (1e-9, 1e-8)
 
 
 def differences(
-    stored: StoredAnswer, found: StoredAnswer, tolerances: Tolerances = STRICT
+    stored: StoredAnswer, found: StoredAnswer, within: tuple[float, float] = WITHIN
 ) -> tuple[str, ...]:
     """What differs from a stored answer, a sentence each; empty where nothing does."""
+    of_values, of_projectors = within
     return (
         *_in_counts(stored, found),
-        *_in_singular_values(stored, found, tolerances),
-        *_in_subspaces("motions", "node", stored.motions, found.motions, tolerances),
+        *_in_singular_values(stored, found, of_values),
+        *_in_subspaces("motions", "node", stored.motions, found.motions, of_projectors),
         *_in_subspaces(
-            "self-stresses", "element", stored.self_stresses, found.self_stresses, tolerances
+            *("self-stresses", "element", stored.self_stresses, found.self_stresses),
+            of_projectors,
         ),
     )
 
@@ -92,94 +81,69 @@ def _in_counts(stored: StoredAnswer, found: StoredAnswer) -> Iterator[str]:
                 yield f"{name} {kind}: {now.get(name)}, stored {before.get(name)}"
 
 
-def _in_singular_values(
-    stored: StoredAnswer, found: StoredAnswer, tolerances: Tolerances
-) -> Iterator[str]:
-    (before, all_before), (now, all_now) = _singular_values(stored), _singular_values(found)
-    if all_before and all_now and len(before) != len(now):
+def _in_singular_values(stored: StoredAnswer, found: StoredAnswer, within: float) -> Iterator[str]:
+    before, now = stored.singular_values, found.singular_values
+    sizes = [min(each.numbers["rows"], each.numbers["columns"]) for each in (stored, found)]
+    are_all = len(before) >= sizes[0] and len(now) >= sizes[1]
+    if are_all and len(before) != len(now):
         yield f"singular values: {len(now)}, stored {len(before)}"
         return
     common = min(len(before), len(now))
     before, now = before[len(before) - common :], now[len(now) - common :]
-    largest = float(np.max(np.abs(before), initial=0.0))
-    if not (all_before and all_now):
-        # The largest is not known; it is about one or more, since D(c) holds unit vectors.
-        largest = max(largest, 1.0)
+    # Where the largest is not known it is about one or more, since D(c) holds unit vectors.
+    largest = float(np.max(np.abs(before), initial=0.0 if are_all else 1.0))
     apart = np.abs(before - now)
-    wrong = ~(apart <= tolerances.singular_values * largest)
+    wrong = ~(apart <= within * largest)
     if wrong.any():
         k = int(np.argmax(apart))
-        number = min(stored.numbers["rows"], stored.numbers["columns"]) - common + k + 1
         yield (
-            f"singular values: {int(wrong.sum())} of {common} differ; the largest difference "
-            f"is in number {number}: {float(now[k])!r}, stored {float(before[k])!r}"
+            f"singular values: {int(wrong.sum())} of {common} differ; the largest difference is "
+            f"in number {sizes[0] - common + k + 1}: {float(now[k])!r}, stored "
+            f"{float(before[k])!r}"
         )
 
 
-def _singular_values(answer: StoredAnswer) -> tuple[FloatArray, bool]:
-    """Singular values, and whether they are all there."""
-    least = min(answer.numbers["rows"], answer.numbers["columns"])
-    return answer.singular_values, len(answer.singular_values) >= least
-
-
-def _in_subspaces(
-    name: str, owner: str, stored: Kept, found: Kept, tolerances: Tolerances
-) -> Iterator[str]:
+def _in_subspaces(name: str, owner: str, stored: Kept, found: Kept, within: float) -> Iterator[str]:
     if stored is None or found is None:
         return
     labels = tuple(dict.fromkeys((*stored.labels, *found.labels)))
-    if isinstance(stored, Projector) and isinstance(found, Projector):
-        before, now = _spread(stored, labels), _spread(found, labels)
-        what = _how_projectors_differ
-    else:
-        before, now = _images(stored, labels), _images(found, labels)
-        what = _how_images_differ
-    if float(np.max(np.abs(before - now), initial=0.0)) <= tolerances.projectors:
+    both = isinstance(stored, Projector) and isinstance(found, Projector)
+    before, now = (_compared(kept, labels, both) for kept in (stored, found))
+    apart = float(np.max(np.abs(before - now), initial=0.0))
+    if apart <= within:
         return
-    shares = _shares(stored, labels), _shares(found, labels)
-    yield "; ".join((f"{name}: {what(before, now)}", *_who(owner, labels, *shares)))
+    what = f"projections on the subspace differ by up to {apart:.2g}"
+    if both:
+        was, is_ = round(float(np.trace(before))), round(float(np.trace(now)))
+        angle = math.degrees(math.asin(min(1.0, float(np.linalg.norm(before - now, 2)))))
+        what = f"the subspace turned by {angle:.2g} degrees"
+        if was != is_:
+            what = f"{is_}, stored {was}"
+    yield "; ".join((f"{name}: {what}", *_who(owner, _taking_part(stored), _taking_part(found))))
 
 
-def _how_projectors_differ(before: FloatArray, now: FloatArray) -> str:
-    dimensions = round(float(np.trace(before))), round(float(np.trace(now)))
-    if dimensions[0] != dimensions[1]:
-        return f"{dimensions[1]}, stored {dimensions[0]}"
-    angle = math.degrees(math.asin(min(1.0, float(np.linalg.norm(before - now, 2)))))
-    return f"the subspace turned by {angle:.2g} degrees"
-
-
-def _how_images_differ(before: FloatArray, now: FloatArray) -> str:
-    apart = float(np.max(np.abs(before - now)))
-    return f"projections on the subspace differ by up to {apart:.2g}"
-
-
-def _images(kept: Projector | Images, labels: tuple[str, ...]) -> FloatArray:
-    """(labels, vectors) images of the fixed vectors."""
-    of_kept = kept.values if isinstance(kept, Images) else kept.matrix @ fixed_vectors(kept.labels)
-    return _placed(kept, labels, of_kept)
-
-
-def _shares(kept: Projector | Images, labels: tuple[str, ...]) -> FloatArray:
-    """(labels,) how far each reaches into the subspace, as far as what is kept tells."""
-    of_kept = np.diag(kept.matrix) if isinstance(kept, Projector) else (kept.values**2).sum(axis=1)
-    return _placed(kept, labels, of_kept)
-
-
-def _spread(projector: Projector, labels: tuple[str, ...]) -> FloatArray:
-    rows = _placed(projector, labels, projector.matrix)
-    return _placed(projector, labels, rows.T)
-
-
-def _placed(kept: Projector | Images, labels: tuple[str, ...], values: FloatArray) -> FloatArray:
-    """Values of what is kept, each at its label; zeros elsewhere."""
-    place = {label: k for k, label in enumerate(labels)}
-    made = np.zeros((len(labels), *values.shape[1:]))
-    made[[place[label] for label in kept.labels]] = values
+def _compared(kept: Projector | Images, labels: tuple[str, ...], as_projectors: bool) -> FloatArray:
+    """(labels, ...) a projector, or its images of the fixed vectors; zeros at other labels."""
+    index = {label: k for k, label in enumerate(labels)}
+    place = [index[label] for label in kept.labels]
+    if as_projectors and isinstance(kept, Projector):
+        made = np.zeros((len(labels), len(labels)))
+        made[np.ix_(place, place)] = kept.matrix
+        return made
+    values = kept.values if isinstance(kept, Images) else kept.matrix @ fixed_vectors(kept.labels)
+    made = np.zeros((len(labels), values.shape[1]))
+    made[place] = values
     return made
 
 
-def _who(owner: str, labels: tuple[str, ...], before: FloatArray, now: FloatArray) -> Iterator[str]:
-    earlier, later = _taking_part(labels, before), _taking_part(labels, now)
+def _taking_part(kept: Projector | Images) -> set[int]:
+    """Numbers of what reaches into the subspace, as far as what is kept tells."""
+    shares = np.diag(kept.matrix) if isinstance(kept, Projector) else (kept.values**2).sum(axis=1)
+    there = zip(kept.labels, shares > TAKES_PART**2, strict=True)
+    return {int(label.split(":")[0]) for label, is_there in there if is_there}
+
+
+def _who(owner: str, earlier: set[int], later: set[int]) -> Iterator[str]:
     for numbers, before_verb, after in (
         (later - earlier, "", " now"),
         (earlier - later, "no longer ", ""),
@@ -189,11 +153,6 @@ def _who(owner: str, labels: tuple[str, ...], before: FloatArray, now: FloatArra
             more = f" and {len(numbers) - MOST_NAMED} more" if len(numbers) > MOST_NAMED else ""
             who, takes = (owner, "takes") if len(numbers) == 1 else (f"{owner}s", "take")
             yield f"{who} {named}{more} {before_verb}{takes} part{after}"
-
-
-def _taking_part(labels: tuple[str, ...], shares: FloatArray) -> set[int]:
-    parts = shares > TAKES_PART**2
-    return {int(label.split(":")[0]) for label, used in zip(labels, parts, strict=True) if used}
 
 
 #: Called with a model before it is analysed; gives what is to be told of the progress.
@@ -283,7 +242,7 @@ class Question:
 
     Attributes:
         method: How D(c) is decomposed.
-        tolerance: How far answers may lie apart; None: as `STRICT` says.
+        tolerance: How far answers may lie apart; None: as `WITHIN` says.
         stores: Whether what is new or differs is to be stored.
     """
 
@@ -316,83 +275,18 @@ class Question:
         asked = asked_for(self.method, None)
         now = answer_of(result_of(model, asked, case.name, watch(model)))
         t = self.tolerance
-        apart = STRICT if t is None else Tolerances(t, t)
-        found = () if stored is None else differences(stored, now, apart)
+        within = WITHIN if t is None else (t, t)
+        found = () if stored is None else differences(stored, now, within)
         if stored is not None and not found:
             return Finding(State.AS_STORED)
         if self.stores:
             return Finding(State.STORED, found, text=text_of(now))
         assert stored is not None
-        return Finding(State.DIFFERENT, found, _gravity(stored, now))
+        gravity = int(stored.numbers != now.numbers or stored.counts != now.counts)
+        return Finding(State.DIFFERENT, found, 2 if stored.verdict != now.verdict else gravity)
 
 
 def _given(text: bytes | FlexactError) -> bytes:
     if isinstance(text, FlexactError):
         raise text
     return text
-
-
-def _gravity(stored: StoredAnswer, now: StoredAnswer) -> int:
-    if stored.verdict != now.verdict:
-        return 2
-    return int(stored.numbers != now.numbers or stored.counts != now.counts)
-
-
-#: States that are failures of a test, and errors in it.
-_FAILURES, _ERRORS = (State.DIFFERENT,), (State.FAILED, State.MISSING)
-
-
-def junit_xml(found: Sequence[tuple[DeckFile, Finding]], seconds: float, start: float) -> bytes:
-    """The text of a JUnit XML file: a test case a deck.
-
-    Args:
-        found: The decks, and what came of each.
-        seconds: What all took.
-        start: When it began [s since 1970].
-    """
-    root = ElementTree.Element("testsuites")
-    suite = ElementTree.SubElement(
-        root,
-        "testsuite",
-        name="flexact regress",
-        package="flexact",
-        id="0",
-        tests=str(len(found)),
-        failures=str(_count(found, _FAILURES)),
-        errors=str(_count(found, _ERRORS)),
-        time=f"{seconds:.3f}",
-        timestamp=time.strftime("%Y-%m-%dT%H:%M:%S", time.gmtime(start)),
-        hostname=socket.gethostname() or "localhost",
-    )
-    ElementTree.SubElement(suite, "properties")
-    for deck, finding in found:
-        _add(suite, deck, finding)
-    ElementTree.SubElement(suite, "system-out")
-    ElementTree.SubElement(suite, "system-err")
-    ElementTree.indent(root)
-    text = ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
-    return bytes(text) + b"\n"
-
-
-def _count(found: Iterable[tuple[DeckFile, Finding]], states: tuple[State, ...]) -> int:
-    return sum(finding.state in states for _, finding in found)
-
-
-def _add(suite: ElementTree.Element, deck: DeckFile, finding: Finding) -> None:
-    case = ElementTree.SubElement(
-        suite,
-        "testcase",
-        name=harmless(deck.name),
-        classname=harmless(".".join(("decks", *_name(deck.relative.parent).split("/")))).strip("."),
-        time=f"{finding.seconds:.6f}",
-    )
-    if finding.state in (*_FAILURES, *_ERRORS):
-        kind = "failure" if finding.state in _FAILURES else "error"
-        lines = reasons(finding)
-        about = ElementTree.SubElement(case, kind, type=finding.state.value, message=lines[0])
-        about.text = "\n".join(lines)
-
-
-def _name(folder: object) -> str:
-    text = str(folder).encode("utf-8", "backslashreplace").decode("utf-8")
-    return "" if text == "." else text.replace("\\", "/")

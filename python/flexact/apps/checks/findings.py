@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,7 +23,7 @@ from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, d
 from ...util.records import cached_property
 from ...util.text import harmless
 from ..editor.deck import Index, Key
-from ..editor.document import Document, Range, units
+from ..editor.document import Document, units
 from ..editor.statements import Statements
 
 
@@ -125,11 +125,10 @@ class Lines:
     def definition(self, key: Key) -> Region | None:
         """Where an element is made or a node gets its place; None where the text does not say."""
         where = self._index.definition(key) if self._index is not None else []
-        return self._region_of(where[0]) if where else None
-
-    def _region_of(self, range_: Range) -> Region:
-        line, first = range_.start
-        return self.region(Place(line + 1, first + 1, max(range_.end.character, first + 1)))
+        if not where:
+            return None
+        line, first = where[0].start
+        return self.region(Place(line + 1, first + 1, max(where[0].end.character, first + 1)))
 
     @cached_property
     def _index(self) -> Index | None:
@@ -164,31 +163,27 @@ def findings_of(deck: str, problems: Problems, source: Source | None) -> list[Fi
 
 def of_diagnostics(
     deck: str, diagnostics: Iterable[Diagnostic], source: Source | None
-) -> Iterable[Finding]:
+) -> Iterator[Finding]:
     """Diagnostics as findings, in their order."""
     lines = Lines(source)
     for item in diagnostics:
-        yield _finding(deck, item, lines)
-
-
-def _finding(deck: str, item: Diagnostic, lines: Lines) -> Finding:
-    region: Region | None = None
-    statement, related = "", []
-    if item.line > 0:
-        region = lines.region(Place(item.line, item.column, item.last_column))
-        statement = lines.statement(item.line)
-    if item.other is not None:
-        is_before = item.other < (item.line, item.column)
-        words = "first here" if is_before else "and here"
-        related.append(Related(lines.region(item.other), words))
-    message = harmless(item.message)
-    if item.label:
-        message = f"{message}: {harmless(item.label)}"
-    return Finding(
-        *(deck, item.code, item.severity, message, region, statement),
-        tuple(related),
-        harmless(item.help),
-    )
+        region: Region | None = None
+        statement, related = "", []
+        if item.line > 0:
+            region = lines.region(Place(item.line, item.column, item.last_column))
+            statement = lines.statement(item.line)
+        if item.other is not None:
+            is_before = item.other < (item.line, item.column)
+            words = "first here" if is_before else "and here"
+            related.append(Related(lines.region(item.other), words))
+        message = harmless(item.message)
+        if item.label:
+            message = f"{message}: {harmless(item.label)}"
+        yield Finding(
+            *(deck, item.code, item.severity, message, region, statement),
+            tuple(related),
+            harmless(item.help),
+        )
 
 
 UNDER, OVER = "under-constrained", "over-constrained"
@@ -212,11 +207,8 @@ def findings_about(deck: str, result: Result, expected: Verdict | None) -> list[
     return made + list(_Verdict(deck, result, expected).findings())
 
 
-class _Mode(NamedTuple):
-    """A motion or a self-stress in words."""
-
-    head: Pieces
-    parts: tuple[Pieces, ...]
+#: A motion or a self-stress in words: the head, and what takes part.
+_Mode = tuple[Pieces, Sequence[Pieces]]
 
 
 class _Verdict:
@@ -248,7 +240,7 @@ class _Verdict:
         result = self.result
         internal = internal_in_words(result)
         told = [one for one in result.motions if not (internal and one.is_internal)]
-        modes = (_Mode((), motion_in_parts(motion, _PARTS)) for motion in told[:_MOST])
+        modes = (((), motion_in_parts(motion, _PARTS)) for motion in told[:_MOST])
         if internal:
             yield self._made(UNDER, self._counts(UNDER, internal), None)
         rest = result.under_constrained - (len(result.motions) - len(told) if internal else 0)
@@ -257,7 +249,7 @@ class _Verdict:
     def _self_stresses(self) -> Iterator[Finding]:
         result = self.result
         modes = (
-            _Mode(conflict_in_words(stress), stress_in_parts(stress, _PARTS))
+            (conflict_in_words(stress), stress_in_parts(stress, _PARTS))
             for stress in result.self_stresses[:_MOST]
         )
         ways = lines_on_self_stresses(result)
@@ -269,9 +261,10 @@ class _Verdict:
         """Modes one by one, the first with what can be done, and how many there are besides."""
         mend = "\n".join(map(_way, ways))
         number = 0
-        for number, mode in enumerate(modes, start=1):
-            words = f"{what} {number}: {_words(mode)}"
-            related = tuple(self._related(mode.parts))
+        for number, (head, parts) in enumerate(modes, start=1):
+            some = [*map(plain, parts[:_PARTS]), *["..."] * (len(parts) > _PARTS)]
+            words = f"{what} {number}: {f'{plain(head)}: ' if head else ''}{'; '.join(some)}"
+            related = tuple(self._related(parts))
             region = next((one.region for one in related), None)
             yield self._made(code, self._counts(code, words), region, related, mend)
             mend = ""
@@ -288,12 +281,11 @@ class _Verdict:
         )
         return f"{stated}: {words}"
 
-    def _related(self, parts: tuple[Pieces, ...]) -> Iterator[Related]:
+    def _related(self, parts: Sequence[Pieces]) -> Iterator[Related]:
         """Of each part its statement, the first of those that have one the place of all."""
         seen = set()
         for pieces in parts[:_PARTS]:
-            named = next((piece for piece in pieces if isinstance(piece, Named)), None)
-            region = self.lines.definition((named.kind, named.number)) if named else None
+            region = self._where(pieces)
             if region is not None and region not in seen:
                 seen.add(region)
                 yield Related(region, harmless(plain(pieces)))
@@ -301,10 +293,12 @@ class _Verdict:
     def _marginal(self) -> Finding:
         result = self.result
         words = f"{verdict_in_words(result).start}. {plain(margin_line(result).head)}"
-        line = margin_line(result).head
-        named = next((piece for piece in line if isinstance(piece, Named)), None)
-        where = self.lines.definition((named.kind, named.number)) if named else None
-        return self._made(MARGINAL, words, where)
+        return self._made(MARGINAL, words, self._where(margin_line(result).head))
+
+    def _where(self, pieces: Pieces) -> Region | None:
+        """Where what is named first is defined."""
+        named = next((piece for piece in pieces if isinstance(piece, Named)), None)
+        return self.lines.definition((named.kind, named.number)) if named else None
 
     def _made(
         self,
@@ -317,14 +311,6 @@ class _Verdict:
         statement = self.lines.statement(region.line) if region is not None else ""
         words = harmless(words)
         return Finding(self.deck, code, self.severity, words, region, statement, related, mend)
-
-
-def _words(mode: _Mode) -> str:
-    """A mode in a sentence, and what takes part."""
-    parts = [plain(pieces) for pieces in mode.parts[:_PARTS]]
-    parts += ["..."] * (len(mode.parts) > _PARTS)
-    listed = "; ".join(parts)
-    return f"{plain(mode.head)}: {listed}" if mode.head else listed
 
 
 def _way(line: Line) -> str:

@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Findings as commands of a workflow, by which GitHub marks lines of a pull request.
+"""What was found, for other programs: GitHub's annotations, the JSON of check, and JUnit XML.
 
-The form is that of "Workflow commands for GitHub Actions" in GitHub's documentation.
+Annotations are "Workflow commands for GitHub Actions" of GitHub's documentation.
 """
 
 from __future__ import annotations
 
+import socket
+import time
+from collections.abc import Sequence
 from typing import Any
+from xml.etree import ElementTree
 
 from ...deck.diagnostics import Diagnostic, Place, Problems, Severity
+from ...util.decks import DeckFile
 from ...util.loading import VERSION
+from ...util.text import harmless
+from . import comparison
 from .findings import Finding, from_root
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
@@ -76,3 +83,61 @@ def _diagnostic(item: Diagnostic) -> dict[str, Any]:
 def _place(place: Place) -> dict[str, int]:
     line, first, last = place
     return {"line": line, "column": first, "end_column": max(first, last) + 1 if line else 0}
+
+
+#: States that are failures of a test, and errors in it.
+_FAILURES, _ERRORS = (
+    (comparison.State.DIFFERENT,),
+    (comparison.State.FAILED, comparison.State.MISSING),
+)
+
+
+def junit_xml(
+    found: Sequence[tuple[DeckFile, comparison.Finding]], seconds: float, start: float
+) -> bytes:
+    """The text of a JUnit XML file: a test case a deck.
+
+    Args:
+        found: The decks, and what came of each.
+        seconds: What all took.
+        start: When it began [s since 1970].
+    """
+    root = ElementTree.Element("testsuites")
+    suite = ElementTree.SubElement(
+        root,
+        "testsuite",
+        name="flexact regress",
+        package="flexact",
+        id="0",
+        tests=str(len(found)),
+        failures=str(sum(each.state in _FAILURES for _, each in found)),
+        errors=str(sum(each.state in _ERRORS for _, each in found)),
+        time=f"{seconds:.3f}",
+        timestamp=time.strftime("%Y-%m-%dT%H:%M:%S", time.gmtime(start)),
+        hostname=socket.gethostname() or "localhost",
+    )
+    ElementTree.SubElement(suite, "properties")
+    for deck, finding in found:
+        _add(suite, deck, finding)
+    ElementTree.SubElement(suite, "system-out")
+    ElementTree.SubElement(suite, "system-err")
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
+    return bytes(text) + b"\n"
+
+
+def _add(suite: ElementTree.Element, deck: DeckFile, finding: comparison.Finding) -> None:
+    folder = str(deck.relative.parent).encode("utf-8", "backslashreplace").decode("utf-8")
+    parts = [] if folder == "." else folder.replace("\\", "/").split("/")
+    case = ElementTree.SubElement(
+        suite,
+        "testcase",
+        name=harmless(deck.name),
+        classname=harmless(".".join(("decks", *parts))).strip("."),
+        time=f"{finding.seconds:.6f}",
+    )
+    if finding.state in (*_FAILURES, *_ERRORS):
+        kind = "failure" if finding.state in _FAILURES else "error"
+        lines = comparison.reasons(finding)
+        about = ElementTree.SubElement(case, kind, type=finding.state.value, message=lines[0])
+        about.text = "\n".join(lines)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 import re
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -195,21 +195,17 @@ def _text_of_subspace(kept: Kept) -> str:
     if kept is None:
         return "null"
     what = "projector" if isinstance(kept, Projector) else "images"
-    rows = map(json.dumps, _triangle(kept) if isinstance(kept, Projector) else _rows(kept))
-    entries = ",".join(f"\n      {row}" for row in rows)
+    rows: Iterable[Sequence[Any]]
+    if isinstance(kept, Projector):
+        there = np.argwhere(np.triu(np.abs(kept.matrix) > SMALLEST_ENTRY)).tolist()
+        names, matrix = kept.labels, kept.matrix
+        rows = ((names[i], names[k], float(matrix[i, k])) for i, k in there)
+    else:
+        pairs = zip(kept.labels, kept.values.tolist(), strict=True)
+        rows = ((label, *values) for label, values in pairs)
+    entries = ",".join(f"\n      {json.dumps(row)}" for row in rows)
     end = "\n    " if entries else ""
     return f'{{\n    "{what}": [{entries}{end}]\n  }}'
-
-
-def _rows(images: Images) -> Iterator[list[Any]]:
-    for label, values in zip(images.labels, images.values.tolist(), strict=True):
-        yield [label, *values]
-
-
-def _triangle(projector: Projector) -> list[tuple[str, str, float]]:
-    kept = np.triu(np.abs(projector.matrix) > SMALLEST_ENTRY)
-    names, matrix = projector.labels, projector.matrix
-    return [(names[i], names[k], float(matrix[i, k])) for i, k in np.argwhere(kept).tolist()]
 
 
 def read_answer(path: Path) -> StoredAnswer:

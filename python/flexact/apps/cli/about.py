@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import math
 import os
 import platform
@@ -16,11 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
-from ...analysis.verdict import AnalysisError
 from ...core import calls
-from ...model.reading import read_bytes
 from ...util import machine as memory
 from ...util.loading import VERSION, load
 from ...util.machine import processors
@@ -30,8 +25,6 @@ from ...util.text import harmless
 _OF_DEVELOPERS = {"test", "lint", "bench"}
 _EXTRA = re.compile(r"extra *== *['\"]([\w-]+)['\"]")
 _SYSTEM = re.compile(r"sys_platform *== *['\"](\w+)['\"]")
-#: A deck that is analysed with all that is asked about.
-_DECK = b"TRUSS 1 1 2\nX 2 1 0 0\nFIX 1\n"
 _WIDTH = 15
 _NO_BOUND = "not told by this system: nothing keeps an analysis from taking all"
 
@@ -74,11 +67,9 @@ def _processor() -> str:
 
 
 def _built_in() -> Iterator[tuple[str, str]]:
-    """What is found out by using it; versions are those of the libraries at hand."""
-    library = ctypes.CDLL(_core_file())
-    sparse, proofs = _works(method="sparse"), _works(prove=True)
-    yield "sparse method", _suitesparse(library) if sparse else "not built in"
-    yield "proofs", _flint(library) if proofs else "not built in"
+    ordered = "METIS and " if "METIS" in calls.linked() else ""
+    yield "sparse method", f"own factorisation, ordered by {ordered}own dissection"
+    yield "proofs", "own arithmetic"
 
 
 def _linked() -> tuple[str, str]:
@@ -88,37 +79,6 @@ def _linked() -> tuple[str, str]:
 
 def _core_file() -> str:
     return str(load("flexact.core._core").__file__)
-
-
-def _works(method: str = "svd", prove: bool | None = None) -> bool:
-    model = read_bytes(_DECK, "a bar")
-    try:
-        result: Result = result_of(model, asked_for(method, None, prove, None), "a bar", None)
-    except AnalysisError:
-        return False
-    return prove is None or result.proof is not None
-
-
-def _suitesparse(library: ctypes.CDLL) -> str:
-    if "SuiteSparse" not in calls.linked():
-        ordered = "METIS and " if "METIS" in calls.linked() else ""
-        return f"own factorisation, ordered by {ordered}own dissection"
-    numbers = (ctypes.c_int * 3)()
-    try:
-        library.SuiteSparse_version(numbers)
-    except AttributeError:
-        return "SuiteSparse"
-    return "SuiteSparse " + ".".join(map(str, numbers))
-
-
-def _flint(library: ctypes.CDLL) -> str:
-    if "FLINT" not in calls.linked():
-        return "own arithmetic"
-    try:
-        version = (ctypes.c_char * 16).in_dll(library, "flint_version").value.decode("ascii")
-    except ValueError:
-        return "FLINT"
-    return f"FLINT {version}"
 
 
 def _blas(paths: bool) -> Iterator[tuple[str, str]]:

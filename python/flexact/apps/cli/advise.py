@@ -21,19 +21,17 @@ from ...analysis.verdict_words import verdict_word
 from ...core.progress import Progress
 from ...deck.rendering import ModelError
 from ...model.editing import edited_deck
-from ...show.picture import STILLS, SUFFIXES
-from ...show.saving import PAGES
+from ...show.writers import PAGES, PICTURES, STILLS
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import STDOUT, plan_file, write_together
 from ...util.text import harmless
-from .decks import add_accuracy, add_decision, add_decks, read_and_analysed, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
+from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, read_and_analysed, take
+from .parser import Verb, argument
 from .targets import plan_deck, write_text
-from .terminal import Bar, complain, give, say, text_width
+from .terminal import Bar, ExitCode, Outcome, complain, give, say, text_width
 
 _STEP = re.compile(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?")
 
@@ -117,7 +115,7 @@ class AdviceFile:
             return
         if len(decks) > 1:
             raise BatchError(f"-o is for one deck, and there are {len(decks)}")
-        if self.kind in SUFFIXES and self.steps is not None:
+        if self.kind in PICTURES and self.steps is not None:
             raise BatchError(
                 "a picture shows the mechanism as it is; for what --apply makes of it name a "
                 "page (.html), or a deck"
@@ -192,65 +190,6 @@ def _there(advice: Advice) -> str:
     return "nothing was found that would mend this mechanism"
 
 
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Say what is wrong with mechanisms and why, and how to mend it: every step was analysed "
-        "before it is shown."
-    )
-    add_decks(parser)
-    parser.add_argument(
-        "--body", metavar="NAME", help="the body whose freedom and constraint are looked at"
-    )
-    parser.add_argument(
-        "--wanted",
-        action="append",
-        default=[],
-        metavar="MOTION",
-        help='what is meant to move, such as "stage: translation z"; may be repeated',
-    )
-    parser.add_argument(
-        "--bodies",
-        action="store_true",
-        help="release insides of rigid bodies, too, where anything else does it as well",
-    )
-    parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
-    parser.add_argument(
-        "--apply",
-        type=chosen_steps,
-        metavar="K",
-        help="take step K, or several, such as 1,8; K.2, K.3, ... take the alternatives that "
-        "symmetry gives it",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; "
-        "or a picture (.png, .svg, .pdf) of the freedom and the constraint of the body",
-    )
-    add_decision(parser)
-    add_accuracy(parser)
-    add_examples(
-        parser,
-        (
-            "What is wrong, and steps that mend it",
-            "flexact advise input_decks/flexures/parallel_guide.dat",
-        ),
-        (
-            "The deck that step 1 makes",
-            "flexact advise input_decks/flexures/parallel_guide.dat --apply 1 "
-            "-o results/mended.dat",
-        ),
-        (
-            "A page of before and after",
-            "flexact advise input_decks/flexures/parallel_guide.dat -o results/mended.html",
-        ),
-    )
-    parser.set_defaults(run=advise_decks)
-
-
 def advise_decks(chosen: argparse.Namespace) -> ExitCode:
     """Advise on the decks that were asked for."""
     decks = find_decks(chosen.decks)
@@ -295,3 +234,66 @@ class _Work:
             )
             return text
         return f"{describe(advice, width=text_width())}\n"
+
+
+VERB = Verb(
+    run=advise_decks,
+    description=(
+        "Say what is wrong with mechanisms and why, and how to mend it: every step was analysed "
+        "before it is shown."
+    ),
+    examples=(
+        (
+            "What is wrong, and steps that mend it",
+            "flexact advise input_decks/flexures/parallel_guide.dat",
+        ),
+        (
+            "The deck that step 1 makes",
+            "flexact advise input_decks/flexures/parallel_guide.dat --apply 1 "
+            "-o results/mended.dat",
+        ),
+        (
+            "A page of before and after",
+            "flexact advise input_decks/flexures/parallel_guide.dat -o results/mended.html",
+        ),
+    ),
+    arguments=(
+        DECKS,
+        argument(
+            "--body", metavar="NAME", help="the body whose freedom and constraint are looked at"
+        ),
+        argument(
+            "--wanted",
+            action="append",
+            default=[],
+            metavar="MOTION",
+            help='what is meant to move, such as "stage: translation z"; may be repeated',
+        ),
+        argument(
+            "--bodies",
+            action="store_true",
+            help="release insides of rigid bodies, too, where anything else does it as well",
+        ),
+        argument("--json", action="store_true", help="one JSON object a line on stdout"),
+        argument(
+            "--apply",
+            type=chosen_steps,
+            metavar="K",
+            help="take step K, or several, such as 1,8; K.2, K.3, ... take the alternatives that "
+            "symmetry gives it",
+        ),
+        argument(
+            "-o",
+            "--output",
+            type=Path,
+            metavar="FILE",
+            help=(
+                "with --apply the changed deck, - for stdout; or a page (.html) of before and "
+                "after; or a picture (.png, .svg, .pdf) of the freedom and the constraint of the "
+                "body"
+            ),
+        ),
+        DECISION,
+        *ACCURACY_AND_BEYOND,
+    ),
+)

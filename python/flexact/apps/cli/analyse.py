@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
@@ -22,34 +21,25 @@ from ...util.partial import attempted
 from ...util.text import harmless
 from . import decks as failures
 from . import terminal as colour
-from .decks import add_accuracy, add_decision, add_decks, read_and_analysed, report_problems, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .summary import TABLES, Analysed, add_summary, is_table
-from .targets import FormatOrMesh, FormsOrMeshes, add_mesh, folder_or
-from .terminal import Bar, complain, give, is_coloured, say, text_width
+from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, read_and_analysed, report_problems, take
+from .parser import Verb, argument
+from .summary import TABLES, is_table, summarise_results, summary_argument
+from .targets import folder_or, mesh_argument
+from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, say, text_width
 
 if TYPE_CHECKING:
-    from .targets import ResultFiles
+    from .deck_files import ResultFiles
 
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
 
 
-def add_format(parser: argparse.ArgumentParser, *, was_mesh: bool = False) -> None:
-    """Add to a verb's parser for whom it writes.
-
-    Args:
-        parser: The parser.
-        was_mesh: Whether the option stood for what is `--mesh` now.
-    """
-    parser.add_argument(
-        "--format",
-        action=FormatOrMesh if was_mesh else "store",
-        choices=FormsOrMeshes(FORMS) if was_mesh else FORMS,
-        default=TEXT,
-        help="words for people (default), annotations of a GitHub workflow, or SARIF 2.1.0",
-    )
+FORMAT = argument(
+    "--format",
+    choices=FORMS,
+    default=TEXT,
+    help="words for people (default), annotations of a GitHub workflow, or SARIF 2.1.0",
+)
 
 
 def require_one_form(chosen: argparse.Namespace) -> None:
@@ -118,36 +108,98 @@ VERDICTS = {verdict.word: verdict for verdict in Verdict}
 LOGS = ("spacar",)
 
 
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = "Decide whether mechanisms are exactly, under- or over-constrained."
-    add_decks(parser)
-    parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=folder_or(*TABLES),
-        metavar="DIR",
-        help="write NAME.json, NAME.log and the mesh NAME.vtu there; with --summary also "
-        "TABLE.csv, .jsonl or .parquet",
-    )
-    add_summary(parser, "a table, one line a deck, in place of the words")
-    add_format(parser, was_mesh=True)
-    add_mesh(parser, "-o")
-    parser.add_argument(
-        "--log",
-        choices=LOGS,
-        help="the log in the form of SPACAR's in place of the words, or, with -o, as NAME.log",
-    )
-    add_decision(parser)
-    add_accuracy(parser)
-    parser.add_argument(
-        "--expect",
-        choices=VERDICTS,
-        help="exit with 3 for any other verdict, and for an exact one within the accuracy only",
-    )
-    add_examples(
-        parser,
+def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
+    """Analyse the decks that were asked for, say and write the results."""
+    if chosen.mesh and not chosen.output:
+        raise BatchError("--mesh needs a folder: -o DIR")
+    require_one_form(chosen)
+    if chosen.output and is_table(chosen.output) and not chosen.summary:
+        raise BatchError(f"-o {chosen.output} is a table, which --summary writes; or name a folder")
+    decks = find_decks(chosen.decks)
+    findings = None if chosen.format == TEXT else Findings(chosen.format)
+    files: ResultFiles | None = None
+    if chosen.output and not is_table(chosen.output):
+        module = load("flexact.apps.cli.deck_files")
+        files = module.ResultFiles(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
+    wanted = VERDICTS.get(chosen.expect)
+
+    def written(deck: DeckFile, result: Result) -> Exception | None:
+        return files.write(deck, result) if files else None
+
+    def judged(deck: DeckFile, result: Result, failure: Exception | None) -> Outcome:
+        """What the verdict asks for, once the files are written, or why they are not."""
+        word = verdict_word(result)
+        is_wrong = wanted is not None and word != wanted.value
+        code = ExitCode.DIFFERENT if is_wrong else ExitCode.ANALYSED
+        if failure is None:
+            return Outcome(deck.name, code, word)
+        failures.report_failure(deck, failure)
+        return Outcome(deck.name, ExitCode.OTHER, word, "results not written")
+
+    def step(deck: DeckFile) -> Outcome:
+        """Analyse one deck, say and write its results."""
+        with Bar(deck.name, deck.path) as bar:
+            result = read_and_analysed(deck, chosen, bar)
+            bar.show("writing")
+            failure = written(deck, result)
+            words, is_data = ("", True) if findings else _words(result, chosen, files is not None)
+        if findings:
+            findings.analysed(deck, result, wanted)
+        else:
+            give(words) if is_data else say(words)
+        if wanted is not None and verdict_word(result) != wanted.value:
+            found = verdict_in_words(result).start.lower()
+            complain(f"{harmless(deck.name)}: {found}; expected {wanted.value}")
+        return judged(deck, result, failure)
+
+    if chosen.summary:
+        return summarise_results(
+            chosen, decks, lambda deck, result: judged(deck, result, written(deck, result))
+        )
+    if findings is None:
+        return take(decks, step, as_json=chosen.json)
+    return findings.finish(take(decks, step, on_failure=findings.failed))
+
+
+def _words(analysis: Result, chosen: argparse.Namespace, has_files: bool) -> tuple[str, bool]:
+    """What is said, and whether it is data."""
+    if chosen.json:
+        return load("flexact.analysis.json").text_of(analysis), True
+    if chosen.log and not has_files:
+        return load("flexact.show.spacar_log").spacar_log(analysis), True
+    # What concerns the deck stands on stderr already.
+    width = text_width()
+    words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
+    if analysis.over_constrained and analysis.given.properties is not None:
+        # It takes a while to load.
+        quick, told = load("flexact.costs.quick_cost"), words
+        missing: list[str] = []
+        words = attempted(
+            "What over-constraint costs",
+            lambda: str(quick.with_quick_cost(told, analysis, width)),
+            words,
+            missing,
+        )
+        complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
+    return f"{_coloured(words, analysis)}\n", False
+
+
+def _coloured(words: str, analysis: Result) -> str:
+    """The words with the verdict in its colour, where colour is wanted."""
+    if not is_coloured(sys.stdout):
+        return words
+    # The words may be broken into rows anywhere.
+    verdict = r"\s+".join(map(re.escape, verdict_in_words(analysis).start.split()))
+    style = "bad"
+    if analysis.verdict is Verdict.EXACT:
+        style = "unsure" if analysis.is_marginal else "good"
+    return re.sub(verdict, lambda found: colour.painted(found[0], style), words, count=1)
+
+
+VERB = Verb(
+    run=analyse_decks,
+    description="Decide whether mechanisms are exactly, under- or over-constrained.",
+    examples=(
         (
             "Verdict, motions and self-stresses of a deck",
             "flexact analyse input_decks/paper/five_wires.dat",
@@ -172,108 +224,32 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "The same in a workflow of GitHub, with marks beside the lines of a pull request",
             "flexact analyse input_decks/paper/five_wires.dat --expect exact --format github",
         ),
-    )
-    parser.set_defaults(run=analyse_decks)
-
-
-def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
-    """Analyse the decks that were asked for, say and write the results."""
-    if chosen.mesh and not chosen.output:
-        raise BatchError("--mesh needs a folder: -o DIR")
-    require_one_form(chosen)
-    if chosen.output and is_table(chosen.output) and not chosen.summary:
-        raise BatchError(f"-o {chosen.output} is a table, which --summary writes; or name a folder")
-    decks = find_decks(chosen.decks)
-    work = _Work(chosen, decks)
-    if chosen.summary:
-        return Analysed(chosen, decks, work.judge_and_write).run()
-    findings = work.findings
-    if findings is None:
-        return take(decks, work.step, as_json=chosen.json)
-    return findings.finish(take(decks, work.step, on_failure=findings.failed))
-
-
-class _Work:
-    """One run of the verb: what was chosen, and what writes each deck's results."""
-
-    def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
-        self.chosen = chosen
-        self.files: ResultFiles | None = None
-        self.findings = None if chosen.format == TEXT else Findings(chosen.format)
-        if chosen.output and not is_table(chosen.output):
-            module = load("flexact.apps.cli.targets")
-            self.files = module.ResultFiles(
-                decks, chosen.output, chosen.mesh or "vtu", log=chosen.log
-            )
-
-    def step(self, deck: DeckFile) -> Outcome:
-        """Analyse one deck, say and write its results."""
-        with Bar(deck.name, deck.path) as bar:
-            analysis = read_and_analysed(deck, self.chosen, bar)
-            bar.show("writing")
-            failure = self._written(deck, analysis)
-            words, is_data = ("", True) if self.findings else self._words(analysis)
-        if self.findings:
-            self.findings.analysed(deck, analysis, VERDICTS.get(self.chosen.expect))
-        else:
-            give(words) if is_data else say(words)
-        outcome = self.judge(deck, analysis)
-        if outcome.code is ExitCode.DIFFERENT:
-            wanted = VERDICTS[self.chosen.expect].value
-            found = verdict_in_words(analysis).start.lower()
-            complain(f"{harmless(deck.name)}: {found}; expected {wanted}")
-        return outcome if failure is None else _not_written(deck, outcome, failure)
-
-    def judge(self, deck: DeckFile, analysis: Result) -> Outcome:
-        """What the verdict asks for."""
-        code, word = ExitCode.ANALYSED, verdict_word(analysis)
-        if self.chosen.expect and word != VERDICTS[self.chosen.expect].value:
-            code = ExitCode.DIFFERENT
-        return Outcome(deck.name, code, word)
-
-    def judge_and_write(self, deck: DeckFile, analysis: Result) -> Outcome:
-        """What the verdict asks for, once the files of the result are written."""
-        outcome, failure = self.judge(deck, analysis), self._written(deck, analysis)
-        return outcome if failure is None else _not_written(deck, outcome, failure)
-
-    def _written(self, deck: DeckFile, analysis: Result) -> Exception | None:
-        return self.files.write(deck, analysis) if self.files else None
-
-    def _words(self, analysis: Result) -> tuple[str, bool]:
-        """What is said, and whether it is data."""
-        if self.chosen.json:
-            return load("flexact.analysis.json").text_of(analysis), True
-        if self.chosen.log and not self.files:
-            return load("flexact.show.spacar_log").spacar_log(analysis), True
-        # What concerns the deck stands on stderr already.
-        width = text_width()
-        words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
-        if analysis.over_constrained and analysis.given.properties is not None:
-            # It takes a while to load.
-            glance, told = load("flexact.costs.quick_cost"), words
-            missing: list[str] = []
-            words = attempted(
-                "What over-constraint costs",
-                lambda: str(glance.with_glance(told, analysis, width)),
-                words,
-                missing,
-            )
-            complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
-        return f"{_coloured(words, analysis)}\n", False
-
-
-def _coloured(words: str, analysis: Result) -> str:
-    """The words with the verdict in its colour, where colour is wanted."""
-    if not is_coloured(sys.stdout):
-        return words
-    # The words may be broken into rows anywhere.
-    verdict = r"\s+".join(map(re.escape, verdict_in_words(analysis).start.split()))
-    style = "bad"
-    if analysis.verdict is Verdict.EXACT:
-        style = "unsure" if analysis.is_marginal else "good"
-    return re.sub(verdict, lambda found: colour.painted(found[0], style), words, count=1)
-
-
-def _not_written(deck: DeckFile, outcome: Outcome, failure: Exception) -> Outcome:
-    failures.report_failure(deck, failure)
-    return replace(outcome, code=ExitCode.OTHER, remark="results not written")
+    ),
+    arguments=(
+        DECKS,
+        argument("--json", action="store_true", help="one JSON object a line on stdout"),
+        argument(
+            "-o",
+            "--output",
+            type=folder_or(*TABLES),
+            metavar="DIR",
+            help="write NAME.json, NAME.log and the mesh NAME.vtu there; with --summary also "
+            "TABLE.csv, .jsonl or .parquet",
+        ),
+        summary_argument("a table, one line a deck, in place of the words"),
+        FORMAT,
+        mesh_argument("-o"),
+        argument(
+            "--log",
+            choices=LOGS,
+            help="the log in the form of SPACAR's in place of the words, or, with -o, as NAME.log",
+        ),
+        DECISION,
+        *ACCURACY_AND_BEYOND,
+        argument(
+            "--expect",
+            choices=VERDICTS,
+            help="exit with 3 for any other verdict, and for an exact one within the accuracy only",
+        ),
+    ),
+)

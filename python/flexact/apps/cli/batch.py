@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from ...analysis.spaces import asked_for
+from ...analysis.decomposition import asked_for
 from ...sweeps.journal import Journal, JournalError
 from ...sweeps.writing import require_table
 from ...util.decks import DeckFile, find_decks
@@ -19,81 +19,15 @@ from ...util.loading import VERSION, load
 from ...util.machine import processors
 from ...util.outputs import STDOUT, OutputError, plan_file, require_replaceable
 from .batch_run import BatchRun, Outputs, Work
-from .command import add_renamed
-from .decks import add_accuracy, add_decision, add_decks
-from .help_texts import add_examples
-from .outcome import ExitCode
-from .targets import add_mesh, folder
-from .terminal import complain, say
-from .workers import add_workers
+from .decks import ACCURACY, DECISION, DECKS
+from .parser import Verb, argument
+from .targets import WORKERS, folder, mesh_argument
+from .terminal import ExitCode, complain, say
 
 #: What the table may hold.
 _COLUMNS = ("verdict", "values")
 #: Number of the form of the journal.
 _FORM = 2
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Analyse many decks by all processors into one table, a row a deck; one with errors is a "
-        "row with its first error. What is done stands in the journal TABLE.journal until the "
-        "table is written, so that after an interruption --resume goes on."
-    )
-    add_decks(parser)
-    parser.add_argument(
-        *("-o", "--output"),
-        type=Path,
-        metavar="TABLE",
-        required=True,
-        help="the table, .csv, .jsonl or .parquet",
-    )
-    add_workers(parser)
-    parser.add_argument(
-        "--resume", action="store_true", help="go on where an interrupted run has stopped"
-    )
-    parser.add_argument(
-        "--columns",
-        choices=_COLUMNS,
-        default="values",
-        help="the verdict alone, or singular values and margins as well (default)",
-    )
-    add_renamed(parser, "--want", "--columns", dest="columns", choices=_COLUMNS)
-    parser.add_argument(
-        "--where",
-        default="",
-        metavar="CONDITION",
-        help="rows, files and pages of some decks alone, such as 'over_constrained > 0'",
-    )
-    parser.add_argument(
-        "--files",
-        type=folder,
-        metavar="DIR",
-        help="write what analyse -o writes of each deck there",
-    )
-    add_mesh(parser, "--files")
-    add_renamed(parser, "--format", "--mesh", dest="mesh")
-    parser.add_argument(
-        "--report",
-        type=folder,
-        metavar="DIR",
-        help="write a page of each deck and index.html there",
-    )
-    add_decision(parser)
-    add_accuracy(parser, is_held_against=False)
-    add_examples(
-        parser,
-        (
-            "A table of many decks",
-            "flexact batch input_decks/paper -o results/decks.csv",
-        ),
-        (
-            "Of those that are over-constrained, with their files",
-            "flexact batch input_decks/paper -o results/over.csv --where 'over_constrained > 0' "
-            "--files results",
-        ),
-    )
-    parser.set_defaults(run=make_table)
 
 
 def make_table(chosen: argparse.Namespace) -> ExitCode:
@@ -221,3 +155,65 @@ def _of_decks(then: list[str], now: list[str]) -> str:
     words += [f"{new[0]} is new"] if new else []
     words += [f"{gone[0]} is not among them any more"] if gone else []
     return ", ".join(words)
+
+
+VERB = Verb(
+    run=make_table,
+    description=(
+        "Analyse many decks by all processors into one table, a row a deck; one with errors is a "
+        "row with its first error. What is done stands in the journal TABLE.journal until the "
+        "table is written, so that after an interruption --resume goes on."
+    ),
+    examples=(
+        (
+            "A table of many decks",
+            "flexact batch input_decks/paper -o results/decks.csv",
+        ),
+        (
+            "Of those that are over-constrained, with their files",
+            "flexact batch input_decks/paper -o results/over.csv --where 'over_constrained > 0' "
+            "--files results",
+        ),
+    ),
+    arguments=(
+        DECKS,
+        argument(
+            *("-o", "--output"),
+            type=Path,
+            metavar="TABLE",
+            required=True,
+            help="the table, .csv, .jsonl or .parquet",
+        ),
+        WORKERS,
+        argument(
+            "--resume", action="store_true", help="go on where an interrupted run has stopped"
+        ),
+        argument(
+            "--columns",
+            choices=_COLUMNS,
+            default="values",
+            help="the verdict alone, or singular values and margins as well (default)",
+        ),
+        argument(
+            "--where",
+            default="",
+            metavar="CONDITION",
+            help="rows, files and pages of some decks alone, such as 'over_constrained > 0'",
+        ),
+        argument(
+            "--files",
+            type=folder,
+            metavar="DIR",
+            help="write what analyse -o writes of each deck there",
+        ),
+        mesh_argument("--files"),
+        argument(
+            "--report",
+            type=folder,
+            metavar="DIR",
+            help="write a page of each deck and index.html there",
+        ),
+        DECISION,
+        ACCURACY,
+    ),
+)

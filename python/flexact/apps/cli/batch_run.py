@@ -48,7 +48,7 @@ from .terminal import complain, is_watched, size_of_terminal
 
 if TYPE_CHECKING:
     from ...show.page import Entry
-    from .targets import DeckPage
+    from .deck_files import DeckPage
 
 
 class Item(NamedTuple):
@@ -134,7 +134,7 @@ class Work:
     def _files(self, row: DeckRow) -> tuple[bytes, ...]:
         if not self._mesh_format or row.result is None:
             return ()
-        made: tuple[bytes, ...] = load("flexact.apps.cli.targets").contents_of(
+        made: tuple[bytes, ...] = load("flexact.apps.cli.deck_files").contents_of(
             row.result, self._mesh_format
         )
         return made
@@ -142,7 +142,7 @@ class Work:
     def _page(self, row: DeckRow, item: Item) -> DeckPage | None:
         if not self._has_pages:
             return None
-        pages = load("flexact.apps.cli.targets")
+        pages = load("flexact.apps.cli.deck_files")
         made: DeckPage | None
         if row.result is not None:
             made = pages.page_of(row.result, item.place, indexed=True)
@@ -179,11 +179,11 @@ class Outputs:
         self._pages: dict[str, tuple[Path, ...]] = {}
         self._index: Path | None = None
         if files is not None:
-            made = load("flexact.apps.cli.targets").ResultFiles(decks, files, mesh_format)
+            made = load("flexact.apps.cli.deck_files").ResultFiles(decks, files, mesh_format)
             self.mesh_format, self._files = made.format, made.plan
         if report is not None:
             # Processes that are forked have it then.
-            pages = load("flexact.apps.cli.targets")
+            pages = load("flexact.apps.cli.deck_files")
             self._pages = plan_files((*decks, pages.INDEX), report, (".html",))
             self._index = self._pages[pages.INDEX.path][0]
             if not load("flexact.show.picture").has_packages():
@@ -269,7 +269,7 @@ class _Entries:
         return sum(1 for _ in self.records())
 
     def __iter__(self) -> Iterator[Entry]:
-        pages = load("flexact.apps.cli.targets")
+        pages = load("flexact.apps.cli.deck_files")
         for deck, record in self.records():
             packed = record.get("entry")
             yield _unpacked(packed) if packed else pages.unread(deck.relative.as_posix())

@@ -9,9 +9,8 @@ import os
 
 from ...util.loading import VERSION, load
 from ...util.machine import processors
-from .help_texts import add_examples
-from .outcome import ExitCode
-from .terminal import Bar, complain, give, say
+from .parser import Verb, argument
+from .terminal import Bar, ExitCode, complain, give, say
 
 #: Of the JSON; see `docs/command.md` for when it is raised.
 FORMAT = 1
@@ -19,22 +18,6 @@ _NOTES = """\
 Times are those of one analysis with its certainty and margin, the shortest of some runs;
 numpy's SVD is that of the same matrix with both bases, on one thread, in the same run, and the
 ratio that of the first column to it."""
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Measure how fast this machine analyses mechanisms of growing size, dense and sparse, on "
-        "one thread and on two, beside numpy's SVD. It takes half a minute or so."
-    )
-    parser.add_argument("--quick", action="store_true", help="small mechanisms, some seconds")
-    parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
-    add_examples(
-        parser,
-        ("What this machine does, for a report", "flexact bench --quick"),
-        ("The same for a program", "flexact bench --quick --json"),
-    )
-    parser.set_defaults(run=bench)
 
 
 def bench(chosen: argparse.Namespace) -> ExitCode:
@@ -77,3 +60,20 @@ def _give(machine: list[tuple[str, str]], found: list[object], quick: bool) -> N
     pairs = [{"name": name, "value": value} for name, value in machine]
     made = [each.to_dict() for each in found]  # type: ignore[attr-defined]
     give(load("json").dumps({**head, "machine": pairs, "measurements": made}))
+
+
+VERB = Verb(
+    run=bench,
+    description=(
+        "Measure how fast this machine analyses mechanisms of growing size, dense and sparse, on "
+        "one thread and on two, beside numpy's SVD. It takes half a minute or so."
+    ),
+    examples=(
+        ("What this machine does, for a report", "flexact bench --quick"),
+        ("The same for a program", "flexact bench --quick --json"),
+    ),
+    arguments=(
+        argument("--quick", action="store_true", help="small mechanisms, some seconds"),
+        argument("--json", action="store_true", help="one JSON object on stdout"),
+    ),
+)

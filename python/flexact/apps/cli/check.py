@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 
 from ...deck.diagnostics import Problems
 from ...deck.rendering import DeckError
@@ -13,37 +12,11 @@ from ...util.decks import DeckFile, find_decks
 from ...util.loading import load
 from ...util.text import harmless
 from . import decks as failures
-from .analyse import TEXT, Findings, add_format, require_one_form
-from .decks import add_decks, report_problems, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .summary import Cells, Told, add_summary, failed, summarise
-from .terminal import give, say
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = "Say what is wrong with decks."
-    add_decks(parser)
-    parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
-    add_format(parser)
-    add_summary(parser, "a table, one line a deck, with its first error")
-    add_examples(
-        parser,
-        (
-            "What is wrong with decks, in one run",
-            "flexact check input_decks/paper input_decks/flexures",
-        ),
-        (
-            "A deck on standard input",
-            "flexact check - < input_decks/paper/five_wires.dat",
-        ),
-        (
-            "Marks beside the lines of a pull request, in a workflow of GitHub",
-            "flexact check input_decks/paper --format github",
-        ),
-    )
-    parser.set_defaults(run=check_decks)
+from .analyse import FORMAT, TEXT, Findings, require_one_form
+from .decks import DECKS, report_problems, take
+from .parser import Verb, argument
+from .summary import Cells, failed, summarise, summary_argument
+from .terminal import ExitCode, Outcome, give, say
 
 
 def check_decks(chosen: argparse.Namespace) -> ExitCode:
@@ -53,30 +26,31 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
     if chosen.summary:
         return summarise(decks, ("errors", "warnings", "notes"), _counted)
     if chosen.json:
-        return take(decks, _object, on_failure=_object_of_failure)
+
+        def say_failure(deck: DeckFile, error: Exception) -> None:
+            _give(deck, failures.problems_of(error))
+
+        return take(decks, _object, on_failure=say_failure)
     if chosen.format == TEXT:
         return take(decks, _check)
     findings = Findings(chosen.format)
     return findings.finish(take(decks, findings.checked, on_failure=findings.failed))
 
 
-def _counted(deck: DeckFile) -> Told:
+def _counted(deck: DeckFile) -> tuple[Cells, Outcome]:
     """The line of a deck: how many problems it has."""
-    outcome = _without_errors(deck)
     try:
         found = read_deck(deck).problems
     except DeckError as error:
-        failure = failed(deck, error)
-        cells = replace(failure.cells, first=str(error.problems.errors))
-        return failure._replace(cells=cells)
+        cells, outcome = failed(deck, error)
+        return cells._replace(first=str(error.problems.errors)), outcome
     counts = {"errors": found.errors, "warnings": found.warnings, "notes": found.notes}
     first = next(iter(found.kept), None)
-    return Told(Cells(counts, behind=first.message if first else ""), outcome)
+    return Cells(counts, behind=first.message if first else ""), _without_errors(deck)
 
 
 def _check(deck: DeckFile) -> Outcome:
-    model = read_deck(deck)
-    report_problems(model)
+    report_problems(read_deck(deck))
     say(f"{harmless(deck.name)}: no errors")
     return _without_errors(deck)
 
@@ -92,10 +66,32 @@ def _object(deck: DeckFile) -> Outcome:
     return _without_errors(deck)
 
 
-def _object_of_failure(deck: DeckFile, error: Exception) -> None:
-    _give(deck, failures.problems_of(error))
-
-
 def _give(deck: DeckFile, problems: Problems) -> None:
     made = load("flexact.apps.checks.outputs").dictionary_of(deck.name, problems)
     give(load("json").dumps(made))
+
+
+VERB = Verb(
+    run=check_decks,
+    description="Say what is wrong with decks.",
+    examples=(
+        (
+            "What is wrong with decks, in one run",
+            "flexact check input_decks/paper input_decks/flexures",
+        ),
+        (
+            "A deck on standard input",
+            "flexact check - < input_decks/paper/five_wires.dat",
+        ),
+        (
+            "Marks beside the lines of a pull request, in a workflow of GitHub",
+            "flexact check input_decks/paper --format github",
+        ),
+    ),
+    arguments=(
+        DECKS,
+        argument("--json", action="store_true", help="one JSON object a line on stdout"),
+        FORMAT,
+        summary_argument("a table, one line a deck, with its first error"),
+    ),
+)

@@ -9,10 +9,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ...util.decks import SUFFIX
-from .command import VERBS
-from .help_texts import add_examples
-from .outcome import ExitCode
-from .terminal import give
+from .parser import VERBS, Verb, argument
+from .terminal import ExitCode, give
 
 
 class OptionWords(NamedTuple):
@@ -236,23 +234,6 @@ SHELLS = ("bash", "zsh", "fish")
 _FILES, _FOLDERS = ("FILE", "PAGE", "TABLE"), ("DIR",)
 
 
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Write a script by which a shell completes verbs, options, their values, and decks. It is "
-        "made from this version's own options: make it anew after an update, or let each shell "
-        "make it when it starts, as in the examples."
-    )
-    parser.add_argument("shell", choices=SHELLS, metavar="SHELL", help=", ".join(SHELLS))
-    add_examples(
-        parser,
-        ("For bash, in ~/.bashrc", 'eval "$(flexact completion bash)"'),
-        ("For zsh, in ~/.zshrc behind compinit", 'eval "$(flexact completion zsh)"'),
-        ("For fish, in ~/.config/fish/config.fish", "flexact completion fish | source"),
-    )
-    parser.set_defaults(run=complete)
-
-
 def complete(chosen: argparse.Namespace) -> ExitCode:
     """Print the script of a shell."""
     verbs = [words_of(verb, chosen.parser_of(verb)) for verb in VERBS]
@@ -298,3 +279,19 @@ def _kind(action: argparse.Action) -> str:
 def _plain(action: argparse.Action) -> str:
     """What help says of an option, in a line."""
     return (action.help or "") % {"prog": "flexact", "default": action.default}
+
+
+VERB = Verb(
+    run=complete,
+    description=(
+        "Write a script by which a shell completes verbs, options, their values, and decks. It is "
+        "made from this version's own options: make it anew after an update, or let each shell "
+        "make it when it starts, as in the examples."
+    ),
+    examples=(
+        ("For bash, in ~/.bashrc", 'eval "$(flexact completion bash)"'),
+        ("For zsh, in ~/.zshrc behind compinit", 'eval "$(flexact completion zsh)"'),
+        ("For fish, in ~/.config/fish/config.fish", "flexact completion fish | source"),
+    ),
+    arguments=(argument("shell", choices=SHELLS, metavar="SHELL", help=", ".join(SHELLS)),),
+)

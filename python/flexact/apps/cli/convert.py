@@ -16,62 +16,9 @@ from ..convert.files import Format, bytes_of, form_of_content, format_of, read_a
 from ..convert.mesh_files import KINDS
 from ..convert.tables import FLEXIBLE
 from .decks import report_problems
-from .help_texts import add_examples
-from .outcome import ExitCode
+from .parser import Verb, argument
 from .targets import plan_text, write_text
-from .terminal import complain, say
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
-        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which. What comes by - from "
-        "stdin is tables if it begins with a brace, else a deck; to stdout goes a deck, or of a "
-        "deck its tables as JSON."
-    )
-    parser.add_argument(
-        "file", metavar="FILE", type=Path, help="what is to be converted; - for stdin"
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        required=True,
-        help="what is to be written; - for stdout",
-    )
-    parser.add_argument(
-        "--as",
-        dest="kind",
-        choices=KINDS,
-        help="what lines of a mesh are (default: beam)",
-    )
-    parser.add_argument(
-        "--fix",
-        type=points,
-        default=(),
-        metavar="POINTS",
-        help="points of a mesh that are fixed, from 1, such as 1,4-6",
-    )
-    parser.add_argument(
-        "--flexible",
-        choices=FLEXIBLE,
-        help="what deformations in flex of tables are that are not released: degrees of freedom, "
-        "as in SPACAR Light (default), or released, too",
-    )
-    add_examples(
-        parser,
-        (
-            "Tables in the style of SPACAR Light",
-            "flexact convert input_decks/paper/five_wires.dat -o results/wires.json",
-        ),
-        (
-            "And back",
-            "flexact convert results/wires.json -o results/wires.dat",
-        ),
-    )
-    parser.set_defaults(run=convert_file)
+from .terminal import ExitCode, complain, say
 
 
 def points(text: str) -> tuple[int, ...]:
@@ -167,3 +114,53 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     text = f"{harmless(source.path)}: written to {name}, {size}"
     complain(text) if target == STDOUT else say(text)
     return ExitCode.ANALYSED
+
+
+VERB = Verb(
+    run=convert_file,
+    description=(
+        "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
+        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which. What comes by - "
+        "from stdin is tables if it begins with a brace, else a deck; to stdout goes a deck, or "
+        "of a deck its tables as JSON."
+    ),
+    examples=(
+        (
+            "Tables in the style of SPACAR Light",
+            "flexact convert input_decks/paper/five_wires.dat -o results/wires.json",
+        ),
+        (
+            "And back",
+            "flexact convert results/wires.json -o results/wires.dat",
+        ),
+    ),
+    arguments=(
+        argument("file", metavar="FILE", type=Path, help="what is to be converted; - for stdin"),
+        argument(
+            "-o",
+            "--output",
+            type=Path,
+            metavar="FILE",
+            required=True,
+            help="what is to be written; - for stdout",
+        ),
+        argument(
+            "--as", dest="kind", choices=KINDS, help="what lines of a mesh are (default: beam)"
+        ),
+        argument(
+            "--fix",
+            type=points,
+            default=(),
+            metavar="POINTS",
+            help="points of a mesh that are fixed, from 1, such as 1,4-6",
+        ),
+        argument(
+            "--flexible",
+            choices=FLEXIBLE,
+            help=(
+                "what deformations in flex of tables are that are not released: degrees of "
+                "freedom, as in SPACAR Light (default), or released, too"
+            ),
+        ),
+    ),
+)

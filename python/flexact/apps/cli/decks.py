@@ -8,11 +8,11 @@ import math
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeVar
 
-from ...analysis.decomposition import Accuracy
+from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...core.calls import METHODS
 from ...deck.diagnostics import Diagnostic, Problems, Severity
 from ...deck.rendering import DeckError, render_problems
@@ -25,13 +25,16 @@ from ...util.loading import load
 from ...util.partial import why
 from ...util.quantities import quantity
 from ...util.text import harmless
-from .outcome import ExitCode, Outcome, exit_code
+from .parser import Group, argument
 from .terminal import (
     Bar,
+    ExitCode,
+    Outcome,
     ResultsError,
     columns_of,
     complain,
     end_progress,
+    exit_code,
     give,
     is_verbose,
     say,
@@ -93,9 +96,16 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
 
 def outcome_of(deck: DeckFile, error: Exception) -> Outcome:
     """What the command makes of a deck's failure."""
-    is_other = type(error).__name__ in CODES or _MEMORY in _codes(error)
+    codes = {each.code for each in error.diagnostics} if isinstance(error, DeckError) else set()
+    is_other = type(error).__name__ in CODES or _MEMORY in codes
+    if isinstance(error, FolderError):
+        remark = error.remark
+    elif isinstance(error, DeckError):
+        remark = "cannot be read" if codes & NOT_READ else ""
+    else:
+        remark = "failed"
     code = ExitCode.OTHER if is_other else ExitCode.DECK_ERROR
-    return Outcome(deck.name, code, "failed", _remark(error))
+    return Outcome(deck.name, code, "failed", remark)
 
 
 def report_failure(deck: DeckFile, error: Exception) -> None:
@@ -107,18 +117,6 @@ def report_failure(deck: DeckFile, error: Exception) -> None:
         complain(_reason(error))
     else:
         complain(f"{harmless(deck.name)}: error: {_reason(error)}")
-
-
-def _remark(error: Exception) -> str:
-    if isinstance(error, FolderError):
-        return error.remark
-    if not isinstance(error, DeckError):
-        return "failed"
-    return "cannot be read" if _codes(error) & NOT_READ else ""
-
-
-def _codes(error: Exception) -> set[str]:
-    return {each.code for each in error.diagnostics} if isinstance(error, DeckError) else set()
 
 
 def _reason(error: Exception) -> str:
@@ -141,11 +139,35 @@ REMARKS = {
 }
 
 
-def add_decks(parser: argparse.ArgumentParser) -> None:
-    """Add the decks to a verb's parser."""
-    parser.add_argument(
-        "decks", nargs="+", metavar="DECK", help=f"a deck, a folder of *{SUFFIX}, or - for stdin"
-    )
+DECKS = argument(
+    "decks", nargs="+", metavar="DECK", help=f"a deck, a folder of *{SUFFIX}, or - for stdin"
+)
+
+_Of = TypeVar("_Of")
+
+
+def each_of(
+    decks: Sequence[DeckFile],
+    step: Callable[[DeckFile], _Of],
+    failed: Callable[[DeckFile, Exception], _Of],
+) -> Iterator[_Of]:
+    """What comes of one deck after the other; a failing deck does not stop the rest.
+
+    Args:
+        decks: The decks.
+        step: What is done with a deck, which may raise whatever it likes.
+        failed: What comes of a deck that has raised an error.
+    """
+    for number, deck in enumerate(decks, start=1):
+        show_progress(number, len(decks), deck.name)
+        try:
+            if deck.error is not None:
+                raise deck.error
+            made = step(deck)
+        except Exception as error:
+            made = failed(deck, foreseen(error))
+        yield made
+    end_progress()
 
 
 def take(
@@ -155,11 +177,11 @@ def take(
     as_json: bool = False,
     on_failure: Callable[[DeckFile, Exception], None] | None = None,
 ) -> ExitCode:
-    """Take one deck after the other through `step`; a failing deck does not stop the rest.
+    """Take one deck after the other through `step`, and say what they add up to.
 
     Args:
         decks: The decks.
-        step: What is done with a deck; whatever it raises is told, and the next one is taken.
+        step: As for `each_of`; whatever it raises is told.
         as_json: Whether stdout is for JSON alone.
         on_failure: Says on stdout why a deck failed, in a form for programs, which stdout is for
             then.
@@ -167,32 +189,17 @@ def take(
     Returns:
         The exit code of the command.
     """
-    outcomes = []
-    for number, deck in enumerate(decks, start=1):
-        show_progress(number, len(decks), deck.name)
-        outcomes.append(_attempt(deck, step, as_json, on_failure))
-    end_progress()
-    if text := summarise(outcomes):
-        complain(text) if as_json or on_failure else say(text)
-    return exit_code(outcomes)
 
-
-def _attempt(
-    deck: DeckFile,
-    step: Callable[[DeckFile], Outcome],
-    as_json: bool,
-    on_failure: Callable[[DeckFile, Exception], None] | None,
-) -> Outcome:
-    try:
-        if deck.error is not None:
-            raise deck.error
-        return step(deck)
-    except Exception as unforeseen:
-        error = foreseen(unforeseen)
+    def failed(deck: DeckFile, error: Exception) -> Outcome:
         outcome = report(deck, error, as_json=as_json)
         if on_failure is not None:
             on_failure(deck, error)
         return outcome
+
+    outcomes = list(each_of(decks, step, failed))
+    if text := summarise(outcomes):
+        complain(text) if as_json or on_failure else say(text)
+    return exit_code(outcomes)
 
 
 def summarise(outcomes: Sequence[Outcome]) -> str:
@@ -217,45 +224,6 @@ LONG_WAIT = 2000
 DENSE = ("svd", "jacobi")
 
 
-def add_decision(parser: argparse.ArgumentParser) -> None:
-    """Add to a verb's parser how the rank of D(c) is decided."""
-    group = parser.add_argument_group("how the rank is decided")
-    add_method(group)
-    group.add_argument(
-        "--tolerance",
-        dest="zero_tolerance",
-        type=tolerance,
-        metavar="T",
-        help="singular values of the scaled matrix up to T count as zero",
-    )
-    group.add_argument(
-        "--prove",
-        action=argparse.BooleanOptionalAction,
-        default=None,
-        help="whether to prove the rank in exact arithmetic (where it costs little)",
-    )
-
-
-def add_accuracy(parser: argparse.ArgumentParser, *, is_held_against: bool = True) -> None:
-    """Add to a verb's parser to what the workshop makes the parts and puts them together.
-
-    Args:
-        parser: The parser.
-        is_held_against: Whether it is held against the size of each model.
-    """
-    parser.add_argument(
-        "--accuracy",
-        type=accuracy,
-        metavar="LENGTH[,ANGLE]",
-        help="of the workshop, such as 20um or 20um,0.1mrad: a verdict that a smaller "
-        "misalignment changes is said to be so, in another colour",
-    )
-    if is_held_against:
-        parser.add_argument(
-            "--beyond", action="store_true", help="take an accuracy larger than the model"
-        )
-
-
 def accuracy(text: str) -> Accuracy:
     """A length, or a length and an angle behind a comma, as an option's type."""
     try:
@@ -270,19 +238,47 @@ def accuracy(text: str) -> Accuracy:
         ) from None
 
 
-def add_method(parser: argparse._ActionsContainer) -> None:
-    """Add the choice of the method to a verb's parser."""
-    parser.add_argument(
-        "--method", choices=METHODS, default=METHODS[0], help="how D(c) is decomposed"
-    )
-
-
 def tolerance(text: str) -> float:
     """A finite number that is not negative, as an option's type."""
     value = float(text)
     if not (math.isfinite(value) and value >= 0.0):
         raise ValueError
     return value
+
+
+METHOD = argument("--method", choices=METHODS, default=METHODS[0], help="how D(c) is decomposed")
+DECISION = Group(
+    "how the rank is decided",
+    (
+        METHOD,
+        argument(
+            "--tolerance",
+            dest="zero_tolerance",
+            type=tolerance,
+            metavar="T",
+            help="singular values of the scaled matrix up to T count as zero",
+        ),
+        argument(
+            "--prove",
+            action=argparse.BooleanOptionalAction,
+            default=None,
+            help="whether to prove the rank in exact arithmetic (where it costs little)",
+        ),
+    ),
+)
+#: To what the workshop makes the parts and puts them together.
+ACCURACY = argument(
+    "--accuracy",
+    type=accuracy,
+    metavar="LENGTH[,ANGLE]",
+    help="of the workshop, such as 20um or 20um,0.1mrad: a verdict that a smaller misalignment "
+    "changes is said to be so, in another colour",
+)
+#: Likewise, where it is held against the size of each model.
+ACCURACY_AND_BEYOND = (
+    ACCURACY,
+    argument("--beyond", action="store_true", help="take an accuracy larger than the model"),
+)
 
 
 def opened(deck: DeckFile, bar: Bar) -> ModelData:
@@ -321,18 +317,13 @@ def read_and_analysed(deck: DeckFile, chosen: argparse.Namespace, bar: Bar) -> R
     read = time.perf_counter()
     result = analysed(deck, model, chosen, bar)
     if is_verbose():
-        complain(_done(deck, result, read - begun, time.perf_counter() - read))
+        a = result.given.arrays
+        complain(
+            f"{harmless(deck.name)}: read in {read - begun:.2g} s: {a.node_number.size} nodes, "
+            f"{a.element_number.size} elements; D(c) {result.rows} x {result.columns} decomposed "
+            f"by {result.method} in {time.perf_counter() - read:.2g} s: {result.certainty.value}"
+        )
     return result
-
-
-def _done(deck: DeckFile, result: Result, reading: float, analysing: float) -> str:
-    """What was done to a deck, and how long it took [s]."""
-    a = result.given.arrays
-    return (
-        f"{harmless(deck.name)}: read in {reading:.2g} s: {a.node_number.size} nodes, "
-        f"{a.element_number.size} elements; D(c) {result.rows} x {result.columns} decomposed by "
-        f"{result.method} in {analysing:.2g} s: {result.certainty.value}"
-    )
 
 
 def announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:

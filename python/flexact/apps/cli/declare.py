@@ -13,29 +13,9 @@ from ...util.decks import DeckFile
 from ...util.outputs import STDOUT
 from ...util.text import harmless
 from .decks import report_problems, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .targets import add_deck, one_deck, plan_deck, write_text
-from .terminal import complain, say
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Write a deck in which what is inside divided sheets and wires is independent (DYNE), "
-        "so that each of them counts as one beam. Where nothing is to be declared no file is "
-        "written; on standard output the deck comes as it is."
-    )
-    add_deck(parser, "the deck to be written; - for stdout", Path)
-    add_examples(
-        parser,
-        (
-            "A deck whose sheets of four beams count as one beam each",
-            "flexact declare input_decks/flexures/parallel_guide_four_beams_undeclared.dat "
-            "-o results/declared.dat",
-        ),
-    )
-    parser.set_defaults(run=declare_deck)
+from .parser import Verb
+from .targets import deck_arguments, one_deck, plan_deck, write_text
+from .terminal import ExitCode, Outcome, complain, say
 
 
 def declare_deck(chosen: argparse.Namespace) -> ExitCode:
@@ -62,3 +42,21 @@ def declare_deck(chosen: argparse.Namespace) -> ExitCode:
         return Outcome(deck.name, ExitCode.ANALYSED, "written")
 
     return take([deck], step)
+
+
+VERB = Verb(
+    run=declare_deck,
+    description=(
+        "Write a deck in which what is inside divided sheets and wires is independent (DYNE), so "
+        "that each of them counts as one beam. Where nothing is to be declared no file is "
+        "written; on standard output the deck comes as it is."
+    ),
+    examples=(
+        (
+            "A deck whose sheets of four beams count as one beam each",
+            "flexact declare input_decks/flexures/parallel_guide_four_beams_undeclared.dat "
+            "-o results/declared.dat",
+        ),
+    ),
+    arguments=(*deck_arguments("the deck to be written; - for stdout", Path),),
+)

@@ -9,39 +9,17 @@ from pathlib import Path
 
 from ...analysis.naming import motion_in_words
 from ...show.drawing.selection import select_motion
-from ...show.mesh.collection import ENDINGS, STEM, SUFFIX, folder_of, mesh_writer
+from ...show.mesh.collection import ENDINGS, MESHES, STEM, folder_of
+from ...show.writers import PLAYING, write
 from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file, plan_files
 from ...util.partial import attempted
 from ...util.text import harmless
-from .decks import add_decision, read_and_analysed, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .targets import add_deck, add_shown, one_deck
-from .terminal import Bar, complain, say
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = "Write a mechanism with its motions and self-stresses as a mesh."
-    add_deck(
-        parser, "a mesh: .vtu, .vtp, .vtk, .xdmf, ...; or .pvd, the motion as a cycle that plays"
-    )
-    add_shown(parser)
-    add_decision(parser)
-    add_examples(
-        parser,
-        (
-            "A mesh with all modes",
-            "flexact export input_decks/paper/twelve_trusses.dat -o results/trusses.vtu",
-        ),
-        (
-            "A motion that plays in ParaView",
-            "flexact export input_decks/paper/twelve_trusses.dat --motion 1 -o results/trusses.pvd",
-        ),
-    )
-    parser.set_defaults(run=export_deck, accuracy=None)
+from .decks import DECISION, read_and_analysed, take
+from .parser import Group, Verb
+from .targets import SHOWN_MOTION, deck_arguments, one_deck
+from .terminal import Bar, ExitCode, Outcome, complain, say
 
 
 def export_deck(chosen: argparse.Namespace) -> ExitCode:
@@ -49,9 +27,9 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
     deck = one_deck(chosen)
     target: Path = chosen.output
     with unwinding():
-        write = mesh_writer(target)
+        MESHES.require(target)
     plan_file(deck, target)
-    if target.suffix.lower() == SUFFIX:
+    if target.suffix.lower() == PLAYING:
         plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
 
     def step(deck: DeckFile) -> Outcome:
@@ -65,7 +43,8 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
             else:
                 shown = select_motion(analysis, *wanted)
             with unwinding():
-                write(analysis, None if shown is None else shown.motion, target)
+                motion = None if shown is None else shown.motion
+                write(target, MESHES.contents((analysis, motion), target))
         name = harmless(deck.name)
         if missing:
             complain(f"{name}: note: {missing[0]}")
@@ -78,3 +57,27 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
         return Outcome(deck.name, ExitCode.ANALYSED, "written")
 
     return take([deck], step)
+
+
+VERB = Verb(
+    run=export_deck,
+    description="Write a mechanism with its motions and self-stresses as a mesh.",
+    examples=(
+        (
+            "A mesh with all modes",
+            "flexact export input_decks/paper/twelve_trusses.dat -o results/trusses.vtu",
+        ),
+        (
+            "A motion that plays in ParaView",
+            "flexact export input_decks/paper/twelve_trusses.dat --motion 1 -o results/trusses.pvd",
+        ),
+    ),
+    arguments=(
+        *deck_arguments(
+            "a mesh: .vtu, .vtp, .vtk, .xdmf, ...; or .pvd, the motion as a cycle that plays"
+        ),
+        Group("what is shown", (SHOWN_MOTION,)),
+        DECISION,
+    ),
+    defaults={"accuracy": None},
+)

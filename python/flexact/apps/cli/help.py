@@ -5,20 +5,19 @@ from __future__ import annotations
 
 import argparse
 
-from .command import VERBS
-from .help_texts import add_examples
-from .outcome import ExitCode
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = "Explain the command, or one of its verbs."
-    parser.add_argument("verb", nargs="?", metavar="VERB", choices=VERBS, help="a verb")
-    add_examples(parser, ("How decks are analysed", "flexact help analyse"))
-    parser.set_defaults(run=explain)
+from .parser import VERBS, Verb, argument
+from .terminal import ExitCode
 
 
 def explain(chosen: argparse.Namespace) -> ExitCode:
     """Print the help that was asked for."""
     chosen.parser_of(chosen.verb or "").print_help()
     return ExitCode.ANALYSED
+
+
+VERB = Verb(
+    run=explain,
+    description="Explain the command, or one of its verbs.",
+    examples=(("How decks are analysed", "flexact help analyse"),),
+    arguments=(argument("verb", nargs="?", metavar="VERB", choices=VERBS, help="a verb"),),
+)

@@ -11,22 +11,8 @@ import threading
 from ...advice.advice import advice_of
 from ...util.errors import BatchError
 from ...util.loading import load
-from .help_texts import add_examples
-from .outcome import ExitCode
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Answer an editor by the language server protocol, over stdin and stdout: problems and "
-        "verdict of a deck as it is typed, words on keywords and numbers, completion, outline. "
-        "Editors start it: docs/editors.md."
-    )
-    parser.add_argument(
-        "--stdio", action="store_true", help="by stdin and stdout, as it is without this option"
-    )
-    add_examples(parser, ("What Emacs, Neovim or VS Code start", "flexact lsp"))
-    parser.set_defaults(run=talk)
+from .parser import Verb, argument
+from .terminal import ExitCode
 
 
 def talk(_: argparse.Namespace) -> ExitCode:
@@ -48,3 +34,19 @@ def talk(_: argparse.Namespace) -> ExitCode:
         # An analysis that nobody waits for would keep the process for a while.
         os._exit(code)
     return code
+
+
+VERB = Verb(
+    run=talk,
+    description=(
+        "Answer an editor by the language server protocol, over stdin and stdout: problems and "
+        "verdict of a deck as it is typed, words on keywords and numbers, completion, outline. "
+        "Editors start it: docs/editors.md."
+    ),
+    examples=(("What Emacs, Neovim or VS Code start", "flexact lsp"),),
+    arguments=(
+        argument(
+            "--stdio", action="store_true", help="by stdin and stdout, as it is without this option"
+        ),
+    ),
+)

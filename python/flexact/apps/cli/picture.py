@@ -12,57 +12,12 @@ from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file, write_together
 from ...util.text import harmless
-from .decks import add_accuracy, add_decision, read_and_analysed, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .targets import add_deck, add_shown, number, one_deck
-from .terminal import Bar, say
+from .decks import ACCURACY_AND_BEYOND, DECISION, read_and_analysed, take
+from .parser import Group, Verb, argument
+from .targets import SHOWN_MOTION, deck_arguments, number, one_deck
+from .terminal import Bar, ExitCode, Outcome, say
 
 _QUANTITIES = ("normal-force", "twist-moment", "in-plane-moment", "out-of-plane-moment")
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = "Draw a mechanism: by default its first motion and its first self-stress."
-    add_deck(parser, "the picture: .png, .svg or .pdf; .gif, .mp4 or .webm, which move")
-    group = add_shown(parser)
-    group.add_argument(
-        "--stress", type=number, metavar="K", help="show self-stress K, coloured by its resultant"
-    )
-    group.add_argument(
-        "--quantity",
-        type=_quantity,
-        metavar="QUANTITY",
-        help=f"of the self-stress: {', '.join(_QUANTITIES)} (default: the dominant one); N, T, My "
-        "and Mz are older names of the four",
-    )
-    group.add_argument(
-        "--held",
-        action="store_true",
-        help="show what each flexure of an exactly constrained mechanism holds, and how well",
-    )
-    group.add_argument(
-        "--view",
-        default="iso",
-        metavar="VIEW",
-        help="iso (default), front, back, left, right, top, bottom, or AZ,EL: azimuth and "
-        "elevation of the eye in degrees, as in --view=-60,25; z is up",
-    )
-    add_decision(parser)
-    add_accuracy(parser)
-    add_examples(
-        parser,
-        (
-            "The first motion and the first self-stress",
-            "flexact picture input_decks/paper/twelve_trusses.dat -o results/trusses.png",
-        ),
-        (
-            "One quantity of a self-stress, from the front",
-            "flexact picture input_decks/flexures/parallel_guide.dat --quantity in-plane-moment "
-            "--view front -o results/moment.svg",
-        ),
-    )
-    parser.set_defaults(run=draw_deck)
 
 
 def _quantity(text: str) -> str:
@@ -94,7 +49,7 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
                     quantity=chosen.quantity,
                     held=chosen.held,
                     view=chosen.view,
-                    progress=bar.show_frames,
+                    progress=lambda done: bar.show_work("drawing", done),
                 )
             with unwinding():
                 write_together({target: content})
@@ -109,3 +64,61 @@ def _check(chosen: argparse.Namespace) -> None:
     check_suffix(chosen.output.suffix)
     check_packages(chosen.output.suffix)
     check_view(chosen.view)
+
+
+VERB = Verb(
+    run=draw_deck,
+    description="Draw a mechanism: by default its first motion and its first self-stress.",
+    examples=(
+        (
+            "The first motion and the first self-stress",
+            "flexact picture input_decks/paper/twelve_trusses.dat -o results/trusses.png",
+        ),
+        (
+            "One quantity of a self-stress, from the front",
+            "flexact picture input_decks/flexures/parallel_guide.dat --quantity in-plane-moment "
+            "--view front -o results/moment.svg",
+        ),
+    ),
+    arguments=(
+        *deck_arguments("the picture: .png, .svg or .pdf; .gif, .mp4 or .webm, which move"),
+        Group(
+            "what is shown",
+            (
+                SHOWN_MOTION,
+                argument(
+                    "--stress",
+                    type=number,
+                    metavar="K",
+                    help="show self-stress K, coloured by its resultant",
+                ),
+                argument(
+                    "--quantity",
+                    type=_quantity,
+                    metavar="QUANTITY",
+                    help=f"of the self-stress: {', '.join(_QUANTITIES)} (default: the dominant "
+                    "one); N, T, My and Mz are older names of the four",
+                ),
+                argument(
+                    "--held",
+                    action="store_true",
+                    help=(
+                        "show what each flexure of an exactly constrained mechanism holds, and "
+                        "how well"
+                    ),
+                ),
+                argument(
+                    "--view",
+                    default="iso",
+                    metavar="VIEW",
+                    help=(
+                        "iso (default), front, back, left, right, top, bottom, or AZ,EL: azimuth "
+                        "and elevation of the eye in degrees, as in --view=-60,25; z is up"
+                    ),
+                ),
+            ),
+        ),
+        DECISION,
+        *ACCURACY_AND_BEYOND,
+    ),
+)

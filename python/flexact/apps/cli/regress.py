@@ -8,9 +8,10 @@ import os
 import shlex
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from ...analysis.verdict import AnalysisError
 from ...core.progress import Progress
@@ -23,13 +24,10 @@ from ...util.outputs import OutputError, plan_file, plan_files, write_together
 from ...util.text import harmless
 from ..checks.comparison import Finding, Question, State, answer_place, case_of, reasons
 from . import decks as failures
-from .command import add_renamed
-from .decks import add_decks, add_method, announce_wait, tolerance
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome, exit_code
-from .targets import file, folder
-from .terminal import Bar, end_progress, say, show_progress
-from .workers import add_workers, in_order
+from .decks import DECKS, METHOD, announce_wait, tolerance
+from .parser import Verb, argument
+from .targets import WORKERS, file, folder
+from .terminal import Bar, ExitCode, Outcome, end_progress, exit_code, say, show_progress
 
 #: So many decks of a kind are named; what came of each stands above.
 _MOST_NAMED = 20
@@ -76,50 +74,6 @@ def _command(chosen: argparse.Namespace) -> str:
     return harmless(shlex.join([*words, "--store"]))
 
 
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = "Compare what does not depend on sign, order or basis with stored answers."
-    add_decks(parser)
-    parser.add_argument(
-        "--against",
-        type=folder,
-        metavar="DIR",
-        required=True,
-        help="folder of the stored answers: the decks are compared with them, or with --store "
-        "theirs are stored there",
-    )
-    parser.add_argument(
-        "--store",
-        action="store_true",
-        help="store the answers that are new or differ in that folder, instead of comparing",
-    )
-    parser.add_argument(
-        "--within",
-        type=tolerance,
-        metavar="D",
-        help="largest difference of singular values, as a fraction of the largest "
-        "(default 1e-9), and of entries of projectors (default 1e-8)",
-    )
-    add_renamed(parser, "--tolerance", "--within", dest="within", kind=tolerance)
-    parser.add_argument(
-        "--junit", type=file, metavar="FILE", help="write what came of each deck as JUnit XML"
-    )
-    add_workers(parser)
-    add_method(parser)
-    add_examples(
-        parser,
-        (
-            "Store the answers, once they are right",
-            "flexact regress input_decks/paper --against results/answers --store",
-        ),
-        (
-            "Compare with them: exits with 3 if one differs",
-            "flexact regress input_decks/paper --against results/answers",
-        ),
-    )
-    parser.set_defaults(run=regress_decks)
-
-
 def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     """Compare the decks that were asked for with their stored answers, or store them."""
     if chosen.store and chosen.within is not None:
@@ -140,7 +94,7 @@ def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     if len(decks) > 1:
         say(summary(found, chosen))
     if chosen.junit is not None:
-        text = load("flexact.apps.checks.comparison").junit_xml(found, time.time() - start, start)
+        text = load("flexact.apps.checks.outputs").junit_xml(found, time.time() - start, start)
         with unwinding():
             write_together({chosen.junit: text})
     return exit_code(codes)
@@ -214,3 +168,61 @@ def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, Exi
     if finding.state is State.AS_STORED:
         say(f"{name}: as stored")
     return finding, ExitCode.ANALYSED
+
+
+def in_order(
+    function: Callable[[Any], Any], items: Iterable[Any], chosen: argparse.Namespace
+) -> Iterator[tuple[Any, str]]:
+    """Results in the order of the items, each with why there is none; see `results_of`."""
+    waiting: dict[int, tuple[Any, str]] = {}
+    place = 0
+    results_of = load("flexact.sweeps.running").results_of
+    for done in results_of(function, items, executor=chosen.dask, workers=chosen.workers):
+        waiting[done.index] = done.result, done.failure
+        while place in waiting:
+            yield waiting.pop(place)
+            place += 1
+
+
+VERB = Verb(
+    run=regress_decks,
+    description="Compare what does not depend on sign, order or basis with stored answers.",
+    examples=(
+        (
+            "Store the answers, once they are right",
+            "flexact regress input_decks/paper --against results/answers --store",
+        ),
+        (
+            "Compare with them: exits with 3 if one differs",
+            "flexact regress input_decks/paper --against results/answers",
+        ),
+    ),
+    arguments=(
+        DECKS,
+        argument(
+            "--against",
+            type=folder,
+            metavar="DIR",
+            required=True,
+            help="folder of the stored answers: the decks are compared with them, or with --store "
+            "theirs are stored there",
+        ),
+        argument(
+            "--store",
+            action="store_true",
+            help="store the answers that are new or differ in that folder, instead of comparing",
+        ),
+        argument(
+            "--within",
+            type=tolerance,
+            metavar="D",
+            help="largest difference of singular values, as a fraction of the largest "
+            "(default 1e-9), and of entries of projectors (default 1e-8)",
+        ),
+        argument(
+            "--junit", type=file, metavar="FILE", help="write what came of each deck as JUnit XML"
+        ),
+        WORKERS,
+        METHOD,
+    ),
+)

@@ -15,7 +15,8 @@ from ...analysis.result import Result
 from ...analysis.verdict_words import verdict_word
 from ...show.page import Entry, Pair, before_and_after, changes_part, compare_page, index_page
 from ...show.picture import has_packages, picture_bytes
-from ...show.saving import PAGES, as_bytes, small_picture
+from ...show.saving import small_picture
+from ...show.writers import PAGES, as_bytes
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
@@ -23,28 +24,28 @@ from ...util.outputs import OutputError, plan_file, plan_files, require_replacea
 from ...util.partial import attempted
 from ...util.text import harmless
 from . import decks as failures
-from .decks import add_accuracy, add_decision, add_decks, analysed, opened, read_and_analysed, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome, exit_code
-from .targets import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, folder_or, page_of, unread
-from .terminal import Bar, complain, end_progress, say, show_progress
+from .deck_files import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
+from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, analysed, opened, read_and_analysed, take
+from .parser import Verb, argument
+from .targets import folder_or
+from .terminal import Bar, ExitCode, Outcome, complain, end_progress, exit_code, say, show_progress
 
 _JSON = ".json"
 _USAGE = "--compare takes two decks, or two folders"
 _KINDS = {"changed": "changed", "same": "as before"}
 
 
-def add_compare(parser: argparse.ArgumentParser) -> None:
-    """Add the comparison to the parser of the verb."""
-    parser.add_argument(
+COMPARE = (
+    argument(
         "--compare",
         action="store_true",
         help="one page of what changed from the first deck or folder to the second; a folder may "
         "also hold the NAME.json of analyse -o",
-    )
-    parser.add_argument(
+    ),
+    argument(
         "--expect", choices=("same",), help="with --compare: exit with 3 where something changed"
-    )
+    ),
+)
 
 
 @dataclass(frozen=True)
@@ -268,45 +269,6 @@ def _in_a_line(pair: Pair, runs: tuple[str, str]) -> str:
     return f"{name}: {told[0]}{more}"
 
 
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Write the result of a deck as one HTML page that opens without a network: "
-        "verdict, drawing in motion, self-stresses in colour, tables, deck. A deck with errors "
-        "gives a page with its diagnostics, and exit code 1."
-    )
-    add_decks(parser)
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=folder_or(*PAGES),
-        metavar="PAGE",
-        required=True,
-        help="the page, NAME.html; or a folder for a page of each deck and index.html",
-    )
-    add_compare(parser)
-    add_decision(parser)
-    add_accuracy(parser)
-    add_examples(
-        parser,
-        (
-            "A page of a deck",
-            "flexact report input_decks/paper/five_wires.dat -o results/wires.html",
-        ),
-        (
-            "Pages of several decks, and an index",
-            "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
-            "-o results/pages",
-        ),
-        (
-            "What changed between two decks, or two folders of decks or results",
-            "flexact report input_decks/paper/six_folded_sheets.dat "
-            "input_decks/paper/six_folded_sheets_released.dat --compare -o results/changes.html",
-        ),
-    )
-    parser.set_defaults(run=report_decks)
-
-
 def report_decks(chosen: argparse.Namespace) -> ExitCode:
     """Write the pages of the decks that were asked for, or the page that compares two runs."""
     if chosen.compare:
@@ -385,3 +347,41 @@ class _CliReportWork:
         with unwinding():
             write_together({self.index: as_bytes(index_page(entries))})
         say(f"index in {harmless(str(self.index))}")
+
+
+VERB = Verb(
+    run=report_decks,
+    description="Write the result of a deck as one HTML page that opens without a network: "
+    "verdict, drawing in motion, self-stresses in colour, tables, deck. A deck with errors "
+    "gives a page with its diagnostics, and exit code 1.",
+    examples=(
+        (
+            "A page of a deck",
+            "flexact report input_decks/paper/five_wires.dat -o results/wires.html",
+        ),
+        (
+            "Pages of several decks, and an index",
+            "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
+            "-o results/pages",
+        ),
+        (
+            "What changed between two decks, or two folders of decks or results",
+            "flexact report input_decks/paper/six_folded_sheets.dat "
+            "input_decks/paper/six_folded_sheets_released.dat --compare -o results/changes.html",
+        ),
+    ),
+    arguments=(
+        DECKS,
+        argument(
+            "-o",
+            "--output",
+            type=folder_or(*PAGES),
+            metavar="PAGE",
+            required=True,
+            help="the page, NAME.html; or a folder for a page of each deck and index.html",
+        ),
+        *COMPARE,
+        DECISION,
+        *ACCURACY_AND_BEYOND,
+    ),
+)

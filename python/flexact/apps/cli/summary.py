@@ -7,8 +7,7 @@ import argparse
 import os
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -20,17 +19,18 @@ from ...util.decks import DeckFile
 from ...util.loading import load
 from ...util.text import columns as columns_of
 from ...util.text import harmless
-from .decks import analysed, foreseen, opened, outcome_of
-from .outcome import ExitCode, Outcome, exit_code
+from .decks import analysed, each_of, foreseen, opened, outcome_of
+from .parser import Argument, argument
 from .terminal import (
     Bar,
+    ExitCode,
+    Outcome,
     columns_to_fill,
-    end_progress,
+    exit_code,
     padded,
     say,
     shortened,
     shortened_middle,
-    show_progress,
 )
 
 if TYPE_CHECKING:
@@ -61,21 +61,17 @@ Value = str | int | tuple[str, str]
 _SHORTEST = 8
 
 
-@dataclass(frozen=True)
-class Cells:
-    """What the line of a deck says.
-
-    Attributes:
-        values: By the names of the columns; texts, or numbers.
-        error: Why there are no others, in place of those behind the first.
-        first: The value of the first column, where there is an error.
-        behind: What stands behind the last column.
-    """
+class Cells(NamedTuple):
+    """What the line of a deck says."""
 
     values: Mapping[str, Value]
+    """By the names of the columns; texts, or numbers."""
     error: str = ""
+    """Why there are no others, in place of those behind the first."""
     first: str = "error"
+    """The value of the first column, where there is an error."""
     behind: str = ""
+    """What stands behind the last column."""
 
 
 class SummaryTable:
@@ -94,7 +90,7 @@ class SummaryTable:
         if self._wider and "margin" in self._columns:
             self._columns["margin"] = _WIDE_MARGIN
         self.folder, ending = "", ""
-        longest = _longest(names)
+        longest = max(columns_of(name) for name in ("deck", *names))
         self._name = longest
         if self.width is not None:
             others = sum(self._columns.values()) + len(self._gap) * len(self._columns)
@@ -146,10 +142,6 @@ class SummaryTable:
         return self._gap.join(made).rstrip()
 
 
-def _longest(names: Sequence[str]) -> int:
-    return max((columns_of(name) for name in ("deck", *names)), default=0)
-
-
 def _in_common(names: Sequence[str]) -> tuple[str, str]:
     """The folder that all names lie in, with its stroke, and their common suffix."""
     if len(names) < 2:
@@ -167,9 +159,9 @@ TABLES = (".csv", ".jsonl", ".parquet")
 _COLUMNS = ("verdict", "under", "over", "freedoms", "margin", "certainty")
 
 
-def add_summary(parser: argparse.ArgumentParser, about: str) -> None:
-    """Add the choice of a table to a verb's parser."""
-    parser.add_argument("--summary", action="store_true", help=about)
+def summary_argument(about: str) -> Argument:
+    """The choice of a table."""
+    return argument("--summary", action="store_true", help=about)
 
 
 def is_table(path: Path | None) -> bool:
@@ -177,118 +169,91 @@ def is_table(path: Path | None) -> bool:
     return path is not None and path.suffix.lower() in TABLES
 
 
-class Told(NamedTuple):
-    """What came of a deck: its line, and what the command makes of it."""
-
-    cells: Cells
-    outcome: Outcome
-
-
 def summarise(
-    decks: Sequence[DeckFile], columns: Sequence[str], step: Callable[[DeckFile], Told]
+    decks: Sequence[DeckFile],
+    columns: Sequence[str],
+    step: Callable[[DeckFile], tuple[Cells, Outcome]],
 ) -> ExitCode:
     """Take decks through `step`, a line each as soon as it is known, then what they add up to.
 
     Args:
         decks: The decks.
-        columns: Names of columns behind that of the deck; see `summary_table`.
+        columns: Names of columns behind that of the deck; see `SummaryTable`.
         step: What is done with a deck; it may raise what `take` takes.
     """
     table = SummaryTable(columns, [harmless(deck.name) for deck in decks])
     say(table.head)
     outcomes = []
-    for number, deck in enumerate(decks, start=1):
-        show_progress(number, len(decks), deck.name)
-        told = _attempt(deck, step)
-        say(table.line(harmless(deck.name), told.cells))
-        outcomes.append(told.outcome)
-    end_progress()
-    say(table.filled(_total(outcomes, table.place)))
-    wrong = [each for each in outcomes if each.code is ExitCode.DIFFERENT]
-    for outcome in wrong:
-        say(f"  not as expected: {harmless(outcome.deck)}")
-    return exit_code(outcomes)
-
-
-def _attempt(deck: DeckFile, step: Callable[[DeckFile], Told]) -> Told:
-    try:
-        if deck.error is not None:
-            raise deck.error
-        return step(deck)
-    except Exception as error:
-        return failed(deck, foreseen(error))
-
-
-def failed(deck: DeckFile, error: Exception) -> Told:
-    """The line of a deck that has no result: its first error."""
-    words = load("flexact.sweeps.batch").first_error(error, "")
-    words = words.removeprefix(f"{harmless(deck.name)}: ").removeprefix(":").lstrip()
-    return Told(Cells({}, words), outcome_of(deck, error))
-
-
-def _total(outcomes: Sequence[Outcome], place: str) -> str:
-    counts = Counter(outcome.result for outcome in outcomes)
+    for deck, (cells, outcome) in zip(decks, each_of(decks, step, failed), strict=True):
+        say(table.line(harmless(deck.name), cells))
+        outcomes.append(outcome)
     # Of a deck without a verdict the lines say why.
+    counts = Counter(outcome.result for outcome in outcomes)
     parts = ", ".join(
         f"{count} {'with errors' if result == 'failed' else result}"
         for result, count in counts.most_common()
     )
     many = len(outcomes)
-    return f"{many} deck{'s' * (many != 1)}{place}: {parts}"
+    say(table.filled(f"{many} deck{'s' * (many != 1)}{table.place}: {parts}"))
+    for outcome in outcomes:
+        if outcome.code is ExitCode.DIFFERENT:
+            say(f"  not as expected: {harmless(outcome.deck)}")
+    return exit_code(outcomes)
 
 
-class Analysed:
-    """Decks analysed one by one, each for its line, and the table that is written of them."""
+def failed(deck: DeckFile, error: Exception) -> tuple[Cells, Outcome]:
+    """The line of a deck that has no result: its first error."""
+    words = load("flexact.sweeps.batch").first_error(error, "")
+    words = words.removeprefix(f"{harmless(deck.name)}: ").removeprefix(":").lstrip()
+    return Cells({}, words), outcome_of(deck, error)
 
-    def __init__(
-        self,
-        chosen: argparse.Namespace,
-        decks: Sequence[DeckFile],
-        finish: Callable[[DeckFile, Result], Outcome],
-    ) -> None:
-        """What was chosen.
 
-        Args:
-            chosen: The options of the verb.
-            decks: The decks.
-            finish: Writes what else is wanted of a result, and says what its verdict asks for.
+def summarise_results(
+    chosen: argparse.Namespace,
+    decks: Sequence[DeckFile],
+    finish: Callable[[DeckFile, Result], Outcome],
+) -> ExitCode:
+    """Analyse decks, each for its line, and write the table where that was asked for.
 
-        Raises:
-            OutputError: The table has no place.
-        """
-        self.chosen, self.decks, self._finish = chosen, decks, finish
-        self._rows: dict[str, dict[str, Cell]] = {}
-        if is_table(chosen.output):
-            load("flexact.apps.cli.batch").require_place(chosen.output, decks)
+    Args:
+        chosen: The options of the verb.
+        decks: The decks.
+        finish: Writes what else is wanted of a result, and says what its verdict asks for.
 
-    def run(self) -> ExitCode:
-        """Print the table, and write it where that was asked for."""
-        code = summarise(self.decks, _COLUMNS, self._step)
-        if is_table(self.chosen.output):
-            table: Path = self.chosen.output
-            load("flexact.sweeps.writing").write_table(table, _columns(), self._lines())
-            say(f"table in {harmless(str(table))}")
-        return code
+    Raises:
+        OutputError: The table has no place.
+    """
+    target: Path | None = chosen.output if is_table(chosen.output) else None
+    if target is not None:
+        load("flexact.apps.cli.batch").require_place(target, decks)
+    rows: dict[str, dict[str, Cell]] = {}
 
-    def _step(self, deck: DeckFile) -> Told:
+    def step(deck: DeckFile) -> tuple[Cells, Outcome]:
         try:
             with Bar(deck.name, deck.path) as bar:
-                result = analysed(deck, opened(deck, bar), self.chosen, bar)
-                told = Told(_cells(result), self._finish(deck, result))
+                result = analysed(deck, opened(deck, bar), chosen, bar)
+                told = _cells(result), finish(deck, result)
         except Exception as error:
             told = failed(deck, foreseen(error))
-            self._rows[deck.name] = {"error": told.cells.error}
+            rows[deck.name] = {"error": told[0].error}
         else:
-            if is_table(self.chosen.output):
-                self._rows[deck.name] = _values(result)
+            if target is not None:
+                rows[deck.name] = {
+                    **load("flexact.sweeps.columns").row_of(result),
+                    "degrees_of_freedom": result.degrees_of_freedom,
+                    "certainty": certainty_word(result),
+                }
         return told
 
-    def _lines(self) -> Iterator[list[Cell]]:
-        names = [column.name for column in _columns()]
-        for deck in self.decks:
-            # A folder that gives no decks has not come to a step.
-            row = self._rows.get(deck.name, {"error": str(deck.error)})
-            yield [deck.name, *(row.get(name) for name in names[1:])]
+    code = summarise(decks, _COLUMNS, step)
+    if target is not None:
+        columns = _columns()
+        # A folder that gives no decks has not come to a step.
+        found = ((deck, rows.get(deck.name, {"error": str(deck.error)})) for deck in decks)
+        lines = ([deck.name, *(row.get(c.name) for c in columns[1:])] for deck, row in found)
+        load("flexact.sweeps.writing").write_table(target, columns, lines)
+        say(f"table in {harmless(str(target))}")
+    return code
 
 
 def _columns() -> tuple[Any, ...]:
@@ -301,21 +266,12 @@ def _columns() -> tuple[Any, ...]:
     return (rows.DECK, *counts, of["certainty"], of["margin"], of["margin_angle"], known.ERROR)
 
 
-def _values(result: Result) -> dict[str, Cell]:
-    made: dict[str, Cell] = load("flexact.sweeps.columns").row_of(result)
-    more: dict[str, Cell] = {
-        "degrees_of_freedom": result.degrees_of_freedom,
-        "certainty": certainty_word(result),
-    }
-    return {**made, **more}
-
-
 def _cells(result: Result) -> Cells:
     word = result.verdict.word
     if result.verdict is Verdict.EXACT and result.is_marginal:
         word = "marginal"
     sure = certainty_word(result)
-    doubt = "?" * (result.certainty is Certainty.NEARLY)
+    doubt = "?" * (result.certainty is Certainty.DOUBTFUL)
     return Cells(
         {
             "verdict": word + doubt,

@@ -6,26 +6,15 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
 
-from ...analysis.json import text_of
-from ...analysis.result import Result
-from ...deck.rendering import ProblemsError
-from ...show.mesh import Meshes
-from ...show.mesh.file import find_format, mesh_bytes
-from ...show.page import Entry, broken_entry, broken_page, entry_of, unread_entry, with_way_back
-from ...show.saving import as_bytes, page_bytes, small_picture
-from ...show.spacar_log import log_text, spacar_log
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, OutputError, plan_file, plan_files, write_together
-from . import decks as failures
-from .command import require_once
-from .decks import foreseen
-from .terminal import complain, put
+from ...util.outputs import STDOUT, OutputError, plan_file, write_together
+from .parser import Argument, Group, argument
+from .terminal import put
 
 #: Suffixes of decks besides that of the deck that was read.
 DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
@@ -128,83 +117,19 @@ def write_text(target: Path, content: bytes) -> None:
 FORMATS = ("vtu", "vtk", "xdmf")
 
 
-def add_mesh(parser: argparse.ArgumentParser, target: str) -> None:
-    """Add the format of the meshes to a verb's parser.
-
-    Args:
-        parser: The parser.
-        target: The option that names their folder.
-    """
-    parser.add_argument(
+def mesh_argument(target: str) -> Argument:
+    """The format of the meshes in the folder that the option `target` names."""
+    return argument(
         "--mesh",
         metavar="FORMAT",
         help=f"format of the meshes of {target}: {', '.join(FORMATS)} (default {FORMATS[0]})",
     )
 
 
-def _is_mesh(value: object) -> bool:
-    return str(value).lower().removeprefix(".") in FORMATS
-
-
-class FormsOrMeshes(tuple[str, ...]):
-    """Values of --format, among which formats of meshes are still taken, and not shown."""
-
-    __slots__ = ()
-
-    def __contains__(self, value: object) -> bool:
-        """Whether it is taken."""
-        return super().__contains__(value) or _is_mesh(value)
-
-
-class FormatOrMesh(argparse.Action):
-    """Stores --format, or what once was said by it as --mesh, with a word on stderr."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        """Store it where it belongs."""
-        dest = "mesh" if _is_mesh(values) else self.dest
-        if dest == "mesh":
-            complain(f"warning: {option_string} {values} is now called --mesh {values}")
-        require_once(parser, namespace, dest, values, option_string)
-        setattr(namespace, dest, values)
-
-
-def add_deck(
-    parser: argparse.ArgumentParser, words: str, kind: Callable[[str], Path] = file
-) -> None:
-    """Add the one deck to a verb's parser, and the file made of it, which `words` describe."""
-    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
-    parser.add_argument("-o", "--output", type=kind, metavar="FILE", required=True, help=words)
-
-
-def add_shown(parser: argparse.ArgumentParser, title: str = "what is shown") -> Any:
-    """Add the choice of the motion to a verb's parser; numbers count from 1.
-
-    Returns:
-        The group of options, for more of them.
-    """
-    group = parser.add_argument_group(title)
-    which = group.add_mutually_exclusive_group()
-    which.add_argument(
-        "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
-    )
-    which.add_argument(
-        "--freedom",
-        type=number_or_name,
-        metavar="K",
-        help="show declared degree of freedom K, or that of a name, such as 'stage y'",
-    )
-    return group
-
-
-def add_no_browser(parser: argparse.ArgumentParser) -> None:
-    """Add to a verb's parser that no browser is to be opened."""
-    parser.add_argument("--no-browser", action="store_true", help="open no browser")
+def deck_arguments(words: str, kind: Callable[[str], Path] = file) -> tuple[Argument, ...]:
+    """The one deck of a verb, and the file made of it, which `words` describe."""
+    output = argument("-o", "--output", type=kind, metavar="FILE", required=True, help=words)
+    return DECK, output
 
 
 def number(text: str) -> int:
@@ -218,9 +143,58 @@ def number(text: str) -> int:
     return value
 
 
+def address(text: str) -> str:
+    """Where a scheduler is, as an option's type."""
+    if not re.fullmatch(r"[a-z]+://\S+:\d+", text):
+        raise argparse.ArgumentTypeError(f"tcp://host:port of a scheduler is wanted, not {text!r}")
+    return text
+
+
 def number_or_name(text: str) -> int | str:
     """A whole number from 1, or a name, as an option's type."""
     return number(text) if text.strip().lstrip("+-").isdecimal() or not text.strip() else text
+
+
+DECK = argument("deck", metavar="DECK", help="a deck, or - for stdin")
+NO_BROWSER = argument("--no-browser", action="store_true", help="open no browser")
+#: The choice of the motion; numbers count from 1.
+SHOWN_MOTION = Group(
+    "",
+    (
+        argument(
+            "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
+        ),
+        argument(
+            "--freedom",
+            type=number_or_name,
+            metavar="K",
+            help="show declared degree of freedom K, or that of a name, such as 'stage y'",
+        ),
+    ),
+)
+#: Who does the work on many decks.
+WORKERS = Group(
+    "who does the work",
+    (
+        Group(
+            "",
+            (
+                argument(
+                    *("-j", "--workers"),
+                    type=number,
+                    metavar="N",
+                    help="processes (default: one a processor)",
+                ),
+                argument(
+                    "--dask",
+                    type=address,
+                    metavar="ADDRESS",
+                    help="work on a Dask cluster: tcp://host:port of its scheduler",
+                ),
+            ),
+        ),
+    ),
+)
 
 
 def one_deck(chosen: argparse.Namespace) -> DeckFile:
@@ -233,97 +207,3 @@ def one_deck(chosen: argparse.Namespace) -> DeckFile:
     if len(decks) > 1:
         raise BatchError(f"{chosen.deck} holds {len(decks)} decks; this takes one at a time")
     return decks[0]
-
-
-#: What the index takes the place of among the decks.
-INDEX = DeckFile("the index", Path("index"))
-WITHOUT_PICTURES = (
-    "without the packages matplotlib and pillow there are no still pictures, for browsers without "
-    "WebGL and in the index: pip install matplotlib pillow"
-)
-
-
-class DeckPage(NamedTuple):
-    """A page, and its place in the index."""
-
-    content: bytes
-    entry: Entry
-
-
-def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
-    """The page of a result, whose path beside the index is `place` but for its suffix.
-
-    Args:
-        result: The result.
-        place: The path.
-        indexed: Whether there is an index, which has a picture of each page.
-    """
-    with unwinding():
-        content = page_bytes(result, place if indexed else None)
-    with unwinding():
-        picture = small_picture(result) if indexed else None
-    return DeckPage(content, entry_of(result, place, f"{place}.html", picture))
-
-
-def broken_page_of(
-    error: Exception, name: str, place: str, *, indexed: bool = True
-) -> DeckPage | None:
-    """The page of a deck with errors; None where its file could not be read."""
-    if isinstance(error, ProblemsError):
-        codes = {item.code for item in error.diagnostics}
-        if codes & failures.NOT_READ:
-            return None
-    made = broken_page(error, name)
-    if indexed:
-        made = with_way_back(made, place)
-    return DeckPage(as_bytes(made), broken_entry(error, place, f"{place}.html", name))
-
-
-def unread(place: str) -> Entry:
-    """What the index says of a deck that could not be read."""
-    return unread_entry(place)
-
-
-class ResultFiles:
-    """Where each deck's results go, found before anything is computed.
-
-    Raises:
-        OutputError: Two decks would write one file, or the folder cannot take files.
-        MeshFormatError: There is no such mesh format.
-    """
-
-    def __init__(
-        self, decks: Sequence[DeckFile], folder: Path, mesh_format: str, log: str | None = None
-    ) -> None:
-        """Plan the files of all decks; `log` is the form of the logs, None that of Flexact."""
-        self._log = log
-        with unwinding():
-            self.format = find_format(mesh_format)
-        self.plan = plan_files(decks, folder, (".json", ".log", f".{self.format}"))
-
-    def write(self, deck: DeckFile, result: Result) -> Exception | None:
-        """Write the results, or say why not: that is no reason to keep the verdict back."""
-        try:
-            contents = contents_of(result, self.format, self._log)
-            with unwinding():
-                write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
-        except Exception as error:
-            return foreseen(error)
-        return None
-
-
-def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tuple[bytes, ...]:
-    """What stands in the files of a result, in the order of the plan.
-
-    `log` is the form of the log, None that of Flexact.
-
-    Raises:
-        OutputError: The mesh cannot be written.
-        MemoryError: There is not enough memory.
-    """
-    json = f"{text_of(result)}\n".encode()
-    meshes = Meshes(result)
-    words = spacar_log(result) if log else log_text(result, most_in_mesh=meshes.most_modes)
-    mesh = meshes.still()
-    with unwinding():
-        return json, words.encode("utf-8", "backslashreplace"), mesh_bytes(mesh, mesh_format)

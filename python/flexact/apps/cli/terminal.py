@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a command says: results on stdout, everything else on stderr."""
+"""What a command says: results on stdout, everything else on stderr, and an exit code."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import errno
 import os
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from enum import IntEnum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -22,6 +23,48 @@ from ...util.text import USUAL, columns, harmless, refitted, spelled
 
 if TYPE_CHECKING:
     from ...core.progress import Progress
+
+
+class ExitCode(IntEnum):
+    """What a command returns to the shell: as ruff has it, 1 is about decks, 2 about the run.
+
+    Attributes:
+        ANALYSED: All is well.
+        DECK_ERROR: A deck has errors, cannot be read, or has not what was asked of it.
+        OTHER: Wrong usage, output that cannot be written, too little memory, and the like.
+        DIFFERENT: The verdict is not the expected one, or an answer differs.
+    """
+
+    ANALYSED = 0
+    DECK_ERROR = 1
+    OTHER = 2
+    DIFFERENT = 3
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one deck.
+
+    Attributes:
+        deck: Its name.
+        code: The exit code that it asks for.
+        result: A word or two, counted over the batch.
+        remark: Why it wants attention; empty where the code says enough.
+    """
+
+    deck: str
+    code: ExitCode
+    result: str
+    remark: str = ""
+
+
+def exit_code(outcomes: Iterable[Outcome]) -> ExitCode:
+    """The exit code of a batch: the gravest of its decks, in the order 2, 1, 3, 0."""
+    codes = {outcome.code for outcome in outcomes}
+    for code in (ExitCode.OTHER, ExitCode.DECK_ERROR, ExitCode.DIFFERENT):
+        if code in codes:
+            return code
+    return ExitCode.ANALYSED
 
 
 CHOICES = ("auto", "always", "never")
@@ -384,14 +427,6 @@ class Bar:
                 self._bar = _drawn(text)
             self._bar.n = max(self._bar.n, (_STAGES.index(stage) + done) / len(_STAGES))
             self._bar.set_description_str(text)
-
-    def show_frames(self, done: float) -> None:
-        """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
-        self.show_work("drawing", done)
-
-    def show_steps(self, done: float) -> None:
-        """Draw the bar of a path, of which a part from 0 to 1 is traced; always wanted."""
-        self.show_work("tracing", done)
 
     def show_work(self, what: str, done: float) -> None:
         """Draw the bar of other work, of which a part from 0 to 1 is done; always wanted."""

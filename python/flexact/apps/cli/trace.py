@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from ...show.mesh.collection import SUFFIX, folder_of
-from ...tracing.output import ENDINGS, STEM, require_suffix, save
+from ...show.mesh.collection import STEM, folder_of
+from ...show.writers import PLAYING
+from ...tracing.output import ENDINGS, TRACES
 from ...tracing.trace import STEPS, trace
 from ...tracing.words import csv_bytes, lines
 from ...util.decks import DeckFile
@@ -18,62 +19,10 @@ from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file, plan_files
 from ...util.quantities import QuantityError, quantity
 from ...util.text import harmless
-from .decks import add_decision, read_and_analysed, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .targets import add_shown, number, one_deck, write_text
-from .terminal import Bar, complain, say
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Follow a motion, or a declared degree of freedom, both ways from the reference with every "
-        "held deformation zero; say how far it goes, what stops it, and where its dead points are."
-    )
-    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
-    group = add_shown(parser, "what is followed")
-    group.add_argument(
-        "--length",
-        type=_length,
-        metavar="L",
-        help="how far each way, such as 20mm, of the node that moves farthest; a rotation of 1 rad "
-        "counts as the model's size (default: that size)",
-    )
-    group.add_argument(
-        "--beyond", action="store_true", help="take a length that is larger than the model"
-    )
-    group.add_argument(
-        "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
-    )
-    group.add_argument(
-        "--through",
-        action=argparse.BooleanOptionalAction,
-        default=True,
-        help="whether to go straight on where other paths branch off, which is said; else the "
-        "path ends there",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        help="the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values and "
-        "places along the path; .pvd, a cycle that plays in ParaView; - for the table on stdout",
-    )
-    add_decision(parser)
-    add_examples(
-        parser,
-        (
-            "How far a declared freedom goes",
-            "flexact trace input_decks/linkages/slider_crank_planar.dat --freedom 1",
-        ),
-        (
-            "The path as a table",
-            "flexact trace input_decks/linkages/four_bar_planar.dat --motion 1 -o results/path.csv",
-        ),
-    )
-    parser.set_defaults(run=trace_deck, accuracy=None)
+from .decks import DECISION, read_and_analysed, take
+from .parser import Group, Verb, argument
+from .targets import DECK, SHOWN_MOTION, number, one_deck, write_text
+from .terminal import Bar, ExitCode, Outcome, complain, say
 
 
 def _length(text: str) -> float:
@@ -92,7 +41,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
     if target is not None and target != STDOUT:
         _plan(deck, target)
         with unwinding():
-            require_suffix(target)
+            TRACES.require(target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -102,7 +51,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
 
                     def show(done: float) -> None:
                         look()
-                        bar.show_steps(done)
+                        bar.show_work("tracing", done)
 
                     made = trace(
                         analysis,
@@ -120,7 +69,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                 raise BatchError(str(error)) from error
             if target is not None and target != STDOUT:
                 with unwinding():
-                    save(made, target)
+                    made.save(target)
         tell: Callable[[str], None] = say
         if target == STDOUT:
             write_text(target, csv_bytes(made))
@@ -137,5 +86,77 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
 def _plan(deck: DeckFile, target: Path) -> None:
     """Find out what is wrong with the file before anything is analysed."""
     plan_file(deck, target)
-    if target.suffix.lower() == SUFFIX:
+    if target.suffix.lower() == PLAYING:
         plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
+
+
+VERB = Verb(
+    run=trace_deck,
+    description=(
+        "Follow a motion, or a declared degree of freedom, both ways from the reference with "
+        "every held deformation zero; say how far it goes, what stops it, and where its dead "
+        "points are."
+    ),
+    examples=(
+        (
+            "How far a declared freedom goes",
+            "flexact trace input_decks/linkages/slider_crank_planar.dat --freedom 1",
+        ),
+        (
+            "The path as a table",
+            "flexact trace input_decks/linkages/four_bar_planar.dat --motion 1 -o results/path.csv",
+        ),
+    ),
+    arguments=(
+        DECK,
+        Group(
+            "what is followed",
+            (
+                SHOWN_MOTION,
+                argument(
+                    "--length",
+                    type=_length,
+                    metavar="L",
+                    help=(
+                        "how far each way, such as 20mm, of the node that moves farthest; a "
+                        "rotation of 1 rad counts as the model's size (default: that size)"
+                    ),
+                ),
+                argument(
+                    "--beyond",
+                    action="store_true",
+                    help="take a length that is larger than the model",
+                ),
+                argument(
+                    "--steps",
+                    type=number,
+                    default=STEPS,
+                    metavar="N",
+                    help=f"steps each way ({STEPS})",
+                ),
+                argument(
+                    "--through",
+                    action=argparse.BooleanOptionalAction,
+                    default=True,
+                    help=(
+                        "whether to go straight on where other paths branch off, which is said; "
+                        "else the path ends there"
+                    ),
+                ),
+            ),
+        ),
+        argument(
+            "-o",
+            "--output",
+            type=Path,
+            metavar="FILE",
+            help=(
+                "the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values "
+                "and places along the path; .pvd, a cycle that plays in ParaView; - for the table "
+                "on stdout"
+            ),
+        ),
+        DECISION,
+    ),
+    defaults={"accuracy": None},
+)

@@ -7,42 +7,19 @@ import argparse
 
 from ...analysis.verdict_words import verdict_word
 from ...show.page import page
-from ...show.saving import as_bytes, page_bytes
+from ...show.saving import page_bytes
 from ...show.window import opens, page_path, write_page
+from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file
 from ...util.text import harmless
-from .decks import add_accuracy, add_decision, foreseen, read_and_analysed, take
-from .help_texts import add_examples
-from .outcome import ExitCode, Outcome
-from .targets import add_no_browser, broken_page_of, file, one_deck
-from .terminal import Bar, say
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Open the page of a deck in the browser: verdict, drawing in motion, self-stresses in "
-        "colour, tables, deck. Where no browser can be opened it says where the page is. A deck "
-        "with errors gives a page with its diagnostics."
-    )
-    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
-    parser.add_argument(
-        "-o", "--output", type=file, metavar="PAGE", help="keep the page, NAME.html"
-    )
-    add_no_browser(parser)
-    add_decision(parser)
-    add_accuracy(parser)
-    add_examples(
-        parser,
-        (
-            "Keep the page, and open no browser",
-            "flexact view input_decks/paper/five_wires.dat --no-browser -o results/wires.html",
-        ),
-    )
-    parser.set_defaults(run=view_deck)
+from .deck_files import broken_page_of
+from .decks import ACCURACY_AND_BEYOND, DECISION, foreseen, read_and_analysed, take
+from .parser import Verb, argument
+from .targets import DECK, NO_BROWSER, file, one_deck
+from .terminal import Bar, ExitCode, Outcome, say
 
 
 def view_deck(chosen: argparse.Namespace) -> ExitCode:
@@ -81,3 +58,26 @@ def _show(deck: DeckFile, content: bytes, word: str, chosen: argparse.Namespace)
     say(f"{harmless(deck.name)}: {word}; page in {harmless(str(target))}")
     if not chosen.no_browser:
         opens(target.as_uri())
+
+
+VERB = Verb(
+    run=view_deck,
+    description=(
+        "Open the page of a deck in the browser: verdict, drawing in motion, self-stresses in "
+        "colour, tables, deck. Where no browser can be opened it says where the page is. A deck "
+        "with errors gives a page with its diagnostics."
+    ),
+    examples=(
+        (
+            "Keep the page, and open no browser",
+            "flexact view input_decks/paper/five_wires.dat --no-browser -o results/wires.html",
+        ),
+    ),
+    arguments=(
+        DECK,
+        argument("-o", "--output", type=file, metavar="PAGE", help="keep the page, NAME.html"),
+        NO_BROWSER,
+        DECISION,
+        *ACCURACY_AND_BEYOND,
+    ),
+)

@@ -16,40 +16,14 @@ from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.text import harmless
 from ..watch.messages import Answer, Broken
-from ..watch.watch import SCRIPT, Heard, Watch
+from ..watch.watch import SCRIPT, Watch
 from . import decks as failures
-from .decks import add_accuracy, add_decision
-from .help_texts import add_examples
-from .outcome import ExitCode
-from .targets import add_no_browser, one_deck
-from .terminal import complain, say
+from .decks import ACCURACY, DECISION
+from .parser import Verb, argument
+from .targets import NO_BROWSER, one_deck
+from .terminal import ExitCode, complain, say
 
 _LARGEST_PORT = 65535
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
-        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
-    )
-    parser.add_argument(
-        "deck",
-        metavar="FILE",
-        help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
-    )
-    parser.add_argument(
-        "--port", type=port, metavar="N", help="the port of this machine (a free one)"
-    )
-    add_no_browser(parser)
-    add_decision(parser)
-    add_accuracy(parser, is_held_against=False)
-    add_examples(
-        parser,
-        ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
-        ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
-    )
-    parser.set_defaults(run=watch)
 
 
 def port(text: str) -> int:
@@ -77,31 +51,26 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
         file_bytes(path)
     except (DeckError, FolderError) as error:
         return failures.report(deck, error, as_json=False).code
-    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    with unwinding():
-        watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
-        with closing(watched):
-            say(f"{harmless(path)} is shown at {watched.server.address}")
-            if not chosen.no_browser and not watched.opens():
-                complain("no browser opens here; open this address in one of this machine")
-            watched.run()
-    return ExitCode.ANALYSED
+    name = harmless(path)
 
-
-class _Renewed:
-    """Tells of each save."""
-
-    def __init__(self, path: str) -> None:
-        self._name = harmless(path)
-
-    def __call__(self, words: str, answer: Answer) -> None:
+    def renewed(words: str, answer: Answer) -> None:
         """Say what has changed, or what is wrong."""
         if isinstance(answer, Broken):
             complain(harmless_lines(answer.words))
             words = "cannot be analysed"
         elif answer.problems:
             complain(harmless_lines(answer.problems))
-        say(f"{time.strftime('%H:%M:%S')} {self._name}: {words}")
+        say(f"{time.strftime('%H:%M:%S')} {name}: {words}")
+
+    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
+    with unwinding():
+        watched = Watch(path, renewed, _printed, chosen.port, decision)
+        with closing(watched):
+            say(f"{name} is shown at {watched.server.address}")
+            if not chosen.no_browser and not watched.opens():
+                complain("no browser opens here; open this address in one of this machine")
+            watched.run()
+    return ExitCode.ANALYSED
 
 
 def harmless_lines(text: str) -> str:
@@ -112,3 +81,27 @@ def harmless_lines(text: str) -> str:
 def _printed(text: str) -> None:
     sys.stdout.write(text)
     sys.stdout.flush()
+
+
+VERB = Verb(
+    run=watch,
+    description=(
+        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
+        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
+    ),
+    examples=(
+        ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
+        ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
+    ),
+    arguments=(
+        argument(
+            "deck",
+            metavar="FILE",
+            help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
+        ),
+        argument("--port", type=port, metavar="N", help="the port of this machine (a free one)"),
+        NO_BROWSER,
+        DECISION,
+        ACCURACY,
+    ),
+)

@@ -15,8 +15,8 @@ from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
 from ...core.raw import ElementKind
 from ...model.data import ModelData
 from ...model.draft import NO_VECTOR, Draft
-from ...model.handles import Owner
-from ...model.places import one_line
+from ...model.draft_arrays import data_of as data_of_draft
+from ...model.names import one_line
 from .table_input import Entry, Tables, mass_of, shape_of, stiffness_of, warped
 from .values import AXES as LETTERS
 from .values import LOADS, NODES_A_POINT, PRESCRIBED, Found, Remarks
@@ -159,10 +159,10 @@ class NodeGiver(NamedTuple):
                     name = f"{stem}{end}"
                     if name in entry and self._require_use(point, name, number):
                         axes = AXES[self.draft.node_kind[number]]
-                        table: dict[int, tuple[float, ...]] = getattr(self.draft.loads, kind)
+                        table: dict[int, tuple[float, ...]] = getattr(self.draft, kind)
                         table[number] = self._in_scene(entry[name], axes)
         x, y, z = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
-        self.draft.loads.gravity = x, y, z
+        self.draft.gravity = x, y, z
 
     def _in_scene(self, load: tuple[float, ...], axes: tuple[int, ...]) -> tuple[float, ...]:
         """A load without what is out of a plane."""
@@ -196,7 +196,7 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     making.give_nodes()
     making.note_warping()
     found.require_none()
-    data = making.draft.freeze(tables.name)
+    data = data_of_draft(making.draft, tables.name)
     return making.with_remarks(data)
 
 
@@ -207,7 +207,7 @@ class _Making:
         self.tables = tables
         self.flexible = flexible
         self.found = found
-        self.draft = Draft(tables.planar, Owner())
+        self.draft = Draft(tables.planar)
         self.position = positions_of(tables, found)
         self.orientation = orientations_of(tables, found)
         self.remarks = Remarks()
@@ -322,7 +322,7 @@ class _Making:
             "opacity": entry.get("opacity"),
             "drawn": False if entry.get("hide") else None,
         }
-        self.draft.appearance.give(
+        self.draft.say_looks(
             [index], {key: value for key, value in said.items() if value is not None}
         )
         if shape is not None and kind.member in (Member.BAR, Member.BEAM):

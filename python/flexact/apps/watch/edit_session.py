@@ -1,99 +1,217 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is clicked in a watched page, and what the page shows then."""
+"""A session of clicking: what was switched in a watched mechanism, and what the page shows then."""
 
 from __future__ import annotations
 
+import json
 import pickle
 import threading
+from collections.abc import Callable, Iterator, Mapping
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...analysis.result import Result, result_of
+from ...analysis.verdict_words import margin_in_short, verdict_in_short
 from ...deck.rendering import ProblemsError
+from ...model.data import ModelData
+from ...model.reading import read_bytes
 from ...show.page.assets import text
 from ...show.page.content import kind_of
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import why
 from ...util.text import harmless
-from .live_edit import Session, answered
-from .messages import Answer, Broken, Shown, Told, told_of
+from .editable_model import Board, Edit, Edits, Place, RefusedError, state_word, states_of
+from .edited_text import Calls, EditedDeck, edited, free_name, write_deck
+from .messages import Answer, Broken, ResultSummary, Shown, summary_of
+from .offers import (
+    Json,
+    Proposals,
+    edit_in_words,
+    names,
+    panel_of_element,
+    panel_of_node,
+    place_in_words,
+    place_json,
+    proposals,
+    target_named,
+)
+from .rebase_edits import Renewal
 from .scene import Stage
 from .worker import shown_of
 
+#: How many steps can be undone.
+_HISTORY_MOST = 200
 
-class Editor:
-    """The session of a watched file: edits stay when it is saved, and are shown with it."""
 
-    def __init__(self, path: str, stage: Stage) -> None:
-        """Nothing is there to be clicked yet.
+class History:
+    """The states of the edits, and which of them holds."""
+
+    def __init__(self) -> None:
+        """Without any edit."""
+        self._states: list[Edits] = [()]
+        self._at = 0
+
+    def copy(self) -> History:
+        """The same again, to go back to."""
+        made = History()
+        made._states, made._at = self._states, self._at
+        return made
+
+    @property
+    def now(self) -> Edits:
+        """The edits that hold."""
+        return self._states[self._at]
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a state before."""
+        return self._at > 0
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is a state behind."""
+        return self._at + 1 < len(self._states)
+
+    def take(self, edits: Edits) -> None:
+        """Take a new state; what was undone is gone."""
+        if edits == self.now:
+            return
+        self._states = [*self._states[: self._at + 1], edits][-_HISTORY_MOST - 1 :]
+        self._at = len(self._states) - 1
+
+    def undo(self) -> None:
+        """Go back to the state before, if there is one."""
+        self._at = max(self._at - 1, 0)
+
+    def redo(self) -> None:
+        """Take the state that was undone, if there is one."""
+        self._at = min(self._at + 1, len(self._states) - 1)
+
+    def renewed(self, change: Callable[[Edits], Edits]) -> None:
+        """Change every state; neighbours that are the same then are one."""
+        states: list[Edits] = []
+        at = 0
+        for k, state in enumerate(map(change, self._states)):
+            if not states or state != states[-1]:
+                states.append(state)
+            if k == self._at:
+                at = len(states) - 1
+        self._states, self._at = states, at
+
+
+#: How many switches a request may have.
+_MOST_SWITCHES = 20_000
+#: Bytes of the largest request.
+MOST_BYTES = 4_000_000
+
+
+class Reply(NamedTuple):
+    """The answer to a request."""
+
+    changed: bool
+    """Whether the mechanism is to be analysed anew."""
+    content: Json
+    """What is answered, as JSON; "error" in words where it was refused."""
+    status: HTTPStatus = HTTPStatus.OK
+
+
+class Session:
+    """What was switched in a mechanism that is watched; edits stay when the file is saved."""
+
+    def __init__(self, watched: Path, stage: Stage | None = None, model: str = "model") -> None:
+        """Without a mechanism so far.
 
         Args:
-            path: The file that is watched.
-            stage: What the page shows.
+            watched: The deck or script; new decks are written to its folder.
+            stage: What the page shows; None where nothing is shown.
+            model: What the model is called in calls of Python.
         """
-        self._session = Session(Path(path))
-        self._stage = stage
+        self.watched, self.stage, self.model_name = watched, stage or Stage(watched.name), model
+        self.history = History()
+        self._board: Board | None = None
+        self._calls: Calls | None = None
+        self._now: Result | None = None
+        self._proposed: tuple[Proposals, ...] | None = None
+        self._deck: tuple[Edits, EditedDeck] | None = None
+        self._is_broken = False
+        self._said: tuple[str, ...] = ()
         self._lock = threading.Lock()
         #: The file as it is, until somebody clicks.
         self._file: Shown | None = None
         self._is_taken = True
         self._number = 0
 
+    @property
+    def board(self) -> Board:
+        """The mechanism as given.
+
+        Raises:
+            RefusedError: There is none yet, or the file has errors now.
+        """
+        if self._board is not None and not self._is_broken:
+            return self._board
+        words = "the file is still being analysed"
+        if self._is_broken:
+            words = "nothing can be changed while the file has errors: mend them first"
+        raise RefusedError(words, HTTPStatus.CONFLICT)
+
+    # The file as it is saved
+
     def renewed(self, answer: Answer) -> str:
         """Show what came of the file, with all edits; what has changed, in words."""
         with self._lock:
             self._number += 1
             if isinstance(answer, Broken):
-                self._session.broken()
-                return self._stage.put(answer)
+                self.broken()
+                return self.stage.put(answer)
             self._file, self._is_taken = answer, False
-            if not self._session.history.now:
-                return self._stage.put(answer)
+            if not self.history.now:
+                return self.stage.put(answer)
             try:
                 self._take()
                 now = self._analysed()
                 # The file may say all of it itself now.
-                if not self._session.history.now:
-                    return self._stage.put(answer)
-                shown = self._with_edits(now, told_of(now))
+                if not self.history.now:
+                    return self.stage.put(answer)
+                shown = self._with_edits(now, summary_of(now))
             except (FlexactError, MemoryError) as error:
-                self._session.put_aside(_in_short(error))
+                # The edits cannot be analysed with the file as it is now.
+                self.history = History()
+                words = f"with the file as it is now {_in_short(error)}"
+                self._said = (f"The changes were put aside: {words}.",)
+                self._now = None
                 shown = answer
-            return self._stage.put(shown)
+            return self.stage.put(shown)
 
-    def judged(self, told: Told) -> None:
+    def broken(self) -> None:
+        """Wait for the file, which has errors, to be mended; edits stay."""
+        self._is_broken = True
+
+    def judged(self, summary: ResultSummary) -> None:
         """Say the verdict of the file, unless edits give another one."""
-        if not self._session.history.now:
-            self._stage.judge(told)
+        if not self.history.now:
+            self.stage.judge(summary)
 
-    def post(self, body: bytes) -> tuple[HTTPStatus, dict[str, Any]]:
-        """Answer a request; its errors are in words.
+    def renew(self, base: Result) -> tuple[str, ...]:
+        """Take the analysis of the file as it is now; edits stay.
 
-        The verdict is in the answer, and the scene follows.
+        Returns:
+            Sentences on edits that are dropped, as their element or node is gone or the file
+            says the same now.
         """
-        with self._lock:
-            try:
-                self._take()
-            except FlexactError as error:
-                return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": str(error)}
-            before = self._session.history.copy()
-            reply = answered(self._session, body)
-            if reply.changed:
-                try:
-                    self._show(self._analysed())
-                except (FlexactError, MemoryError) as error:
-                    self._session.history = before
-                    words = f"this cannot be analysed: {_in_short(error)}"
-                    return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": words}
-            if reply.changed or "told" in reply.content:
-                now = self._session.known
-                looks = {} if now is None else {"kind": kind_of(now)[0]}
-                reply.content["told"] = {**self._session.told(), **looks}
-            return reply.status, reply.content
+        old, self._board = self._board, Board(base)
+        self._calls, self._proposed, self._deck = Calls(self._board), None, None
+        self._now, self._is_broken, self._said = None, False, ()
+        if old is not None:
+            before = self.history.now
+            renewal = Renewal(old, self._board)
+            self.history.renewed(renewal.edits)
+            self._said = tuple(_dropped(renewal, before, self.history.now))
+        return self._said
 
     def _take(self) -> None:
-        """Give the session the analysis of the file, as soon as somebody clicks.
+        """Take the analysis of the file, as soon as somebody clicks.
 
         Raises:
             FlexactError: The model holds what the script alone can make, such as its classes.
@@ -105,8 +223,27 @@ class Editor:
                 words = f"this model cannot be switched: {harmless(' '.join(str(error).split()))}"
                 raise BatchError(words) from error
             self._is_taken = True
-            self._session.model_name = self._file.model or "model"
-            self._session.renew(base)
+            self.model_name = self._file.model or "model"
+            self.renew(base)
+
+    # The mechanism with all edits
+
+    @property
+    def now(self) -> Result:
+        """The analysis of the mechanism with all edits; as given where that was not made."""
+        return self.board.base if self._now is None else self._now
+
+    def model(self) -> ModelData:
+        """The mechanism with all edits, of a deck as reading its changed text gives it."""
+        if not self.history.now:
+            return self.board.given
+        if self.board.given.source is None:
+            return self.board.model(self.history.now)
+        return read_bytes(self.deck().text, self.board.given.name)
+
+    def analysed(self, now: Result) -> None:
+        """Take the analysis of the mechanism with all edits."""
+        self._now, self._proposed = now, None
 
     def _analysed(self) -> Result:
         """The analysis with all edits.
@@ -115,44 +252,290 @@ class Editor:
             FlexactError: The mechanism cannot be analysed.
             MemoryError: It is too large.
         """
-        base = now = self._session.board.base
-        if self._session.history.now:
-            now = result_of(self._session.model(), base.asked, base.name, kind=Result)
-        self._session.analysed(now)
+        base = now = self.board.base
+        if self.history.now:
+            now = result_of(self.model(), base.asked, base.name, kind=Result)
+        self.analysed(now)
         return now
+
+    def deck(self) -> EditedDeck:
+        """The deck with all edits, and the lines that differ."""
+        edits = self.history.now
+        if self._deck is None or self._deck[0] != edits:
+            changed = self.board.model(edits)
+            self._deck = (edits, edited(self.board.given, changed))
+        return self._deck[1]
+
+    def proposals(self) -> tuple[Proposals, ...]:
+        """What the advice proposes for the mechanism as it is now."""
+        if self._proposed is None:
+            self._proposed = proposals(self.board, self.now)
+        return self._proposed
+
+    # Requests of the page
+
+    def post(self, body: bytes) -> tuple[HTTPStatus, Json]:
+        """Answer a request; its errors are in words.
+
+        The verdict is in the answer, and the scene follows.
+        """
+        with self._lock:
+            try:
+                self._take()
+            except FlexactError as error:
+                return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": str(error)}
+            before = self.history.copy()
+            reply = self.answered(body)
+            if reply.changed:
+                try:
+                    self._show(self._analysed())
+                except (FlexactError, MemoryError) as error:
+                    self.history = before
+                    words = f"this cannot be analysed: {_in_short(error)}"
+                    return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": words}
+            if reply.changed or "told" in reply.content:
+                is_there = self._board is not None and not self._is_broken
+                looks = {"kind": kind_of(self.now)[0]} if is_there else {}
+                reply.content["told"] = {**self.told(), **looks}
+            return reply.status, reply.content
 
     def _show(self, now: Result) -> None:
         """Show a result, unless another one comes meanwhile."""
         self._number += 1
         number = self._number
-        if now is self._session.board.base and self._file is not None:
-            self._stage.put(self._file)
+        if now is self.board.base and self._file is not None:
+            self.stage.put(self._file)
             return
 
         def show() -> None:
             try:
-                told = told_of(now)
+                summary = summary_of(now)
                 with self._lock:
                     if number != self._number:
                         return
-                    self._stage.judge(told)
-                shown: Answer = self._with_edits(now, told)
+                    self.stage.judge(summary)
+                shown: Answer = self._with_edits(now, summary)
             except Exception as error:
                 words = _in_short(error)
                 shown = Broken("cannot be drawn", text(words), text(words), words, ())
             with self._lock:
                 if number == self._number:
-                    self._stage.put(shown)
+                    self.stage.put(shown)
 
         threading.Thread(target=show, daemon=True).start()
 
-    def _with_edits(self, now: Result, told: Told) -> Shown:
+    def _with_edits(self, now: Result, summary: ResultSummary) -> Shown:
         """What the page shows of a result with edits."""
         assert self._file is not None
-        count = len(self._session.history.now)
+        count = len(self.history.now)
         changes = f"with {count} change{'s' * (count > 1)} that the file does not have"
         which = f"{self._file.which}, {changes}" if self._file.which else changes
-        return shown_of(now, told, which, self._file.files, is_edited=True)
+        return shown_of(now, summary, which, self._file.files, is_edited=True)
+
+    def answered(self, body: bytes) -> Reply:
+        """Do what the body of a request says; what it cannot is told in words."""
+        try:
+            if len(body) > MOST_BYTES:
+                words, status = "the request is too long", HTTPStatus.REQUEST_ENTITY_TOO_LARGE
+                raise RefusedError(words, status)
+            try:
+                request = json.loads(body)
+            except (ValueError, RecursionError):
+                raise RefusedError("the request is no JSON", HTTPStatus.BAD_REQUEST) from None
+            return self.ask(request)
+        except RefusedError as error:
+            return Reply(False, {"error": str(error)}, error.status)
+
+    def ask(self, request: object) -> Reply:
+        """Do what a request says.
+
+        Args:
+            request: A JSON object; "do" is one of "set", "undo", "redo", "reset", "look",
+                "save" and "tell".
+
+        Raises:
+            RefusedError: It is not understood, or cannot be done; then nothing has changed.
+        """
+        if not isinstance(request, Mapping):
+            raise RefusedError('a JSON object with "do" is wanted')
+        what = request.get("do")
+        steps = {
+            "undo": self.history.undo,
+            "redo": self.history.redo,
+            "reset": lambda: self.history.take(()),
+        }
+        actions: dict[str, Callable[[Mapping[str, Any]], Json]] = {
+            "set": self._set,
+            **{name: lambda _: self._stepped(steps[str(what)]) for name in steps},
+            "look": self._look,
+            "save": self._save,
+            "tell": lambda _: {"told": self.told()},
+        }
+        if not isinstance(what, str) or what not in actions:
+            known = ", ".join(actions)
+            raise RefusedError(f'"do" must be one of {known}, not {_short(what)}')
+        before = self.history.now
+        content = actions[what](request)
+        if self.history.now != before:
+            self._said = ()
+        return Reply(self.history.now != before, content)
+
+    def _stepped(self, step: Callable[[], None]) -> Json:
+        """Go a step through the history, where the file has no errors."""
+        _ = self.board
+        step()
+        return {}
+
+    def _set(self, request: Mapping[str, Any]) -> Json:
+        given = request.get("set")
+        if not isinstance(given, list) or len(given) > _MOST_SWITCHES:
+            raise RefusedError('"set" must be a list of what is switched')
+        new = [self._edit(each) for each in given]
+        self.history.take(self.board.edited(self.history.now, new))
+        return {}
+
+    def _look(self, request: Mapping[str, Any]) -> Json:
+        """What is offered of a part or a point."""
+        if "name" in request:
+            name = request["name"]
+            if not isinstance(name, str):
+                raise RefusedError('"name" must be text')
+            request = target_named(self.board, name)
+        wanted = {
+            edit
+            for each in self.proposals()
+            for item in each.items
+            for choice in item.choices
+            for edit in choice.edits
+        }
+        for key, panel in (("element", panel_of_element), ("node", panel_of_node)):
+            if key in request:
+                number = _number(request, key)
+                return {"panel": panel(self.board, self.history.now, number, wanted)}
+        raise RefusedError('"element", "node" or "name" is wanted')
+
+    def _save(self, request: Mapping[str, Any]) -> Json:
+        name, over = request.get("name"), request.get("over", False)
+        if not isinstance(name, str) or not isinstance(over, bool):
+            raise RefusedError('"name" must be text, and "over" true or false')
+        written = write_deck(self.watched, name, self.deck().text, over=over)
+        return {"saved": harmless(written.name)}
+
+    def _edit(self, given: object) -> Edit:
+        if not isinstance(given, Mapping):
+            raise RefusedError("what is switched is a JSON object")
+        place = self._place(given)
+        to = given.get("to")
+        states = states_of(place)
+        if to == "given":
+            return Edit(place, self.board.before(place))
+        if not isinstance(to, str) or to not in states:
+            raise RefusedError(f'"to" must be one of {", ".join(states)}, not {_short(to)}')
+        return Edit(place, states[to])
+
+    def _place(self, given: Mapping[str, Any]) -> Place:
+        if "element" in given:
+            return self.board.deformation(_number(given, "element"), _number(given, "deformation"))
+        name = given.get("coordinate")
+        if not isinstance(name, str):
+            raise RefusedError('"element" and "deformation", or "node" and "coordinate" are wanted')
+        return self.board.coordinate(_number(given, "node"), name)
+
+    def told(self) -> Json:
+        """All that the page shows of the session."""
+        if self._board is None or self._is_broken:
+            is_ = "broken" if self._is_broken else "none"
+            return {"is": is_, "edits": [], "undo": False, "redo": False}
+        board, edits, now = self._board, self.history.now, self.now
+        return {
+            "is": "deck" if board.given.source is not None else "model",
+            "verdict": _capital(verdict_in_short(now)),
+            "margin": f"{_capital(margin_in_short(now))}.",
+            "edits": [
+                {"words": edit_in_words(board, each), "place": place_json(each.place)}
+                for each in edits
+            ],
+            "undo": self.history.can_undo,
+            "redo": self.history.can_redo,
+            "proposals": [
+                {
+                    "head": each.head,
+                    "more": each.more,
+                    "items": [
+                        {
+                            "words": item.words,
+                            "place": place_json(item.choices[0].edits[0].place),
+                            "choices": [
+                                {"word": choice.word, "set": [_edit_json(e) for e in choice.edits]}
+                                for choice in item.choices
+                            ],
+                        }
+                        for item in each.items
+                    ],
+                }
+                for each in self.proposals()
+            ],
+            "names": names(board),
+            "said": list(self._said),
+            "save": harmless(free_name(self.watched)),
+            "folder": harmless(str(self.watched.absolute().parent)),
+            **self._how(),
+        }
+
+    def _how(self) -> Json:
+        """The lines of the deck or the calls of Python that do it, and the text to be copied."""
+        edits, made = self.history.now, {"lines": [], "calls": [], "copy": "", "note": ""}
+        if not edits:
+            return made
+        if self.board.given.source is None:
+            assert self._calls is not None
+            calls = [call.in_words(self.model_name) for call in self._calls.of(edits)]
+            return {**made, "calls": calls, "copy": "\n".join(calls)}
+        deck = self.deck()
+        note = ""
+        if deck.is_anew:
+            note = (
+                "These changes cannot be made line by line in this deck; a new deck is written "
+                "anew, without what an analysis does not use."
+            )
+        return {
+            **made,
+            "lines": [each._asdict() for each in deck.statements],
+            "copy": "\n".join(each.to_copy() for each in deck.statements),
+            "note": note,
+        }
+
+
+def _dropped(renewal: Renewal, before: Edits, after: Edits) -> Iterator[str]:
+    left = {each.place for each in after}
+    for each in before:
+        place = renewal.place(each.place)
+        words = place_in_words(renewal.old, each.place)
+        if place is None:
+            yield f"Dropped, as it is not in the file any more: {words}."
+        elif place not in left:
+            state = state_word(place, renewal.new.before(place))
+            yield f"The file says so itself now: {words} is {state}."
+
+
+def _edit_json(edit: Edit) -> Json:
+    return {**place_json(edit.place), "to": state_word(edit.place, edit.to)}
+
+
+def _number(given: Mapping[str, Any], key: str) -> int:
+    number = given.get(key)
+    if isinstance(number, bool) or not isinstance(number, int):
+        raise RefusedError(f'"{key}" must be a whole number, not {_short(number)}')
+    return number
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _short(given: object) -> str:
+    words = harmless(repr(given))
+    return words if len(words) <= 40 else f"{words[:37]}..."
 
 
 def _in_short(error: Exception) -> str:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ...advice.releases.words import outcome_as_given
 from ...analysis.change import Change
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.result import Result
 from ...core.elements import AXES, Class, coordinate_name, element_kinds
 from ...model.data import ModelData
@@ -101,7 +101,7 @@ class Board:
         self.parts = base.parts
 
     @cached_property
-    def plain(self) -> Outcome:
+    def plain(self) -> Decomposition:
         """The outcome on the elements as given, for words."""
         return outcome_as_given(self.base)
 

@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any
 
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.modes import Motion, SelfStress
-from ...analysis.naming import Pieces
-from ...analysis.result import Result
+from ...analysis.naming import plain
+from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.verdict import Certainty
 from ...analysis.verdict_words import margin_in_short, verdict_in_short
 from ...util.partial import attempted
 
-Mode = TypeVar("Mode", Motion, SelfStress)
 #: How many motions, and how many self-stresses, are compared.
 MOST_COMPARED = 12
 #: How many parts of each are compared.
@@ -24,8 +21,8 @@ _PARTS = 6
 
 
 @dataclass(frozen=True)
-class Told:
-    """What a person is told of a result.
+class ResultSummary:
+    """A result in short, as the next one is compared with it.
 
     Attributes:
         verdict: Such as "over-constrained by 1", with what it is restricted by.
@@ -44,8 +41,8 @@ class Told:
     stresses: tuple[str, ...]
 
 
-def told_of(result: Result) -> Told:
-    """What is told of a result."""
+def summary_of(result: Result) -> ResultSummary:
+    """The summary of a result."""
     coordinates, deformations = result.counts
     given = result.given.arrays
     counts = {
@@ -57,32 +54,26 @@ def told_of(result: Result) -> Told:
         "motions": result.under_constrained,
         "self-stresses": result.over_constrained,
     }
-    return Told(
+    return ResultSummary(
         verdict_in_short(result),
         counts,
         margin_in_short(result),
         result.certainty is not Certainty.CERTAIN,
-        _each(_motion, result.motions),
-        _each(_stress, result.self_stresses),
+        # The verdict is told all the same where words of modes fail.
+        attempted("", lambda: tuple(map(_motion, islice(result.motions, MOST_COMPARED))), (), None),
+        attempted(
+            "", lambda: tuple(map(_stress, islice(result.self_stresses, MOST_COMPARED))), (), None
+        ),
     )
 
 
-def _each(words: Callable[[Mode], str], modes: Iterable[Mode]) -> tuple[str, ...]:
-    """The first ones in words; none where that fails, as the verdict is told all the same."""
-    some = islice(modes, MOST_COMPARED)
-    return attempted("", lambda: tuple(map(words, some)), (), None)
-
-
 def _motion(motion: Motion) -> str:
-    return _words(motion_in_parts(motion, _PARTS)[:_PARTS])
+    return "; ".join(map(plain, motion_in_parts(motion, _PARTS)[:_PARTS]))
 
 
 def _stress(stress: SelfStress) -> str:
-    return _words((conflict_in_words(stress), *stress_in_parts(stress, _PARTS)[:_PARTS]))
-
-
-def _words(parts: Iterable[Pieces]) -> str:
-    return "; ".join("".join(map(str, pieces)) for pieces in parts)
+    parts = conflict_in_words(stress), *stress_in_parts(stress, _PARTS)[:_PARTS]
+    return "; ".join(map(plain, parts))
 
 
 @dataclass(frozen=True)
@@ -92,7 +83,7 @@ class Job:
     Attributes:
         path: The deck or the script.
         is_script: Which of them it is.
-        decision: Arguments of `flexact.analysis.spaces.asked_for`.
+        decision: Arguments of `flexact.analysis.decomposition.asked_for`.
     """
 
     path: str
@@ -100,18 +91,9 @@ class Job:
     decision: tuple[Any, ...] = ("auto", None)
 
 
-@dataclass(frozen=True)
-class Printed:
-    """What a script has printed."""
-
-    text: str
-
-
-@dataclass(frozen=True)
-class Judged:
-    """What is told of a result whose scene is still being made."""
-
-    told: Told
+#: What comes before an answer: what a script has printed, and the summary of a result whose scene
+#: is still being made.
+Before = str | ResultSummary
 
 
 @dataclass(frozen=True)
@@ -121,7 +103,7 @@ class Shown:
     Attributes:
         title: Of the page, as text.
         body: What stands within its body.
-        told: What is told of the result.
+        summary: Of the result.
         which: Which model of a script it is, in words; empty for a deck.
         problems: Warnings and notes, as the terminal has them.
         files: What it was made of, besides the file that is watched.
@@ -131,7 +113,7 @@ class Shown:
 
     title: str
     body: str
-    told: Told
+    summary: ResultSummary
     which: str
     problems: str
     files: tuple[str, ...]

@@ -10,13 +10,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ...analysis.result import Result
 from ...deck.diagnostics import Diagnostic, Source
 from ...deck.rendering import MOST_SHOWN, ProblemsError, render
 from ...show.page.assets import text
 from ...util.partial import why
 from ...util.text import file_name
-from .messages import Answer, Broken, Told, told_of
+from .messages import Answer, Broken, ResultSummary
 
 
 def errors_part(error: Exception, path: str) -> str:
@@ -51,49 +50,27 @@ _ARROW = "\N{RIGHTWARDS ARROW}"
 _IN_VERDICT = ("motions", "self-stresses")
 
 
-def changed_between(before: Result, after: Result) -> str:
+def changed_words(before: ResultSummary, after: ResultSummary) -> str:
     """What has changed from one result to another: "over-constrained by 1 → exactly constrained".
 
     Where the verdict stays, what else has changed: counts, margin, motions and self-stresses.
     """
-    return changed_words(told_of(before), told_of(after))
-
-
-def changed_words(before: Told, after: Told) -> str:
-    """The same of what was told of them."""
-    if before.verdict != after.verdict:
-        start = f"{before.verdict} {_ARROW} {after.verdict}"
-        rest = [*_counts(before, after), *_certainty(before, after)]
-    else:
-        start = f"still {after.verdict}"
-        motions, stresses = after.counts["motions"], after.counts["self-stresses"]
-        rest = [
-            *_counts(before, after),
-            *_certainty(before, after),
-            *_margin(before, after),
-            *_modes(("motion", "s"), before.motions, after.motions, motions),
-            *_modes(("self-stress", "es"), before.stresses, after.stresses, stresses),
-        ]
-        if not rest:
-            return f"{start}; nothing has changed that the analysis sees"
-    return "; ".join([start, *rest])
-
-
-def _counts(before: Told, after: Told) -> Iterator[str]:
-    for name, now in after.counts.items():
-        was = before.counts[name]
-        if was != now and name not in _IN_VERDICT:
-            yield f"{name} {was} {_ARROW} {now}"
-
-
-def _certainty(before: Told, after: Told) -> Iterator[str]:
+    rest = [
+        f"{name} {before.counts[name]} {_ARROW} {now}"
+        for name, now in after.counts.items()
+        if before.counts[name] != now and name not in _IN_VERDICT
+    ]
     if before.is_doubtful != after.is_doubtful:
-        yield "the rank is now doubtful" if after.is_doubtful else "the rank is no longer doubtful"
-
-
-def _margin(before: Told, after: Told) -> Iterator[str]:
+        rest.append(f"the rank is {'now' if after.is_doubtful else 'no longer'} doubtful")
+    if before.verdict != after.verdict:
+        return "; ".join([f"{before.verdict} {_ARROW} {after.verdict}", *rest])
     if before.margin != after.margin:
-        yield f"{before.margin} {_ARROW} {after.margin.removeprefix('margin ')}"
+        rest.append(f"{before.margin} {_ARROW} {after.margin.removeprefix('margin ')}")
+    motions, stresses = after.counts["motions"], after.counts["self-stresses"]
+    rest += _modes(("motion", "s"), before.motions, after.motions, motions)
+    rest += _modes(("self-stress", "es"), before.stresses, after.stresses, stresses)
+    rest = rest or ["nothing has changed that the analysis sees"]
+    return "; ".join([f"still {after.verdict}", *rest])
 
 
 def _modes(
@@ -166,7 +143,7 @@ class Stage:
             name: The file, as a person knows it.
         """
         self._name = name
-        self._told: Told | None = None
+        self._summary: ResultSummary | None = None
         self._changed = threading.Condition()
         self._scene = Scene(int(time.time() * 1000), name)
         self._closed = False
@@ -185,15 +162,17 @@ class Stage:
             scene = replace(
                 before,
                 title=f"{self._name}: {words}",
-                body=before.body if self._told is not None else answer.body,
+                body=before.body if self._summary is not None else answer.body,
                 broken=answer.errors,
                 saved=saved,
                 changed_words="",
             )
         else:
-            words = answer.told.verdict
-            changed = changed_words(self._told, answer.told) if self._told is not None else ""
-            self._told = answer.told
+            words = answer.summary.verdict
+            changed = (
+                changed_words(self._summary, answer.summary) if self._summary is not None else ""
+            )
+            self._summary = answer.summary
             scene = Scene(
                 0,
                 f"{self._name}: {answer.title}",
@@ -202,13 +181,12 @@ class Stage:
                 which=answer.which,
                 saved=saved,
             )
-            words = changed or words
         self._show(replace(scene, work="", revision=before.revision + 1))
         return words
 
-    def judge(self, told: Told) -> None:
+    def judge(self, summary: ResultSummary) -> None:
         """Say what the verdict will be, before its scene is there."""
-        changed = changed_words(self._told, told) if self._told is not None else told.verdict
+        changed = changed_words(self._summary, summary) if self._summary else summary.verdict
         self._show(replace(self._scene, work=f"{changed}; the scene follows"))
 
     def work(self, words: str) -> None:

@@ -8,12 +8,12 @@ import stat
 import threading
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from pathlib import Path
 
 from ...show.window import opens
 from ...util.errors import BatchError
-from .edit_session import Editor
-from .messages import Answer, Broken, Job, Judged, Printed
+from .edit_session import Session
+from .messages import Answer, Before, Broken, Job
 from .scene import Stage, errors_part
 from .server import Server
 from .worker_pool import Crew, Worker, WorkerError
@@ -107,26 +107,14 @@ _LOOK = 0.03
 SCRIPT = ".py"
 
 
-@dataclass(frozen=True)
-class Heard:
-    """What the watching tells whoever started it.
-
-    Attributes:
-        renewed: Called with what a save has changed, and the answer.
-        printed: Called with what a script prints.
-    """
-
-    renewed: Callable[[str, Answer], None]
-    printed: Callable[[str], None]
-
-
 class Watch:
     """A file that is watched, and the server of its page."""
 
     def __init__(
         self,
         path: str,
-        heard: Heard,
+        renewed: Callable[[str, Answer], None],
+        printed: Callable[[str], None],
         port: int | None = None,
         decision: tuple[object, ...] = ("auto", None),
     ) -> None:
@@ -134,20 +122,21 @@ class Watch:
 
         Args:
             path: The deck, or the script (.py).
-            heard: Who hears of what is going on.
+            renewed: Called with what a save has changed, and the answer.
+            printed: Called with what a script prints.
             port: The port; by default a free one.
-            decision: Arguments of `flexact.analysis.spaces.asked_for`.
+            decision: Arguments of `flexact.analysis.decomposition.asked_for`.
 
         Raises:
             BatchError: The port cannot be had.
         """
         self.name = os.path.basename(path)
         self.job = Job(path, path.lower().endswith(SCRIPT), decision)
-        self._heard = heard
+        self._renewed, self._printed = renewed, printed
         self.stage = Stage(self.name)
         self.server = Server(path, self.stage, port)
-        self.editor = Editor(path, self.stage)
-        self.server.posts["edit"] = self.editor.post
+        self.session = Session(Path(path), self.stage)
+        self.server.posts["edit"] = self.session.post
         self.crew = Crew(fresh=self.job.is_script)
         self._saved = Saved(path)
         self._lock = threading.Lock()
@@ -207,25 +196,25 @@ class Watch:
                     return
                 self._saved.also(answer.files)
                 try:
-                    words = self.editor.renewed(answer)
+                    words = self.session.renewed(answer)
                 except Exception as error:
                     # One that cannot be shown shall not end the watch.
                     answer = _unshown(f"unforeseen {type(error).__name__}: {error}", self.job.path)
                     words = self.stage.put(answer)
-                self._heard.renewed(words, answer)
+                self._renewed(words, answer)
             self.crew.prepare()
         except BaseException as error:
             # It is the main thread's to end with.
             self._failure = error
 
-    def _meanwhile(self, heard: Printed | Judged, number: int) -> None:
+    def _meanwhile(self, heard: Before, number: int) -> None:
         with self._lock:
             if number != self._number:
                 return
-            if isinstance(heard, Printed):
-                self._heard.printed(heard.text)
+            if isinstance(heard, str):
+                self._printed(heard)
             else:
-                self.editor.judged(heard.told)
+                self.session.judged(heard)
 
 
 def _unshown(words: str, path: str) -> Broken:

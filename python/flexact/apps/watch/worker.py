@@ -16,8 +16,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, BinaryIO
 
+from ...analysis.decomposition import asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...analysis.verdict_words import verdict_word
 from ...core import narrow
 from ...deck.rendering import ProblemsError, render_problems
@@ -26,58 +26,59 @@ from ...model.reading import read_file
 from ...show.page.content import broken_content, content_of
 from ...util.partial import why
 from . import worker_pool as frames
-from .messages import Answer, Broken, Job, Judged, Printed, Shown, Told, told_of
+from .messages import Answer, Broken, Job, ResultSummary, Shown, summary_of
 from .scene import errors_part
 from .script import Script
 
 
-def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
+def answer_of(job: Job, judged: Callable[[ResultSummary], None]) -> Answer:
     """What a job gives; what is wrong with the deck or the script is an answer too.
 
     Args:
         job: What is asked for.
-        judged: Called with the verdict, which is there before the scene.
+        judged: Called with the summary, which is there before the scene.
     """
     script = Script(job.path) if job.is_script else None
     which = model = ""
+    result: Result | None
     try:
         if script is None:
-            result: Result = result_of(read_file(job.path), asked_for(*job.decision))
+            result = result_of(read_file(job.path), asked_for(*job.decision))
         else:
             found = script.run()
             which, model = found.which, found.model
-            result = _result(found.shown, found.name, job)
-        told = told_of(result)
-        judged(Judged(told))
-        shown = shown_of(result, told, which, () if script is None else script.files())
-        return replace(shown, result=_kept(result), model=model)
+            result = found.shown if isinstance(found.shown, Result) else None
+            if result is None:
+                data: ModelData = found.shown.data
+                result = result_of(data, asked_for(*job.decision), data.name or found.name)
+        summary = summary_of(result)
+        judged(summary)
+        shown = shown_of(result, summary, which, () if script is None else script.files())
+        kept = b""
+        # A script may have put into it what cannot be kept for who switches.
+        with contextlib.suppress(Exception):
+            kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
+        return replace(shown, result=kept, model=model)
     except Exception as error:
-        return _broken(error, job.path, () if script is None else script.files())
-
-
-def _kept(result: Result) -> bytes:
-    """The result for who switches; empty where a script has put into it what cannot be kept."""
-    try:
-        return pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
-    except Exception:
-        return b""
-
-
-def _result(shown: object, name: str, job: Job) -> Result:
-    if isinstance(shown, Result):
-        return shown
-    data: ModelData = shown.data  # type: ignore[attr-defined]
-    return result_of(data, asked_for(*job.decision), data.name or name)
+        words = str(error) if isinstance(error, ProblemsError) else why(error)
+        files = () if script is None else script.files()
+        body = broken_content(error, job.path).body
+        return Broken("cannot be analysed", errors_part(error, job.path), body, words, files)
 
 
 def shown_of(
-    result: Result, told: Told, which: str, files: tuple[str, ...], *, is_edited: bool = False
+    result: Result,
+    summary: ResultSummary,
+    which: str,
+    files: tuple[str, ...],
+    *,
+    is_edited: bool = False,
 ) -> Shown:
     """A result as the page shows it.
 
     Args:
         result: The result.
-        told: What is told of it.
+        summary: Of it.
         which: Which model it is, in words.
         files: What it was made of.
         is_edited: Whether it is not that of the file.
@@ -87,13 +88,7 @@ def shown_of(
     given = result.given
     problems = given.problems
     words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, body, told, which, words, files)
-
-
-def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:
-    words = str(error) if isinstance(error, ProblemsError) else why(error)
-    body = broken_content(error, path).body
-    return Broken("cannot be analysed", errors_part(error, path), body, words, files)
+    return Shown(title, body, summary, which, words, files)
 
 
 def main() -> None:
@@ -166,5 +161,5 @@ class _Raw(io.RawIOBase):
         if os.getpid() != self._process:
             # A process that was forked has the same line, where its words would fall into others.
             return os.write(2, taken)
-        self._said.send(Printed(taken.decode("utf-8", "replace")))
+        self._said.send(taken.decode("utf-8", "replace"))
         return len(taken)

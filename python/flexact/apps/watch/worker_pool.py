@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from ...util.errors import FlexactError, reason_of
-from .messages import Answer, Job, Judged, Printed
+from .messages import Answer, Before, Job, ResultSummary
 
 _LENGTH = struct.Struct("!Q")
 #: Longer is no value of ours.
@@ -87,7 +87,7 @@ class Worker:
         self._jobs, self._line = self._process.stdin, self._process.stdout
         self.is_busy = False
 
-    def answer(self, job: Job, meanwhile: Callable[[Printed | Judged], None]) -> Answer:
+    def answer(self, job: Job, meanwhile: Callable[[Before], None]) -> Answer:
         """What comes of a job; what is heard before goes to `meanwhile`.
 
         Raises:
@@ -98,7 +98,7 @@ class Worker:
             send(self._jobs, job)
         except OSError:
             raise self._death() from None
-        while isinstance(heard := self._hear(), (Printed, Judged)):
+        while isinstance(heard := self._hear(), (str, ResultSummary)):
             meanwhile(heard)
         self.is_busy = False
         made: Answer = heard

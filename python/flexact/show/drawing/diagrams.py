@@ -14,15 +14,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...analysis.modes import SelfStress
 from ...analysis.part_stresses import QUANTITIES, shared_resultants
+from ...analysis.result import SelfStress
 from ...core.arrays import FloatArray
 from ...model.parts.chains import signs_of
 from ...model.parts.forms import Form
 from ...util.records import Frozen
+from ...util.rotations import unit
 from .drawing import Drawing
 from .members import Members
-from .rotations import unit
 
 FORCE, TWIST, IN_PLANE, OUT_OF_PLANE = QUANTITIES
 #: Those that bend, each with the row of the directions across a member to which it bends.

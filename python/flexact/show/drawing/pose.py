@@ -23,8 +23,8 @@ from ...core.elements import NodeKind
 from ...model.configuration import Configuration
 from ...model.parts.condensing import Condensed
 from ...util.records import Frozen
+from ...util.rotations import aligned, between, matrix_of, matrix_of_euler, unit
 from .members import Hinges, Members
-from .rotations import aligned, between, matrix_of, matrix_of_euler, unit
 
 
 @dataclass(frozen=True, eq=False)

@@ -40,7 +40,6 @@ Field data, in .vtu and .vtp files
 Of very many motions or self-stresses only the first are there; see `Meshes.most_modes`.
 """
 
-from .collection import mesh_writer
 from .content import Mesh, Meshes, mesh_of, to_meshio
 
-__all__ = ["Mesh", "Meshes", "mesh_of", "mesh_writer", "to_meshio"]
+__all__ = ["Mesh", "Meshes", "mesh_of", "to_meshio"]

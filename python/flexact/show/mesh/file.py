@@ -52,12 +52,18 @@ def find_format(name: str) -> str:
     """
     known = name.lower().removeprefix(".")
     if known not in FORMATS:
-        raise MeshFormatError(
-            f"mesh format {known!r} is not known: it is one of {', '.join(FORMATS)}, for export "
-            "also pvd, which plays, and vtp; meshio.write(..., analysis.to_meshio()) has others"
-        )
+        raise unknown_format(name)
     _meshio()
     return known
+
+
+def unknown_format(name: str) -> MeshFormatError:
+    """The error of a name or suffix that no format has."""
+    return MeshFormatError(
+        f"mesh format {name.lower().removeprefix('.')!r} is not known: it is one of "
+        f"{', '.join(FORMATS)}, for export also pvd, which plays, and vtp; "
+        "meshio.write(..., analysis.to_meshio()) has others"
+    )
 
 
 def _meshio() -> ModuleType:
@@ -176,7 +182,7 @@ def polydata_bytes(mesh: Mesh) -> bytes:
     return text.encode()
 
 
-def require() -> None:
+def require_polydata(_suffix: str = "") -> None:
     """Raise where .vtp files cannot be written.
 
     Raises:

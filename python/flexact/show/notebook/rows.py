@@ -12,10 +12,9 @@ import numpy as np
 
 from ...advice.describe import MOST_MODES, verdict_in_words
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.modes import Modes, Motion, SelfStress
 from ...analysis.naming import Pieces, counted, plain
 from ...analysis.places import listed
-from ...analysis.result import Result
+from ...analysis.result import Modes, Motion, Result, SelfStress
 from ...analysis.verdict_words import margin_in_short, verdict_word
 from ...core.elements import Class, NodeKind
 from ...deck.rendering import ProblemsError

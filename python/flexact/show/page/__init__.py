@@ -3,7 +3,7 @@
 
 from .compare import Pair, before_and_after, changes_part, compare_page
 from .content import Content, broken_content, broken_page, content_of, page, reason_in_words
-from .designs import Compared, Side, Told, designs_page
+from .designs import Side, designs_page
 from .index import (
     Entry,
     broken_entry,
@@ -15,12 +15,10 @@ from .index import (
 )
 
 __all__ = [
-    "Compared",
     "Content",
     "Entry",
     "Pair",
     "Side",
-    "Told",
     "before_and_after",
     "broken_content",
     "broken_entry",

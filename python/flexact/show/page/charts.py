@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ..charts import STYLES, Bar, BarChart, Chart, Curve, Mark, Row, Scale, apart, told
+from ..charts import STYLES, Bar, BarChart, Chart, Curve, Mark, Row, Scale, apart, mark_side, told
 from .assets import text
 
 #: Width of a chart and size of its letters; its height, and margins above and below.
@@ -27,16 +27,13 @@ def chart_svg(chart: Chart) -> str:
     ticks = max(map(len, chart.y.labels), default=0)
     left = 10.0 + max(3, ticks) * LETTER * LETTERS
     place = Places(chart.x, chart.y, (left, right), (_HEIGHT - _BOTTOM, _TOP))
-    title = f"{chart.title}{chart.y.heading}"
     body = (
-        words(0.0, 14.0, title, "chart-title"),
+        words(0.0, 14.0, chart.heading, "chart-title"),
         *_grid(place),
         *(part for curve in chart.curves for part in _curve(place, curve)),
         *(part for mark in chart.marks for part in _mark(place, mark)),
-        *_names(place, chart.curves),
-        words(
-            (left + right) / 2, _HEIGHT - 8.0, f"{chart.x_title}{chart.x.heading}", "soft middle"
-        ),
+        *_names(place, chart),
+        words((left + right) / 2, _HEIGHT - 8.0, chart.along, "soft middle"),
     )
     return svg(chart.name, _HEIGHT, _told(chart), body)
 
@@ -86,8 +83,10 @@ def line(start: tuple[float, float], end: tuple[float, float], kind: str) -> str
 
 def series_css() -> str:
     """Colours and dashes of the designs, on light ground and on dark."""
-    light = "".join(_look(k, each.colour) for k, each in enumerate(STYLES))
-    dark = "".join(_look(k, each.on_dark) for k, each in enumerate(STYLES))
+    light, dark = (
+        "".join(f".s{k}{{--series:{colour}}}" for k, colour in enumerate(colours))
+        for colours in ([each.colour for each in STYLES], [each.on_dark for each in STYLES])
+    )
     lines = "".join(
         f".s{k}.curve{{stroke-width:{each.width:g};"
         f"stroke-dasharray:{' '.join(f'{part * each.width:g}' for part in each.dashes) or 'none'}}}"
@@ -96,10 +95,6 @@ def series_css() -> str:
     chosen = dark.replace(".s", ':root[data-theme="dark"] .s')
     system = dark.replace(".s", ':root:not([data-theme="light"]) .s')
     return f"{light}{lines}{chosen}@media (prefers-color-scheme: dark){{{system}}}"
-
-
-def _look(series: int, colour: str) -> str:
-    return f".s{series}{{--series:{colour}}}"
 
 
 def _grid(place: Places) -> Iterator[str]:
@@ -133,17 +128,15 @@ def _mark(place: Places, mark: Mark) -> Iterator[str]:
     for x, y in points.tolist():
         yield (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_RADIUS:g}" class="s{mark.series} point"/>')
     x, y = points.mean(axis=0).tolist()
-    bottom, top = place.up
-    below = y < bottom - 0.2 * (bottom - top)
-    side = 0.0 if len(points) > 1 else 1.0 if x < sum(place.across) / 2 else -1.0
-    anchor = "middle" if not side else "start" if side > 0 else "end"
+    (left, right), (bottom, top) = place.across, place.up
+    side, below = mark_side(mark, (x - left) / (right - left), (bottom - y) / (bottom - top))
+    anchor = ("middle", "start", "end")[side]
     height = y + (29.0 if below else -9.0)
     yield words(x + 10.0 * side, height, mark.words, f"s{mark.series} named {anchor}")
 
 
-def _names(place: Places, curves: Iterable[Curve]) -> Iterator[str]:
-    ends = [(curve, curve.end) for curve in curves]
-    found = [(curve, end) for curve, end in ends if end is not None]
+def _names(place: Places, chart: Chart) -> Iterator[str]:
+    found = chart.ends
     wanted = np.array([float(place.above(np.array(end[1]))) for _, end in found])
     bottom, top = place.up
     heights = apart(wanted, LETTERS * _LINE, top - LETTERS, bottom + LETTERS)
@@ -168,52 +161,41 @@ def _told(chart: Chart) -> str:
 
 
 #: Heights: of what stands above and below, of a row, and between groups.
-_BARS_PART_TOP, _BARS_PART_BOTTOM, _ROW, _BETWEEN = 28.0, 26.0, 17.0, 9.0
+_BARS_TOP, _BARS_BOTTOM, _ROW, _BETWEEN = 28.0, 26.0, 17.0, 9.0
 #: Where a row's own label ends before the axis; room at the right; letters of a group's label.
-_BARS_PART_BESIDE, _RIGHT, _LETTERS = 18.0, 14.0, 12
+_GROUPS, _RIGHT, _LETTERS = 18.0, 14.0, 12
 
 
 def bars_svg(chart: BarChart) -> str:
     """Bars, in words for those who do not see them."""
     longest = max(min(len(group.label), _LETTERS) for group in chart.groups)
-    left = _BARS_PART_BESIDE + longest * LETTER * LETTERS + 8.0
-    height = _BARS_PART_TOP + chart.rows * _ROW + len(chart.groups) * _BETWEEN
-    body = "".join(_parts(chart, left, height))
-    title = words(0.0, 14.0, f"{chart.title}{chart.x.heading}", "chart-title")
-    note = words(left, height + _BARS_PART_BOTTOM + 12.0, chart.note, "soft") if chart.note else ""
-    whole = height + _BARS_PART_BOTTOM + (16.0 if chart.note else 0.0)
-    return svg(chart.name, whole, _told_of_bars_part(chart), (title, body, note))
-
-
-def _parts(chart: BarChart, left: float, bottom: float) -> Iterator[str]:
-    right = WIDTH - _RIGHT
-    place = _BARS_PART_TOP
+    left, right = _GROUPS + longest * LETTER * LETTERS + 8.0, WIDTH - _RIGHT
+    bottom = _BARS_TOP + chart.height(_ROW, _BETWEEN)
     grounds, marks = [], []
-    for number, group in enumerate(chart.groups):
-        high = len(group.rows) * _ROW + _BETWEEN
+    for number, (group, top, high, rows) in enumerate(chart.layout(_BARS_TOP, _ROW, _BETWEEN)):
         if number % 2:
             grounds.append(
-                f'<rect x="{left:.1f}" y="{place:.1f}" width="{right - left:.1f}" '
+                f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" '
                 f'height="{high:.1f}" class="stripe"/>'
             )
         label = group.label
         if len(label) > _LETTERS:
             label = f"{label[: _LETTERS - 1]}\N{HORIZONTAL ELLIPSIS}"
-        marks.append(words(left - _BARS_PART_BESIDE, place + high / 2 + 4.5, label, "end"))
-        top = place + _BETWEEN / 2
-        for row in group.rows:
-            marks.append(words(left - 6.0, top + _ROW / 2 + 4.5, row.label, "soft end"))
-            marks.extend(_row(chart, row, top, (left, right)))
-            top += _ROW
-        place += high
-    yield from grounds
+        marks.append(words(left - _GROUPS, top + high / 2 + 4.5, label, "end"))
+        for row, place in rows:
+            marks.append(words(left - 6.0, place + _ROW / 2 + 4.5, row.label, "soft end"))
+            marks.extend(_row(chart, row, place, (left, right)))
     ticks = left + (right - left) * chart.x.share(chart.x.ticks)
     labels = chart.x.labels_for((right - left) / (LETTER * LETTERS))
+    axis = []
     for x, label in zip(np.asarray(ticks).tolist(), labels, strict=True):
-        yield line((x, _BARS_PART_TOP), (x, bottom), "grid")
-        yield words(x, bottom + 17.0, label, "soft middle")
-    yield line((left, _BARS_PART_TOP), (left, bottom), "axis")
-    yield from marks
+        axis.append(line((x, _BARS_TOP), (x, bottom), "grid"))
+        axis.append(words(x, bottom + 17.0, label, "soft middle"))
+    axis.append(line((left, _BARS_TOP), (left, bottom), "axis"))
+    note = words(left, bottom + _BARS_BOTTOM + 12.0, chart.note, "soft") if chart.note else ""
+    whole = bottom + _BARS_BOTTOM + (16.0 if chart.note else 0.0)
+    body = (words(0.0, 14.0, chart.heading, "chart-title"), *grounds, *axis, *marks, note)
+    return svg(chart.name, whole, _bars_in_words(chart), body)
 
 
 def _row(chart: BarChart, bars: Row, top: float, across: tuple[float, float]) -> Iterator[str]:
@@ -257,7 +239,7 @@ def _bar(
         yield line((low, middle), (high, middle), "whisker")
 
 
-def _told_of_bars_part(chart: BarChart) -> str:
+def _bars_in_words(chart: BarChart) -> str:
     """The bars of the first design in words."""
     made = []
     for group in chart.groups:

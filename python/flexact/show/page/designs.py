@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from ..charts import Key
 from ..drawing import drawing_of
 from .assets import PLAIN_SCRIPTS, SCRIPTS, filled, row, section, table, text
 from .charts import series_css
@@ -18,15 +19,6 @@ from .viewer import Shaped, shapes_data
 STYLES = ("style.css", "charts.css")
 #: A divided sheet has so many nodes that arrows of them all hide it.
 _OFF = ("arrows",)
-
-
-class Told(NamedTuple):
-    """A design in the table: its number, by which it is coloured, its name, and cells."""
-
-    series: int
-    label: str
-    words: str
-    cells: tuple[str, ...]
 
 
 class Side(NamedTuple):
@@ -47,59 +39,48 @@ class Side(NamedTuple):
     still: bytes | None
 
 
-class Compared(NamedTuple):
-    """What the page says.
+def designs_page(
+    name: str,
+    headline: str,
+    about: Sequence[str],
+    key: Key,
+    charts: Sequence[Sequence[str]],
+    sides: Sequence[Side],
+    notes: Sequence[str],
+) -> str:
+    """The page as text.
 
-    Attributes:
+    Args:
         name: Of the mechanism.
         headline: The sentence that counts.
         about: How it was found, in parts.
-        heads: Of the columns of the table.
-        designs: Its rows.
+        key: The table of the designs.
         charts: Charts as SVG, in groups that begin on a new line.
         sides: One or two designs that are drawn.
         notes: Sentences below.
     """
-
-    name: str
-    headline: str
-    about: Sequence[str]
-    heads: Sequence[str]
-    designs: Sequence[Told]
-    charts: Sequence[Sequence[str]]
-    sides: Sequence[Side]
-    notes: Sequence[str]
-
-
-def designs_page(compared: Compared) -> str:
-    """The page as text."""
-    title = f"{compared.name or 'model'}: what over-constraint costs"
+    facts = " ".join(
+        f'<span class="{"name" if k == 0 and name else "fact"}">{text(each)}</span>'
+        for k, each in enumerate(about)
+    )
+    groups = (f'<div class="charts">{"".join(each)}</div>' for each in charts if each)
     body = (
-        _head(compared),
-        f'<main class="{"pair" if compared.sides else "plain"} designs">',
-        section("designs", "The designs", _table(compared)),
-        section("charts", "What each bears and keeps", _charts(compared.charts)),
-        _drawn(compared.sides),
-        section("notes", "To be known", *(f"<p>{text(each)}</p>" for each in compared.notes)),
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(headline)}</span></h1>"
+        f'<p class="about">{facts}</p>{SWITCH}</header>',
+        f'<main class="{"pair" if sides else "plain"} designs">',
+        section("designs", "The designs", _table(key)),
+        section("charts", "What each bears and keeps", "".join(groups)),
+        _drawn(sides),
+        section("notes", "To be known", *(f"<p>{text(each)}</p>" for each in notes)),
         "</main>",
     )
-    scripts = SCRIPTS if compared.sides else PLAIN_SCRIPTS
+    title = f"{name or 'model'}: what over-constraint costs"
+    scripts = SCRIPTS if sides else PLAIN_SCRIPTS
     return filled(title, "\n".join(body), scripts, STYLES, series_css())
 
 
-def _head(compared: Compared) -> str:
-    about = " ".join(
-        f'<span class="{"name" if k == 0 and compared.name else "fact"}">{text(each)}</span>'
-        for k, each in enumerate(compared.about)
-    )
-    return (
-        '<header class="verdict top"><h1 class="headline">'
-        f"<span>{text(compared.headline)}</span></h1>"
-        f'<p class="about">{about}</p>{SWITCH}</header>'
-    )
-
-
-def _table(compared: Compared) -> str:
+def _table(key: Key) -> str:
     rows = (
         row(
             f'<span class="s{each.series} swatch" aria-hidden="true"></span>'
@@ -107,16 +88,12 @@ def _table(compared: Compared) -> str:
             + (text(each.words) if each.words != each.label else ""),
             *(
                 f'<span class="head" aria-hidden="true">{text(head)}</span>{text(cell)}'
-                for head, cell in zip(compared.heads, each.cells, strict=True)
+                for head, cell in zip(key.heads, each.cells, strict=True)
             ),
         )
-        for each in compared.designs
+        for each in key.rows
     )
-    return table(("design", *compared.heads), rows, kind="designs")
-
-
-def _charts(groups: Sequence[Sequence[str]]) -> str:
-    return "".join(f'<div class="charts">{"".join(each)}</div>' for each in groups if each)
+    return table(("design", *key.heads), rows, kind="designs")
 
 
 def _drawn(sides: Sequence[Side]) -> str:

@@ -16,6 +16,7 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind, coordinate_name
 from ...model.parts.parts import Parts
+from ...util.rotations import euler_of
 from ...util.text import harmless
 from ..drawing import (
     BENDING,
@@ -32,7 +33,6 @@ from ..drawing import (
 from ..drawing import members as colours
 from ..drawing.diagrams import GAP, HEIGHT, SHOWN
 from ..drawing.members import turned_at
-from ..drawing.rotations import euler_of
 from ..drawing.view import ISO, view_of
 from .assets import MOST_MEMBERS, flags, floats, image, integers, json_for_script, text
 from .controls import KEYS, PLANAR_KEYS

@@ -5,10 +5,8 @@ matplotlib and pillow are imported only when one is drawn.
 """
 
 from ..drawing.view import ViewError, check_view
-from .animation import MOVING, VideoError
-from .files import STILLS
+from .animation import VideoError
 from .make import (
-    SUFFIXES,
     PictureError,
     check_packages,
     check_suffix,
@@ -17,13 +15,11 @@ from .make import (
     model_bytes,
     picture_bytes,
     shape_bytes,
+    still_of,
 )
 from .subject import SubjectError
 
 __all__ = [
-    "MOVING",
-    "STILLS",
-    "SUFFIXES",
     "PictureError",
     "SubjectError",
     "VideoError",
@@ -36,4 +32,5 @@ __all__ = [
     "model_bytes",
     "picture_bytes",
     "shape_bytes",
+    "still_of",
 ]

@@ -21,6 +21,7 @@ from ...util.errors import BatchError, reason_of
 from ...util.text import harmless
 from ..drawing import Drawing
 from ..drawing.view import View
+from ..writers import VIDEOS
 from .canvas import Box
 from .figure import compose
 from .files import gif_bytes, pixels
@@ -37,7 +38,6 @@ _ENCODERS: dict[str, dict[str, tuple[str, ...]]] = {
     ".mp4": {"libx264": _H264, "libopenh264": ("-b:v", "4M", "-movflags", "+faststart")},
     ".webm": {"libvpx-vp9": ("-crf", "22", "-b:v", "0", "-deadline", "good", "-cpu-used", "2")},
 }
-SUFFIXES = tuple(_ENCODERS)
 #: Colours as screens have them, told to players; nothing that differs from run to run.
 _COLOURS = ("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709")
 _SAME = ("-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "1")
@@ -178,10 +178,6 @@ _LOOKED_AT = (-1.0, -0.5, 0.0, 0.5, 1.0)
 Told = Callable[[float], None]
 
 
-#: Suffixes of pictures that move.
-MOVING = (".gif", *SUFFIXES)
-
-
 def moving_bytes(
     analysis: Result | None,
     drawing: Drawing,
@@ -215,8 +211,8 @@ def moving_bytes(
         )
         made.append(_after(made[0], figure) if made and drawing.planar else pixels(figure))
         if progress is not None:
-            progress((number + 1) / (len(phases) + (suffix in SUFFIXES)))
-    if suffix not in SUFFIXES:
+            progress((number + 1) / (len(phases) + (suffix in VIDEOS)))
+    if suffix not in VIDEOS:
         return gif_bytes(made, order, _DURATION)
     content = video_bytes(made, order, _DURATION, suffix, title)
     if progress is not None:

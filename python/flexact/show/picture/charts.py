@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...util.text import harmless
-from ..charts import Bar, BarChart, Chart, Mark, Scale, apart, style_of, told
+from ..charts import Bar, BarChart, Chart, Mark, Scale, apart, mark_side, style_of, told
 
 INK, SOFT, GRID = "#18212d", "#566273", "#dfe4ea"
 #: Sizes of letters [pt].
@@ -33,15 +33,13 @@ def draw_chart(axes: Any, chart: Chart) -> None:
     draw_axis(axes, "x", chart.x)
     draw_axis(axes, "y", chart.y)
     axes.set_title(
-        written(f"{chart.title}{chart.y.heading}"),
+        written(chart.heading),
         loc="left",
         fontsize=TITLE,
         color=INK,
         pad=7,
     )
-    axes.set_xlabel(
-        written(f"{chart.x_title}{chart.x.heading}"), fontsize=WORDS, color=SOFT, labelpad=2
-    )
+    axes.set_xlabel(written(chart.along), fontsize=WORDS, color=SOFT, labelpad=2)
     for curve in chart.curves:
         look = style_of(curve.series)
         for run in curve.runs:
@@ -97,16 +95,13 @@ def _draw_mark(axes: Any, chart: Chart, mark: Mark) -> None:
         axes.plot(*point, "o", ms=6, mfc="white", mec=colour, mew=1.8, zorder=6, clip_on=False)
     x, y = np.mean(mark.points, axis=0).tolist()
     across, up = float(chart.x.share(x)), float(chart.y.share(y))
-    is_pair = len(mark.points) > 1
-    side = 0.0 if is_pair else (1.0 if across < 0.5 else -1.0)
-    # Below a place that is high, above one that lies on the axis.
-    below = up > 0.2
+    side, below = mark_side(mark, across, up)
     axes.annotate(
         written(mark.words),
         (x, y),
         xytext=(8.0 * side, -_UNDER if below else _OVER),
         textcoords="offset points",
-        ha="center" if is_pair else ("left" if side > 0 else "right"),
+        ha=("center", "left", "right")[side],
         va="top" if below else "bottom",
         fontsize=WORDS,
         color=colour,
@@ -117,8 +112,7 @@ def _draw_mark(axes: Any, chart: Chart, mark: Mark) -> None:
 
 def _name_curves(axes: Any, chart: Chart) -> None:
     """Names at the right, as near to the ends as there is room, with a line where they are not."""
-    ends = [(curve, curve.end) for curve in chart.curves]
-    found = [(curve, end) for curve, end in ends if end is not None]
+    found = chart.ends
     height = axes.get_window_extent().height * 72.0 / axes.get_figure().dpi
     wanted = np.array([float(chart.y.share(end[1])) for _, end in found]) * height
     places = apart(wanted, WORDS * LINE, -WORDS, height + WORDS)
@@ -157,15 +151,10 @@ def width_of(figure: Any, words: str, size: float, weight: str = "normal") -> fl
     return float(width)
 
 
-#: Room between groups, in heights of a row.
-_BETWEEN = 0.5
+#: Heights of a row and of the room between groups, by which bars are measured.
+ROW, BETWEEN = 1.0, 0.5
 #: The look of what is no thick bar.
 _LINE: Any = {"lw": 1.1, "alpha": 0.6, "solid_capstyle": "butt"}
-
-
-def bars_height(chart: BarChart) -> float:
-    """How many rows high a chart is, with the room between groups."""
-    return chart.rows + _BETWEEN * len(chart.groups)
 
 
 def draw_bars(axes: Any, chart: BarChart) -> None:
@@ -173,24 +162,16 @@ def draw_bars(axes: Any, chart: BarChart) -> None:
     draw_axis(axes, "x", chart.x)
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
-    axes.set_ylim(bars_height(chart), 0.0)
-    axes.set_title(
-        written(f"{chart.title}{chart.x.heading}"), loc="left", fontsize=TITLE, color=INK, pad=7
-    )
-    place = 0.0
-    for number, group in enumerate(chart.groups):
-        height = len(group.rows) + _BETWEEN
+    axes.set_ylim(chart.height(ROW, BETWEEN), 0.0)
+    axes.set_title(written(chart.heading), loc="left", fontsize=TITLE, color=INK, pad=7)
+    for number, (group, place, height, rows) in enumerate(chart.layout(0.0, ROW, BETWEEN)):
         if number % 2:
             axes.axhspan(place, place + height, color="#f4f6f9", lw=0, zorder=0)
-        middle = place + height / 2
-        _beside(axes, middle, group.label, 18.0, INK)
-        for row in group.rows:
-            centre = place + _BETWEEN / 2 + 0.5
-            _beside(axes, centre, row.label, 5.0, SOFT)
+        _beside(axes, place + height / 2, group.label, 18.0, INK)
+        for row, top in rows:
+            _beside(axes, top + 0.5, row.label, 5.0, SOFT)
             for bar, (middle, thick) in zip(row.bars, row.slots, strict=True):
-                _draw_bar(axes, chart, bar, centre - 0.5 + middle, thick)
-            place += 1.0
-        place += _BETWEEN
+                _draw_bar(axes, chart, bar, top + middle, thick)
     if chart.note:
         axes.set_xlabel(written(chart.note), fontsize=SMALL, color=SOFT, loc="left")
 
@@ -226,11 +207,8 @@ def _draw_bar(axes: Any, chart: BarChart, bar: Bar, middle: float, thick: float)
     if bar.spread > 0.0:
         ends = [max(bar.value - bar.spread, scale.low), min(bar.value + bar.spread, scale.high)]
         axes.plot(ends, [middle, middle], color=INK, lw=1.2, zorder=5, solid_capstyle="butt")
-    if bar.series == 0:
-        _tell(axes, chart, bar, middle)
-
-
-def _tell(axes: Any, chart: BarChart, bar: Bar, middle: float) -> None:
+    if bar.series:
+        return
     axes.annotate(
         written(told(bar.value, chart.x.si, 2)),
         (bar.value, middle),
@@ -239,7 +217,7 @@ def _tell(axes: Any, chart: BarChart, bar: Bar, middle: float) -> None:
         ha="left",
         va="center",
         fontsize=SMALL - 0.5,
-        color=style_of(bar.series).colour,
+        color=look.colour,
         zorder=6,
         path_effects=halo(),
     )

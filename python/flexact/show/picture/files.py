@@ -49,8 +49,6 @@ _PDF: Any = {"pdf.fonttype": 42, "pdf.compression": 6}
 _UNDATED = {"CreationDate": None, "Creator": None, "Producer": None}
 #: A path's data, and what is left out of its numbers: less than a hundredth of a point.
 _PATH, _DIGITS = re.compile(r'<path [^>]*?\bd="[^"]*"'), re.compile(r"(\.\d\d)\d+")
-#: Suffixes of pictures that stand still.
-STILLS = (".png", ".svg", ".pdf")
 #: Colours of a GIF, and pixels of one colour from which on there might as well be more.
 _COLOURS, _ALIKE = 160, 30
 
@@ -68,6 +66,17 @@ def png_bytes(figure: Figure) -> bytes:
     """The figure as a PNG; matplotlib's own name and version are left out."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", metadata={"Software": None})
+    return buffer.getvalue()
+
+
+def fewer_colours(content: bytes, colours: int) -> bytes:
+    """A PNG in few colours, which takes a third of the room or less."""
+    from PIL import Image
+
+    with Image.open(io.BytesIO(content)) as picture:
+        few = picture.convert("RGB").quantize(colours, dither=Image.Dither.NONE)
+    buffer = io.BytesIO()
+    few.save(buffer, "PNG", optimize=True)
     return buffer.getvalue()
 
 

@@ -20,21 +20,20 @@ from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
 from ...model.data import ModelData
 from ...util.errors import BatchError, require_kind
+from ...util.partial import attempted
 from ...util.text import harmless, in_short
 from ..drawing import drawing_of, swing
 from ..drawing.view import view_of
-from .animation import MOVING, check_encoder, moving_bytes
-from .animation import SUFFIXES as VIDEOS
+from ..writers import MOVING, PICTURES, VIDEOS
+from .animation import check_encoder, moving_bytes
 from .figure import compose
-from .files import STILLS, load_matplotlib, still_bytes
+from .files import load_matplotlib, still_bytes
 from .subject import Chosen, Subject, moving_subject, subjects_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-#: Suffixes of the files that a picture can be.
-SUFFIXES = (*STILLS, *MOVING)
 #: Pixels along a picture, of which matplotlib draws no more.
 _WIDEST = 2**15
 
@@ -49,8 +48,8 @@ def check_suffix(suffix: str) -> str:
     Raises:
         PictureError: It cannot.
     """
-    if suffix.lower() not in SUFFIXES:
-        kinds = ", ".join(known.removeprefix(".") for known in SUFFIXES)
+    if suffix.lower() not in PICTURES:
+        kinds = ", ".join(known.removeprefix(".") for known in PICTURES)
         what = f"{suffix!r} is no kind of picture" if suffix else "the picture has no suffix"
         raise PictureError(f"{what}: it is one of {kinds}, as the suffix of the file says")
     return suffix.lower()
@@ -204,6 +203,22 @@ def picture_bytes(
             shown = analysis, drawing, subject, seen, kind, words[0]
             return moving_bytes(*shown, size=size, plain=plain, progress=progress)
         return still_bytes(_figure(analysis, asked, view, 1.0, size, plain), kind, *words)
+
+
+def still_of(
+    analysis: Result, what: str = "", missing: list[str] | None = None, **chosen: Any
+) -> bytes | None:
+    """A picture of a result as PNG, where the packages are there and it can be made.
+
+    Args:
+        analysis: The result.
+        what: What cannot be made otherwise, as of `attempted`.
+        missing: Gets a sentence on that.
+        chosen: As of `picture_bytes`.
+    """
+    if not has_packages():
+        return None
+    return attempted(what, lambda: picture_bytes(analysis, ".png", **chosen), None, missing)
 
 
 def _words(analysis: Result) -> tuple[str, str]:

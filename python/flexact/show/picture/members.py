@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...util.rotations import unit
 from ..drawing import Drawing, Form, Members, Pose, Strip, Support, joints_of, solid, stations
 from ..drawing.members import GHOST as GHOST_COLOUR
 from ..drawing.members import GHOST_FACE as PALE
-from ..drawing.rotations import unit
 from .canvas import GHOST, SOLID, Canvas
 from .stress import OUTLINE, OUTLINE_WIDTH, PIECES, SHADE, Grid, Stress, add_grid, lit
 

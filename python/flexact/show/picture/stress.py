@@ -9,10 +9,10 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...util.records import Frozen
+from ...util.rotations import unit
 from ..drawing import BENDING, QUANTITIES, Drawing, Resultants
 from ..drawing.diagrams import diagrams_of
 from ..drawing.members import diverging
-from ..drawing.rotations import unit
 from ..drawing.view import View
 from .canvas import OVER, SOLID, Canvas
 

@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The sparse Cholesky factorisation that is built in: CHOLMOD's (-Dsparse=cholmod), for
-!> comparison with our own, which linalg/own holds behind the same names.
+!> CHOLMOD behind the names of fortran/linalg/flexact_factor.f90, in whose place it is built.
 module flexact_factor
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
    use flexact_backward_error, only: unit, extra

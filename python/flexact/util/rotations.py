@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...core.arrays import FloatArray
+FloatArray = NDArray[np.float64]
 
 #: Below this, sines of angles are as good as nothing.
 _SMALL = 1.0e-12
@@ -46,13 +47,63 @@ def screw_matrix(rotation: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + versine * skew + third * (skew @ skew))
 
 
+def about(axis: FloatArray, angle: float) -> FloatArray:
+    """(3, 3) rotation about a unit vector (3,) by an angle [rad]."""
+    cross = np.cross(np.eye(3), axis)
+    made: FloatArray = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    return made
+
+
 def vector_of(matrix: FloatArray) -> FloatArray:
     """Rotation vectors (..., 3) [rad] of matrices (..., 3, 3), angles below pi."""
-    euler = euler_of(matrix)
-    sine = np.linalg.norm(euler[..., 1:], axis=-1, keepdims=True)
-    angle = 2 * np.arctan2(sine, euler[..., :1])
+    return vector_of_euler(euler_of(matrix))
+
+
+def vector_of_euler(euler: FloatArray) -> FloatArray:
+    """Rotation vectors (..., 3) [rad] of Euler parameters (..., 4) of unit norm, up to pi."""
+    scalar, vector = euler[..., :1], euler[..., 1:]
+    sine = np.linalg.norm(vector, axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(sine, np.abs(scalar))
     factor = np.where(sine > _SMALL, angle / np.where(sine > _SMALL, sine, 1.0), 2.0)
-    return np.asarray(factor * euler[..., 1:])
+    return np.asarray(np.where(scalar < 0.0, -1.0, 1.0) * factor * vector)
+
+
+def vector_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(k, 3) rotation vectors that turn Euler parameters (k, 4) into others."""
+    a, u = one[:, :1], one[:, 1:]
+    b, v = other[:, :1], other[:, 1:]
+    scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
+    return vector_of_euler(np.hstack([scalar, v * a - b * u - np.cross(v, u)]))
+
+
+def turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
+    """Euler parameters (k, 4) after a further rotation by vectors (k, 3)."""
+    angle = np.linalg.norm(rotation, axis=1)[:, None]
+    scalar = np.cos(angle / 2)
+    vector = rotation * np.sinc(angle / (2 * np.pi)) / 2
+    old_scalar, old_vector = euler[:, :1], euler[:, 1:]
+    # Products of vectors; numpy's own looks at their shapes for longer.
+    cross = np.empty_like(vector)
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        cross[:, k] = vector[:, i] * old_vector[:, j] - vector[:, j] * old_vector[:, i]
+    made: FloatArray = np.hstack(
+        [
+            scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
+            scalar * old_vector + old_scalar * vector + cross,
+        ]
+    )
+    return made
+
+
+def left_jacobian(vector: FloatArray) -> FloatArray:
+    """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
+    angle = np.linalg.norm(vector, axis=1)[:, None, None]
+    cross = _skew(vector)
+    small = angle < 1.0e-4
+    safe = np.where(small, 1.0, angle)
+    first = np.where(small, 0.5 - angle**2 / 24, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
+    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
 
 
 def euler_of(matrix: FloatArray) -> FloatArray:

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The sparse Cholesky factorisation of SuiteSparse (Chen, Davis, Hager,
-!> Rajamanickam, ACM Trans. Math. Softw. 35, 2008), for -Dsparse=cholmod.
+!> Rajamanickam, ACM Trans. Math. Softw. 35, 2008).
 !> Indices count from 0; matrices are lower triangles, column by column.
 module flexact_cholmod
    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr

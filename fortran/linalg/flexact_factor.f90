@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The sparse Cholesky factorisation that is built in: our own (-Dsparse=own).
+!> All that is asked of a sparse Cholesky factorisation, and which one answers: the supernodal
+!> one. tests/second_opinion puts a module of this name over CHOLMOD in its place.
 module flexact_factor
    use flexact_cholesky_error, only: error_of_factor => error_of_cholesky
    use flexact_cholesky, only: factor_t => cholesky_t, analyse, get_pivots
