@@ -15,7 +15,7 @@ from .util.loading import load as _load
 
 if _typing.TYPE_CHECKING:
     from .advice.advice import Advice
-    from .advice.steps import Step
+    from .advice.step import Step
     from .analysis.exact import ExactBases
     from .analysis.result import Motion, SelfStress
     from .analysis.verdict import (
@@ -64,7 +64,7 @@ __version__ = _VERSION
 #: The module of each public name.
 _HOMES = {
     "advice.advice": ("Advice",),
-    "advice.steps": ("Step",),
+    "advice.step": ("Step",),
     "analysis.exact": ("ExactBases",),
     "analysis.result": (
         "Motion",

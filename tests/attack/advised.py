@@ -26,8 +26,8 @@ from flexact.advice.advice import Advice, Step
 from flexact.advice.causes.cause import CauseKind, LineKind, Relation, RelationKind
 from flexact.advice.causes.gradients import generic_rank
 from flexact.advice.causes.trials import Trials
-from flexact.advice.proposal import Purpose
 from flexact.advice.releases.words import outcome_as_given, released
+from flexact.advice.step import Purpose
 from flexact.analysis.result import Result
 from flexact.core.elements import Role, role_table
 from flexact.model.parts.parts import Part, PartKind

@@ -17,11 +17,10 @@ from turned_elements import turned
 import flexact
 from flexact import Model
 from flexact.advice.causes.causes import causes_of
+from flexact.advice.causes.realignment import both_in_words
 from flexact.advice.causes.words import (
-    both_in_words,
     cause_of_motion_in_words,
     cause_of_stress_in_words,
-    mend_in_words,
 )
 from flexact.analysis.naming import plain
 
@@ -48,7 +47,7 @@ def words_of(model: Model) -> list[str]:
     stresses = range(len(causes.self_stresses))
     pieces += [cause_of_stress_in_words(result, k, causes) for k in stresses]
     pieces += [both_in_words(result, causes)]
-    pieces += [mend_in_words(result, one) for one in causes.mends]
+    pieces += [one.words() for one in causes.mends]
     return [plain(each) for each in pieces]
 
 

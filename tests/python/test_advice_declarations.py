@@ -12,9 +12,8 @@ from reference_decks import NAMES, text_of, transform
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.advice.proposal import Purpose
 from flexact.advice.releases.releases import declarations_of
-from flexact.advice.releases.words import declaration_in_words
+from flexact.advice.step import Purpose
 from flexact.analysis.change import Change
 from flexact.analysis.naming import Named, plain
 from flexact.core.elements import Class
@@ -100,7 +99,7 @@ def test_what_is_inside_of_sheets_is_declared_with_the_body() -> None:
     declarations = declarations_of(analysis)
     assert (declarations.size, declarations.count) == (19, 2)
     (one,) = declarations.sets
-    named = [each for each in declaration_in_words(analysis, one) if isinstance(each, Named)]
+    named = [each for each in one.words() if isinstance(each, Named)]
     assert [each.words for each in named] == ["the body", "the left sheet", "the right sheet"]
 
 
@@ -114,11 +113,11 @@ def test_what_may_be_held_is_what_the_motion_bends() -> None:
 
 def test_a_model_made_in_python_gets_calls_and_a_deck_statements() -> None:
     made = analyse(twelve_trusses())
-    words = plain(declaration_in_words(made, declarations_of(made).sets[0]))
+    words = plain(declarations_of(made).sets[0].words())
     assert 'model.independent((0, -1, 1), "y")' in words
     assert 'model.fix((0, -1, 1), "y")' in words
     deck = of_deck("paper/twelve_trusses")
-    words = plain(declaration_in_words(deck, declarations_of(deck).sets[0]))
+    words = plain(declarations_of(deck).sets[0].words())
     assert "DYNX 5 2" in words
     assert "FIX 5 2" in words
 
@@ -127,7 +126,7 @@ def test_a_model_made_in_python_gets_calls_and_a_deck_statements() -> None:
 def test_words_do_not_depend_on_units(name: str) -> None:
     def words_of(analysis: Analysis) -> list[str]:
         found = declarations_of(analysis)
-        told = (plain(declaration_in_words(analysis, e)) for e in (*found.sets, *found.holds))
+        told = (plain(e.words()) for e in (*found.sets, *found.holds))
         return [str(found.count), *(re.sub(r" \((DYNX|FIX)[^)]*\)", "", each) for each in told)]
 
     scaled = flexact.read_text(transform.scaled(text_of(name), 1e3))

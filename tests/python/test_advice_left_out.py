@@ -33,11 +33,11 @@ FAILING = {
     "flexact.advice.advice.undeclarations_of": "declarations to take back",
     "flexact.advice.advice.spaces_of": "freedom and constraint",
     "flexact.advice.spaces.spaces.wires_for": "wires and sheets to add",
-    "flexact.advice.words.both_in_words": "a pair",
-    "flexact.advice.words.spaces_lines": "words of freedom and constraint",
+    "flexact.advice.advice.both_in_words": "a pair",
+    "flexact.advice.advice.spaces_lines": "words of freedom and constraint",
     "flexact.advice.motions.motion_in_sentence": "a motion",
     "flexact.advice.motions.stress_in_sentence": "a self-stress",
-    "flexact.advice.releases.words._note": "a step",
+    "flexact.advice.releases.words._statements": "a step",
 }
 
 

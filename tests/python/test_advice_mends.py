@@ -12,10 +12,9 @@ from reference_decks import text_of
 
 import flexact
 from flexact import Model
-from flexact.advice.causes.cause import Mend
 from flexact.advice.causes.causes import causes_of
-from flexact.advice.causes.realignment import JointMove
-from flexact.advice.proposal import Purpose
+from flexact.advice.causes.realignment import JointMove, Mend
+from flexact.advice.step import Purpose
 from flexact.analysis.change import Change
 from flexact.analysis.screws import Screw
 

@@ -25,10 +25,9 @@ from attack.truth import residues
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.advice.proposal import Purpose
 from flexact.advice.releases import candidates as reach
 from flexact.advice.releases.releases import by_steps, releases_of
-from flexact.advice.releases.words import release_in_words
+from flexact.advice.step import Purpose
 from flexact.analysis import ways as leverage
 from flexact.analysis.naming import Named, plain
 from flexact.core.elements import Class
@@ -431,7 +430,7 @@ def test_a_number_of_self_stresses_that_declarations_alone_cause_has_no_release(
 def words_of(analysis: Analysis) -> list[str]:
     """What is said of all sets, without statements."""
     releases = releases_of(analysis)
-    told = (plain(release_in_words(analysis, each)) for each in releases.sets)
+    told = (plain(each.words()) for each in releases.sets)
     return [str(releases.count), *(re.sub(r" \(RLSE[^)]*\)", "", each) for each in told)]
 
 
@@ -455,10 +454,10 @@ def test_a_divided_sheet_is_told_as_one_of_one_beam() -> None:
 
 def test_parts_are_named_and_statements_given() -> None:
     analysis = of_deck("paper/six_folded_sheets")
-    pieces = release_in_words(analysis, releases_of(analysis).sets[0])
+    pieces = releases_of(analysis).sets[0].words()
     named = [piece.words for piece in pieces if isinstance(piece, Named)]
     assert len(named) == 6
     assert "RLSE 8 4" in plain(pieces)
     model = folded_sheet(clamped=True)
     made = analyse(model)
-    assert "model.release(" in plain(release_in_words(made, releases_of(made).sets[0]))
+    assert "model.release(" in plain(releases_of(made).sets[0].words())

@@ -12,9 +12,8 @@ from spaces_models import SHEETS, WIRES, on_sheets, on_wires
 
 import flexact
 from flexact import Model
-from flexact.advice.spaces.spaces import spaces_of
+from flexact.advice.spaces.spaces import spaces_lines, spaces_of
 from flexact.advice.spaces.subjects import Freed
-from flexact.advice.spaces.words import spaces_lines
 from flexact.analysis.naming import plain
 
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
@@ -127,7 +126,7 @@ def test_wires_that_would_only_cause_self_stress_are_not_proposed() -> None:
     found = spaces_of(trap, "upper 90, fold")
     assert found is not None
     assert found.stoppable == 2
-    assert found.proposals == ()
+    assert found.steps == ()
     text = "\n".join(plain(line.head) for line in spaces_lines(trap, found))
     assert "none stops only that and causes no self-stress" in text
 

@@ -13,12 +13,13 @@ from spaces_models import SHEETS, WIRES, on_folded_sheets, on_sheets, on_wires
 
 import flexact
 from flexact import Model
-from flexact.advice.proposal import Proposal, Purpose
-from flexact.advice.spaces.flexures import wire_along
+from flexact.advice.spaces.flexures import wire_at
 from flexact.advice.spaces.screws import FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
+from flexact.advice.spaces.subjects import Site
 from flexact.advice.spaces.wanted_motion import Wanted
-from flexact.analysis.change import Change
+from flexact.advice.step import Purpose, Step
+from flexact.analysis.change import AddedWire, Change
 from flexact.analysis.screws import ScrewKind
 from flexact.model.parts.parts import PartKind
 
@@ -37,7 +38,7 @@ def spaces(model: Model, *wanted: str, body: str | None = None, wires: bool = Tr
     return found
 
 
-def applied(model: Model, proposal: Proposal) -> flexact.Analysis:
+def applied(model: Model, proposal: Step) -> flexact.Analysis:
     """What an analysis says of the changed model, as it is and read back from its deck."""
     changed = proposal.change.apply(model.data)
     made = flexact.analyse(changed)
@@ -49,7 +50,7 @@ def applied(model: Model, proposal: Proposal) -> flexact.Analysis:
     return made
 
 
-def stopped(proposal: Proposal) -> int:
+def stopped(proposal: Step) -> int:
     """How many motions it is to stop: a wire one, a sheet three (Blanding)."""
     return len(proposal.change.wires) + 3 * len(proposal.change.sheets)
 
@@ -61,7 +62,7 @@ def at_middle(space: ScrewSpace, wanted: Wanted) -> np.ndarray:
     return space.line(wanted.point, wanted.direction, wanted.pitch)
 
 
-def force_of(model: Model, proposal: Proposal, space: ScrewSpace) -> list[np.ndarray]:
+def force_of(model: Model, proposal: Step, space: ScrewSpace) -> list[np.ndarray]:
     """The lines of the new wires, read off the changed model."""
     changed = proposal.change.apply(model.data)
     parts = flexact.analyse(changed).parts
@@ -81,8 +82,8 @@ def test_each_wire_stops_one_motion_and_causes_no_self_stress(name: str) -> None
     model = MODELS[name]
     before, found = flexact.analyse(model), spaces(model)
     assert found.unwanted == found.stoppable == found.freedom.dimension
-    assert bool(found.proposals) == bool(found.unwanted)
-    for proposal in found.proposals:
+    assert bool(found.steps) == bool(found.unwanted)
+    for proposal in found.steps:
         after = applied(model, proposal)
         assert proposal.purpose is (
             Purpose.ADD_SHEET if proposal.change.sheets else Purpose.ADD_WIRE
@@ -92,7 +93,7 @@ def test_each_wire_stops_one_motion_and_causes_no_self_stress(name: str) -> None
         assert after.over_constrained == before.over_constrained
         assert proposal.after.under_constrained == after.under_constrained
     if found.unwanted > 1:
-        assert max(len(each.change.wires) for each in found.proposals) == found.unwanted
+        assert max(len(each.change.wires) for each in found.steps) == found.unwanted
 
 
 @pytest.mark.parametrize(
@@ -120,8 +121,8 @@ def test_wires_stop_nothing_that_is_wanted(name: str, wanted: list[str]) -> None
     assert all(each.is_free for each in found.wanted)
     assert found.unwanted == found.freedom.dimension - len(wanted)
     assert found.stoppable == found.unwanted
-    assert found.proposals
-    for proposal in found.proposals:
+    assert found.steps
+    for proposal in found.steps:
         after, count = applied(model, proposal), stopped(proposal)
         assert before.under_constrained - after.under_constrained == count
         assert after.over_constrained == before.over_constrained
@@ -145,10 +146,19 @@ def test_the_textbook_guide_gets_its_fifth_wire_back() -> None:
     model.independent("stage", "z")
     found = spaces(model)
     assert found.wanted[0].is_declared
-    first = found.proposals[0]
+    first = found.steps[0]
     assert applied(model, first).under_constrained == 0
     (force,) = force_of(model, first, found.freedom)
     assert np.allclose(np.abs(force[:3]), Y, atol=1e-9)
+
+
+def wire_along(site: Site, point: np.ndarray, direction: np.ndarray) -> AddedWire:
+    """A wire that ends on a body at a point [m] and runs along a direction to the ground."""
+    near = min(site.own, key=lambda each: float(np.linalg.norm(each.place - point)))
+    length = site.result.characteristic_length
+    is_there = bool(np.linalg.norm(near.place - point) <= 1.0e-9 * length)
+    place = near.place if is_there else point
+    return wire_at(site, near._replace(place=place, is_there=is_there), direction)
 
 
 @pytest.mark.parametrize("name", [name for name in MODELS if name != "six wires"])
@@ -175,7 +185,7 @@ def test_a_wire_along_a_redundant_line_only_adds_a_self_stress(name: str) -> Non
         elif family.kind is FamilyKind.COMPLEX:
             # On the complex: lines that meet its axis at right angles.
             way = np.cross(family.direction, (0.3, 0.5, 0.7))
-        wire = wire_along(result, found.subject, point, way / np.linalg.norm(way))
+        wire = wire_along(Site(result, found.subject), point, way / np.linalg.norm(way))
         after = flexact.analyse(Change(wires=(wire,)).apply(model.data))
         assert after.under_constrained == result.under_constrained
         assert after.over_constrained == result.over_constrained + 1
@@ -185,7 +195,7 @@ def test_a_joint_gets_a_link_where_it_has_no_node() -> None:
     """A fold can turn about its fold line: nothing on it could be stopped at the line itself."""
     deck = flexact.read("input_decks/paper/folded_sheet_clamped.dat")
     found = spaces(deck)
-    for proposal in found.proposals:
+    for proposal in found.steps:
         after = applied(deck, proposal)
         assert (after.under_constrained, after.over_constrained) == (0, 1)
         assert np.linalg.norm(np.array(proposal.change.wires[0].end) - (0.06, 0, 0)) > 1e-3
@@ -193,7 +203,7 @@ def test_a_joint_gets_a_link_where_it_has_no_node() -> None:
 
 def test_comments_of_a_deck_stay() -> None:
     deck = flexact.read("input_decks/flexures/five_wires_lower_two_parallel.dat")
-    (first, *_) = spaces(deck).proposals
+    (first, *_) = spaces(deck).steps
     text = first.change.apply(deck.data).to_deck()
     assert "% wire top y" in text
     assert "% new wire" in text
@@ -202,7 +212,7 @@ def test_comments_of_a_deck_stay() -> None:
 def test_a_second_wire_has_a_name_of_its_own() -> None:
     model = on_wires(WIRES["three wires in a plane"])
     for name in ("new wire", "new wire 2"):
-        model = spaces(model, "stage: translation z").proposals[0].change.apply(model.data)
+        model = spaces(model, "stage: translation z").steps[0].change.apply(model.data)
         assert name in model.element_names
 
 
@@ -210,7 +220,7 @@ def test_planar_wires() -> None:
     deck = flexact.read("input_decks/linkages/parallelogram_flat.dat")
     found = spaces(deck)
     before = flexact.analyse(deck)
-    for proposal in found.proposals:
+    for proposal in found.steps:
         after = applied(deck, proposal)
         assert before.under_constrained - after.under_constrained == stopped(proposal)
         assert after.over_constrained == before.over_constrained
@@ -224,14 +234,14 @@ def test_a_rotation_beside_all_translations_cannot_be_stopped_by_wires() -> None
     model = Model(planar=True)
     model.body([(0, 0), (0.1, 0)], "stage")
     found = spaces(model, "stage: translation x", "stage: translation y")
-    assert (found.unwanted, found.stoppable, found.proposals) == (1, 0, ())
+    assert (found.unwanted, found.stoppable, found.steps) == (1, 0, ())
     table = on_wires(WIRES["three parallel wires"])
     found = spaces(table, "stage: translation x", "stage: translation y")
-    assert (found.unwanted, found.stoppable, found.proposals) == (1, 0, ())
+    assert (found.unwanted, found.stoppable, found.steps) == (1, 0, ())
     free = Model()
     free.body([(0, 0, 0), (0.1, 0, 0)], "stage")
     found = spaces(free, *(f"stage: translation {axis}" for axis in "xyz"))
-    assert (found.unwanted, found.stoppable, found.proposals) == (3, 0, ())
+    assert (found.unwanted, found.stoppable, found.steps) == (3, 0, ())
 
 
 def test_only_some_may_be_stoppable() -> None:
@@ -241,8 +251,8 @@ def test_only_some_may_be_stoppable() -> None:
     found = spaces(free, "stage: translation x", "stage: translation y")
     # Forces along z alone: translation z and rotations about x and y, not that about z.
     assert (found.unwanted, found.stoppable) == (4, 3)
-    assert max(len(each.change.wires) for each in found.proposals) == 3
-    for proposal in found.proposals:
+    assert max(len(each.change.wires) for each in found.steps) == 3
+    for proposal in found.steps:
         assert not proposal.change.sheets
         for wire in proposal.change.wires:
             assert np.allclose(np.subtract(wire.ground, wire.end)[:2], 0.0, atol=1e-12)
@@ -251,8 +261,8 @@ def test_only_some_may_be_stoppable() -> None:
 # Sheets ------------------------------------------------------------------------
 
 
-def sheets_of(found: Spaces) -> list[Proposal]:
-    return [each for each in found.proposals if each.change.sheets]
+def sheets_of(found: Spaces) -> list[Step]:
+    return [each for each in found.steps if each.change.sheets]
 
 
 def test_a_sheet_in_its_plane_stops_three_motions_at_once() -> None:
@@ -282,7 +292,7 @@ def test_no_sheet_where_two_motions_are_unwanted_or_no_plane_is_free() -> None:
     texts = ("rotation about (0, 0, 0) along x", "rotation about (0, 0, 0.05) along y")
     skew = spaces(free, *(f"stage: {text}" for text in texts))
     assert (skew.unwanted, skew.stoppable) == (4, 4)
-    assert skew.proposals
+    assert skew.steps
     assert not sheets_of(skew)
 
 
@@ -296,7 +306,7 @@ def test_declared_freedoms_are_wanted_where_nothing_is_said() -> None:
     (wanted,) = found.wanted
     assert wanted.is_declared
     assert np.allclose(wanted.twist, (0, 0, 0, 0, 1, 0), atol=1e-9)
-    assert (found.unwanted, found.proposals) == (0, ())
+    assert (found.unwanted, found.steps) == (0, ())
     hinge = cross_hinge()
     hinge.independent("arm", "x")
     found = spaces(hinge)
@@ -318,7 +328,7 @@ def test_a_declaration_that_is_not_wanted_is_taken_back() -> None:
     before = flexact.analyse(model)
     found = spaces(model, "stage: rotation x")
     assert found.unwanted == 1
-    for proposal in found.proposals:
+    for proposal in found.steps:
         assert len(proposal.change.coordinates) == 1
         after = applied(model, proposal)
         assert after.over_constrained == before.over_constrained
@@ -451,7 +461,7 @@ def test_in_the_plane_a_rotation_needs_no_direction() -> None:
 def test_two_choices_are_two_lines() -> None:
     for name in ("guide", "two skew wires", "one sheet", "helix"):
         found = spaces(MODELS[name])
-        single = [each for each in found.proposals if len(each.change.wires) == 1]
+        single = [each for each in found.steps if len(each.change.wires) == 1]
         for one, other in itertools.combinations(single, 2):
             (a,), (b,) = (force_of(MODELS[name], each, found.freedom) for each in (one, other))
             assert np.linalg.norm(a - b) > 1e-3
@@ -462,7 +472,7 @@ def test_decks_of_the_repository_get_wires_that_work() -> None:
     for path in sorted(Path("input_decks").glob("*/*undeclared*.dat")):
         deck = flexact.read(path)
         before, found = flexact.analyse(deck), spaces_of(flexact.analyse(deck))
-        for proposal in found.proposals if found is not None else ():
+        for proposal in found.steps if found is not None else ():
             after = applied(deck, proposal)
             assert before.under_constrained - after.under_constrained == stopped(proposal)
             assert after.over_constrained == before.over_constrained

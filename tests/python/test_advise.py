@@ -18,7 +18,7 @@ from small_decks import BROKEN, COLLINEAR, DECKS, VERDICTS, json_lines, write
 import flexact
 from flexact import Advice, Model, ModelError, analyse
 from flexact.advice.json import line_of
-from flexact.advice.proposal import Purpose
+from flexact.advice.step import Purpose
 from flexact.analysis.change import Change
 from flexact.apps.cli.main import main
 from flexact.model.editing import edited_deck
@@ -198,7 +198,10 @@ def test_advice_keeps_what_it_promises(name: str) -> None:
     The changed deck is written and read again.
     """
     made = advice(name)
-    analysis, said = made.analysis, json.loads(json.dumps(line_of(made), allow_nan=False))
+    analysis, said = (
+        made.analysis,
+        json.loads(json.dumps(line_of(made.analysis, made.to_dict()), allow_nan=False)),
+    )
     assert_valid_as(ADVISED, said)
     given = said["advice"]
     assert len(given["motions"]) == said["under_constrained"] == analysis.under_constrained

@@ -8,7 +8,7 @@ import pytest
 from reference_decks import text_of
 
 import flexact
-from flexact.advice.holding import Hold, holds_of
+from flexact.advice.constraint_quality import Hold, holds_of
 from flexact.advice.spaces.screws import FamilyKind
 from flexact.show.drawing import drawing_of
 from flexact.show.drawing.spaces import shape_of_hold

@@ -20,8 +20,8 @@ from reference_decks import NAMES, ROOT, text_of
 
 import flexact
 from flexact import FlexactError, Model
+from flexact.advice.advice import describe as advised
 from flexact.advice.describe import describe
-from flexact.advice.words import describe as advised
 from flexact.analysis.mode_words import group_in_words
 from flexact.analysis.naming import part_in_words, plain
 from flexact.analysis.places import part_words

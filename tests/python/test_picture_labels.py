@@ -15,7 +15,7 @@ pytest.importorskip("PIL")
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from flexact.advice.holding import holds_of
+from flexact.advice.constraint_quality import holds_of
 from flexact.show.picture import draw
 
 GALLERY = sorted((Path(__file__).resolve().parents[2] / "docs" / "gallery").glob("*.py"))

@@ -1,35 +1,51 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The advice on a mechanism: all that is found, each piece when it is asked for."""
+"""The advice on a mechanism, in values and in plain English.
+
+The verdict, what is wrong and why, then steps that mend it; each piece is found when it is asked
+for.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from html import escape
+from itertools import groupby, islice
 from typing import Any, TypeVar, overload
 
 import numpy as np
 
 from ..analysis.change import Change
+from ..analysis.mode_words import internal_in_words
+from ..analysis.naming import Line, Pieces, counted, counts_in_words, filled, plain
+from ..analysis.naming import sentence as line_of
+from ..analysis.places import listed
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..core.progress import Progress
-from ..motion.extent import EvidenceKind, Extent, Extents, Kind, Reason
+from ..motion.extent import EvidenceKind, Extent, Extents, Kind, Reason, finite_in_words
 from ..motion.finiteness import extents_of
 from ..util.errors import FlexactError
 from ..util.partial import attempted
 from ..util.records import Frozen, cached_property
+from ..util.text import USUAL, harmless
+from . import json
 from .causes.cause import Cause, CauseKind, Causes
 from .causes.causes import causes_of
-from .describe import MOST_MODES
-from .json import dictionary_of
+from .causes.realignment import both_in_words
+from .describe import MOST_MODES, verdict_in_words
 from .motions import AdvisedMotion, AdvisedStress
-from .proposal import Proposal, Purpose, tried
-from .releases.releases import Declarations, Releases, declarations_of, releases_of
-from .spaces.spaces import Spaces, spaces_of
-from .steps import Step, together
-from .undeclaring import undeclarations_of
-from .words import describe, html_of
+from .releases.releases import (
+    Declarations,
+    Releases,
+    declarations_of,
+    releases_of,
+    undeclarations_of,
+)
+from .spaces.spaces import Spaces, spaces_lines, spaces_of
+from .step import After, Purpose, Step, together, tried
+from .words import in_a_row, sentence
 
 #: What has a statement.
 _Made = TypeVar("_Made")
@@ -37,11 +53,16 @@ _Given = TypeVar("_Given")
 _Told = TypeVar("_Told", AdvisedMotion, AdvisedStress, Step)
 #: Of self-stresses of more resultants in all those that stand on a screen are told.
 _MOST_ENTRIES = 20_000
-#: Kinds of steps in the order in which they are shown.
-_ORDER = (
-    *(Purpose.MEND, Purpose.UNDECLARE, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
-    *(Purpose.ADD_WIRE, Purpose.ADD_SHEET),
-)
+#: What steps are for.
+_AIMS = {
+    Purpose.MEND: "To let what is stopped twice stop what is free",
+    Purpose.UNDECLARE: "To drive nothing against a constraint",
+    Purpose.RELEASE: "To stop nothing twice",
+    Purpose.DECLARE: "To leave nothing free that is not declared",
+    Purpose.HOLD: "To leave nothing free that is not declared",
+    Purpose.ADD_WIRE: "To stop with wires what is free and not wanted",
+    Purpose.ADD_SHEET: "To stop with a sheet what is free and not wanted",
+}
 #: What takes time, in the order in which it is found, and what is said meanwhile.
 _PIECES = {
     "causes": "finding causes",
@@ -78,14 +99,6 @@ class Advice(Frozen, Sequence[Step]):
         """One piece of the advice, or what stands in its place where it cannot be made."""
         return attempted(what, make, instead, self.failed, "{what}, which failed ({why})")
 
-    def _each(
-        self, what: str, items: Iterable[_Given], make: Callable[[_Given], _Made]
-    ) -> Iterator[_Made]:
-        """What `make` gives of each item, without those of which it fails."""
-        for item in items:
-            nothing: tuple[_Made, ...] = ()
-            yield from self.made(what, partial(_alone, make, item), nothing)
-
     @cached_property
     def causes(self) -> Causes:
         """Why motions and self-stresses are there: any geometry has them, or this one."""
@@ -119,14 +132,15 @@ class Advice(Frozen, Sequence[Step]):
         Raises:
             ModelError: no body has the name that was asked for, or a text is not understood.
         """
-        asked = self.analysis, self.body, self.wanted
+
+        def find(wires: bool) -> tuple[Spaces | None]:
+            return (spaces_of(self.analysis, self.body, self.wanted, wires=wires),)
+
         if self.body is not None or self.wanted:
             # What was asked for wrongly is told, not left out.
-            spaces_of(*asked, wires=False)
-        made: tuple[Spaces | None, ...] = ()
-        made = self.made("wires and sheets to add", partial(_alone, spaces_of, *asked), made)
-        without = partial(_alone, spaces_of, *asked, wires=False)
-        made = made or self.made("freedom and constraint", without, made)
+            find(wires=False)
+        made = self.made("wires and sheets to add", lambda: find(wires=True), None)
+        made = made or self.made("freedom and constraint", lambda: find(wires=False), None)
         return made[0] if made else None
 
     @cached_property
@@ -152,31 +166,44 @@ class Advice(Frozen, Sequence[Step]):
 
     def _told(self, what: str, every: Iterable[_Told]) -> Iterator[_Told]:
         """Those of which the words can be said."""
-        return self._each(what, every, lambda one: (one, one.statement)[0])
+        for one in every:
+            if self.made(what, partial(getattr, one, "statement"), None) is not None:
+                yield one
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """Ways to mend the mechanism, numbered as they are shown; each was tried."""
-        every = (one for one in self._proposals() if one.change != Change())
-        ordered = sorted(every, key=lambda one: _ORDER.index(one.purpose))
-        told = list(self._told("a step", (Step(self.analysis, 0, one) for one in ordered)))
-        return tuple(replace(step, number=k) for k, step in enumerate(told, start=1))
+        return tuple(self.numbered())
 
-    def _proposals(self) -> Iterator[Proposal]:
-        yield from self._each("a step", self.causes.mends, self._as_it_stands)
+    def numbered(self, progress: Progress | None = None) -> Iterator[Step]:
+        """The steps one by one; what those behind them take is not looked for before."""
+        every = (one for one in self._found_steps(progress) if one.change != Change())
+        for number, step in enumerate(self._told("a step", every), start=1):
+            yield replace(step, number=number)
+
+    def _found_steps(self, progress: Progress | None) -> Iterator[Step]:
+        """Steps of all kinds, in the order in which they are shown."""
+        self._find("causes", progress)
+        yield from self._as_it_stands(self.causes.mends)
         yield from self.made(
             "declarations to take back", lambda: undeclarations_of(self.analysis), ()
         )
+        self._find("releases", progress)
         yield from (*self.releases.sets, *self.releases.supports)
+        self._find("declarations", progress)
         yield from (*self.declarations.sets, *self.declarations.holds)
-        if self.spaces is not None:
-            yield from self._each("a step", self.spaces.proposals, self._as_it_stands)
+        self._find("spaces", progress)
+        yield from self._as_it_stands(() if self.spaces is None else self.spaces.steps)
 
-    def _as_it_stands(self, one: Proposal) -> Proposal:
-        """A proposal that was tried with divided sheets as one beam each, tried without."""
-        if self.analysis.with_internal_declared is None:
-            return one
-        return replace(one, after=tried(self.analysis, one.change))
+    def _as_it_stands(self, steps: Iterable[Step]) -> Iterator[Step]:
+        """Steps that were tried with divided sheets as one beam each, tried without."""
+        result = self.analysis
+        for step in steps:
+            after: After | None = step.after
+            if result.with_internal_declared is not None:
+                after = self.made("a step", partial(tried, result, step.change), None)
+            if after is not None:
+                yield replace(step, analysis=result, after=after)
 
     @cached_property
     def exact_by(self) -> tuple[int, ...]:
@@ -198,13 +225,47 @@ class Advice(Frozen, Sequence[Step]):
             return ()
         return tuple(able) if is_exact else ()
 
+    @property
+    def left_out(self) -> Iterator[str]:
+        """What was not looked at, each in words that stand behind "Left out: "."""
+        result, causes = self.analysis, self.causes
+        for many, count, given in (
+            ("motions", result.under_constrained, len(self.motions)),
+            ("self-stresses", result.over_constrained, len(self.self_stresses)),
+        ):
+            if given < count:
+                yield f"of {count} {many} all but {given}"
+        for sets, what, many in (
+            (self.releases, "releases", "self-stresses"),
+            (self.declarations, "declarations", "motions"),
+        ):
+            if not sets.size:
+                continue
+            if sets.left_out.is_too_large:
+                yield f"sets of {what}, for so many {many}"
+            elif sets.count is None:
+                yield f"how many sets of {what} there are: too many to be counted"
+            elif sets.doubtful != 0:
+                more = sets.doubtful and counted(sets.doubtful, "set", "", "s")
+                more = more or "some sets"
+                yield f"from the count {more} of {what} more, which rounding leaves in doubt"
+        if any(one.kind is CauseKind.UNKNOWN for one in (*causes.motions, *causes.self_stresses)):
+            yield "whether another geometry would have them, too"
+        yield from self.failed
+        if count := sum(one.reason is Reason.TOO_LARGE for one in self.extents.motions):
+            yield f"how far {counted(count, 'motion', ' goes', 's go')}: too large to be followed"
+
     def found(self, progress: Progress | None = None) -> Advice:
         """The advice itself, when all of it is found; `progress` is told how far that is."""
-        for k, (name, words) in enumerate(_PIECES.items()):
-            if progress is not None:
-                progress(words, k / len(_PIECES))
-            getattr(self, name)
+        for name in _PIECES:
+            self._find(name, progress)
         return self
+
+    def _find(self, name: str, progress: Progress | None) -> None:
+        """Find a piece, and say meanwhile which it is."""
+        if progress is not None:
+            progress(_PIECES[name], list(_PIECES).index(name) / len(_PIECES))
+        getattr(self, name)
 
     def __len__(self) -> int:
         """How many steps there are."""
@@ -219,8 +280,18 @@ class Advice(Frozen, Sequence[Step]):
         return self.steps[index]
 
     def to_dict(self) -> dict[str, Any]:
-        """The advice as the JSON of `flexact advise` has it."""
-        return dictionary_of(self)
+        """The advice as the JSON of `flexact advise` has it: `docs/advice.schema.json`."""
+        told = {(step.purpose, step.change) for step in self.steps}
+        result, spaces = self.analysis, self.spaces
+        return {
+            "releases": json.of_sets(self.releases, told),
+            "declarations": json.of_sets(self.declarations, told),
+            "motions": list(map(json.of_motion, self.motions)),
+            "self_stresses": list(map(json.of_self_stress, self.self_stresses)),
+            "spaces": None if spaces is None else json.of_spaces(result, spaces, self.wanted),
+            "steps": list(map(json.of_step, self.steps)),
+            "left_out": list(self.left_out),
+        }
 
     def describe(self) -> str:
         """The advice in plain English: what is wrong and why, then steps that mend it."""
@@ -232,11 +303,11 @@ class Advice(Frozen, Sequence[Step]):
         return f"<Advice: {self.analysis.verdict.value}, {count} step{'s' * (count != 1)}>"
 
     def _repr_html_(self) -> str:
-        return html_of(self)
-
-
-def _alone(make: Callable[..., _Made], *given: object, **more: object) -> tuple[_Made, ...]:
-    return (make(*given, **more),)
+        head = escape(str(verdict_in_words(self.analysis)))
+        return (
+            f"<div style='border-left:4px solid {self.analysis.colour};padding-left:8px'>"
+            f"<b>{head}</b><pre>{escape(describe(self))}</pre></div>"
+        )
 
 
 def advice_of(
@@ -259,3 +330,152 @@ def advice_of(
         # What was asked for wrongly is told at once.
         _ = made.spaces
     return made
+
+
+# In words ---------------------------------------------------------------------------
+
+#: How many steps of one aim and outcome stand on a screen.
+MOST_STEPS = 6
+#: Causes of fewer letters are told again.
+_SHORT = 100
+#: A line of advice, and whether further rows of it are indented.
+Told = tuple[Line, bool]
+#: Lines that stand together.
+Section = tuple[Told, ...]
+
+
+def describe(advice: Advice, most: int | None = MOST_STEPS, width: int = USUAL) -> str:
+    """The advice for people, in rows of a width.
+
+    Args:
+        advice: The advice.
+        most: How many steps of one aim and outcome are given; None: all.
+        width: Of the rows, in columns of a terminal.
+    """
+    result = advice.analysis
+    head = filled(line_of(str(verdict_in_words(result))), width=width)
+    blocks = (
+        "\n".join(filled(line, hanging=hangs, width=width) for line, hangs in section)
+        for section in sections_of(advice, most)
+    )
+    return "\n\n".join((f"{harmless(result.name)}\n{head}" if result.name else head, *blocks))
+
+
+def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section, ...]:
+    """The advice without the verdict: what is wrong, what mends it, and what a body can do."""
+    known: dict[str, str] = {}
+    spaces = advice.made(
+        "words of freedom and constraint",
+        lambda: tuple(
+            (line, False) for line in spaces_lines(advice.analysis, advice.spaces, added=False)
+        ),
+        (),
+    )
+    made = (
+        tuple(_motions(advice, known)),
+        tuple(_stresses(advice, known)),
+        advice.made("a pair", lambda: _both(advice), ()),
+        *_steps(advice, most),
+        tuple(_left_out(advice)),
+        spaces,
+    )
+    return tuple(section for section in made if section)
+
+
+def _said(words: str, hangs: bool = False) -> Told:
+    return line_of(words), hangs
+
+
+def _motions(advice: Advice, known: dict[str, str]) -> Iterator[Told]:
+    if not advice.analysis.under_constrained:
+        return
+    yield _said("What nothing stops")
+    whole = advice.analysis.with_internal_declared
+    told = [each for each in advice.motions if whole is None or not each.motion.is_internal]
+    told_at = {each.motion.index + 1: each.sentences for each in told}
+    yield from _modes(told_at, "motion", known)
+    yield from _more(len(told) - MOST_MODES, "motion", "s")
+    if not advice.motions:
+        yield _said("  None of them is given one by one; the method svd gives all.")
+    if whole is not None and (internal := internal_in_words(advice.analysis)):
+        counts = counts_in_words(whole.under_constrained, whole.over_constrained)
+        as_one = f"With each of them as one beam (flexact declare) the mechanism is {counts}."
+        yield _said(f"  {internal} {as_one}", hangs=True)
+    for line in finite_in_words(advice.extents) if len(told) > 1 else ():
+        yield line._replace(head=("  ", *line.head)), True
+
+
+def _stresses(advice: Advice, known: dict[str, str]) -> Iterator[Told]:
+    if not advice.self_stresses:
+        return
+    yield _said("What is stopped twice")
+    told_at = {each.stress.index + 1: each.sentences for each in advice.self_stresses}
+    yield from _modes(told_at, "self-stress", known)
+    yield from _more(advice.analysis.over_constrained - MOST_MODES, "self-stress", "es")
+
+
+def _modes(
+    told_at: Mapping[int, Sequence[Pieces]], what: str, known: dict[str, str]
+) -> Iterator[Told]:
+    """Modes by their numbers; what is said of all of them stands behind them, once.
+
+    Args:
+        told_at: Sentences by the numbers of the modes.
+        what: What a mode is.
+        known: Of which mode words were said, so that nothing long is said in the same words again.
+    """
+    of_all: list[Pieces] = []
+    if len(told_at) > 1:
+        first, *others = told_at.values()
+        of_all = [each for each in first[1:] if each and all(each in other for other in others)]
+    for number, (head, *rest) in islice(told_at.items(), MOST_MODES):
+        whose, pieces = f"{what} {number}", list(head)
+        for each in rest:
+            if not each or each in of_all:
+                continue
+            words = plain(each)
+            first_said = known.setdefault(words, whose)
+            is_again = first_said != whose and len(words) >= _SHORT
+            pieces += [" ", *((f"The cause is that of {first_said}.",) if is_again else each)]
+        yield _item(number, tuple(pieces))
+    if of_all:
+        words = in_a_row(of_all)
+        yield _said(f"  Each of them: {words[0].lower()}{words[1:]}", hangs=True)
+
+
+def _both(advice: Advice) -> Section:
+    """Which constraint is spent twice while which motion is free."""
+    both = both_in_words(advice.analysis, advice.causes)
+    return ((Line(sentence(both)), False),) if both else ()
+
+
+def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
+    if not advice.steps and advice.analysis.verdict is Verdict.EXACT:
+        is_had = advice.spaces is None or all(each.is_free for each in advice.spaces.wanted)
+        but = "" if is_had else ", but what is wanted is stopped"
+        yield (_said(f"There is nothing to mend{but}."),)
+    kinds = groupby(advice.steps, lambda one: (_AIMS[one.purpose], one.outcome))
+    for (aim, outcome), steps in kinds:
+        told = tuple(steps)
+        yield (
+            _said(f"{aim}; then it is {outcome}", hangs=True),
+            *(_item(step.number, step.pieces) for step in told[:most]),
+            *_more(len(told) - len(told[:most]), "such way", "s"),
+        )
+    if numbers := tuple(map(str, advice.exact_by)):
+        how = f"--apply {','.join(numbers)}"
+        yield (_said(f"Steps {listed(numbers)} together make it exactly constrained ({how})."),)
+
+
+def _left_out(advice: Advice) -> Iterator[Told]:
+    if missing := tuple((each,) for each in advice.left_out):
+        yield Line(("Left out: ",), missing), False
+
+
+def _item(number: int, pieces: Pieces) -> Told:
+    return Line((f"  {number}. ", *pieces)), True
+
+
+def _more(count: int, what: str, ending: str) -> Iterator[Told]:
+    if count > 0:
+        yield _said(f"  ... and {counted(count, f'more {what}', '', ending)}")

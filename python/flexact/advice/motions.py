@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -22,7 +20,7 @@ from ..analysis.mode_words import (
 from ..analysis.naming import Named, Piece, Pieces, in_words, named_node
 from ..analysis.places import joint_node, with_article
 from ..analysis.result import Motion, Result, SelfStress
-from ..analysis.screws import Screw, ScrewKind
+from ..analysis.screws import Screw
 from ..motion.extent import Extent, extent_in_words
 from ..util.records import Frozen, cached_property
 from .causes.cause import Cause, Causes
@@ -40,7 +38,9 @@ def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
     conflict = conflict_in_words(stress)
     if conflict:
         names = pressing_in_words(stress)
-        return ended((*begun(conflict), *((f": {_row(names)}",) if names else ())))
+        rest = (f"{len(names) - _MOST_NAMES} more",) if len(names) > _MOST_NAMES else ()
+        row = "; ".join((*names[:_MOST_NAMES], *rest))
+        return ended((*begun(conflict), *((f": {row}",) if names else ())))
     if not result.is_told_by_parts:
         told = stress_in_parts(stress, _MOST_TOLD)[:_MOST_TOLD]
         return ended(("Most stressed are ", *joined(told)))
@@ -49,11 +49,6 @@ def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
         return sentence(("stressed in itself is ", *parts[0]))
     many = in_words(len(parts)).capitalize()
     return ended((f"{many} parts are stressed against each other: ", *joined(parts)))
-
-
-def _row(names: tuple[str, ...]) -> str:
-    rest = len(names) - _MOST_NAMES
-    return "; ".join(names[:_MOST_NAMES]) + (f"; {rest} more" if rest > 0 else "")
 
 
 #: How many things that move are named.
@@ -77,15 +72,6 @@ def motion_in_sentence(result: Result, motion: Motion) -> Pieces:
     return (*pieces, ", and nothing else moves") if is_inside else pieces
 
 
-def nothing_stops(result: Result, motion: Motion) -> str:
-    """That nothing stops it, or them, to stand behind what moves."""
-    if not result.is_told_by_parts or motion.is_internal:
-        return ": nothing stops it"
-    told = moving_groups(result, motion)
-    is_one = len(told) == 1 and len(told[0].names) == 1
-    return f": nothing stops {'it' if is_one else 'them'}"
-
-
 def moving_groups(result: Result, motion: Motion) -> tuple[BodyMotion, ...]:
     """What a designer looks at in a motion, the largest first.
 
@@ -95,12 +81,11 @@ def moving_groups(result: Result, motion: Motion) -> tuple[BodyMotion, ...]:
     bodies = tuple(group for group in groups if group.bodies)
     if bodies:
         return bodies
-    joints = (_without_folds(group) for group in groups)
+    joints = (
+        group._replace(joints=tuple(joint for joint in group.joints if not joint.is_fold))
+        for group in groups
+    )
     return tuple(group for group in joints if group.joints) or tuple(groups)
-
-
-def _without_folds(group: BodyMotion) -> BodyMotion:
-    return group._replace(joints=tuple(joint for joint in group.joints if not joint.is_fold))
 
 
 def _called(piece: Piece) -> Piece:
@@ -154,7 +139,18 @@ class AdvisedMotion(Frozen):
     @cached_property
     def bodies(self) -> tuple[MovingBody, ...]:
         """The bodies that move; where there are none, ends and joints; none of an internal one."""
-        return () if self.internal else tuple(_bodies(self._result, self.motion))
+        result = self._result
+        if self.internal or not result.is_told_by_parts:
+            return ()
+        numbers = result.given.arrays.node_number
+        made = []
+        for group in moving_groups(result, self.motion):
+            names = [part.name for part in group.bodies] or [
+                named_node(result, int(numbers[joint_node(result.parts, joint)])).words
+                for joint in group.joints
+            ]
+            made += [MovingBody(name, group.screw) for name in names]
+        return tuple(made)
 
     @cached_property
     def sentences(self) -> tuple[Pieces, Pieces, Pieces]:
@@ -169,8 +165,12 @@ class AdvisedMotion(Frozen):
     @property
     def statement(self) -> str:
         """All of it, and that nothing stops it, as text."""
-        moves = motion_in_sentence(self._result, self.motion)
-        stopped = nothing_stops(self._result, self.motion)
+        result, motion, is_one = self._result, self.motion, True
+        if result.is_told_by_parts and not motion.is_internal:
+            told = moving_groups(result, motion)
+            is_one = len(told) == 1 and len(told[0].names) == 1
+        stopped = f": nothing stops {'it' if is_one else 'them'}"
+        moves = motion_in_sentence(result, motion)
         return in_a_row((sentence((*moves, stopped)), *self.sentences[1:]))
 
     def __repr__(self) -> str:
@@ -218,28 +218,3 @@ class AdvisedStress(Frozen):
     def __repr__(self) -> str:
         """Number and words."""
         return f"<SelfStress {self.stress.index + 1}: {self.statement}>"
-
-
-def _bodies(result: Result, motion: Motion) -> Iterator[MovingBody]:
-    if not result.is_told_by_parts:
-        return
-    numbers = result.given.arrays.node_number
-    for group in moving_groups(result, motion):
-        for part in group.bodies:
-            yield MovingBody(part.name, group.screw)
-        for joint in () if group.bodies else group.joints:
-            node = int(numbers[joint_node(result.parts, joint)])
-            yield MovingBody(named_node(result, node).words, group.screw)
-
-
-def dictionary_of_body(body: MovingBody) -> dict[str, object]:
-    """A moving body as the JSON has it; of a translation there is neither point nor pitch."""
-    screw = body.screw
-    turns = screw.kind is not ScrewKind.TRANSLATION
-    return {
-        "name": body.name,
-        "kind": screw.kind.value,
-        "axis": screw.direction.tolist(),
-        "point": screw.point.tolist() if turns else None,
-        "pitch": screw.pitch if turns and math.isfinite(screw.pitch) else None,
-    }

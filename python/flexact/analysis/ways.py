@@ -97,30 +97,58 @@ def deformations(result: Result) -> Deformations:
 
     To hold one, or to make it independent, removes a motion.
     """
-    arrays = result.data.arrays
-    released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
-    if not released.any():
+    if not np.any(result.data.arrays.deformation_class == Class.DEPENDENT):
         return []
-    whole = result.assembly
-    node, axis = result.raw.column_label - 1
-    column = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
-    chosen = released[whole.row_of] & (column >= 0)
-    matrix = Sparse(whole.row_of, column, whole.value, released.size).only(chosen)
+    matrix, length = released_rates(result)
     value = matrix.value / column_weights(result)[matrix.column_of]
-    rates = norms_of_product(matrix._replace(value=value), result.motion_space)
-    angle = dual_table()[arrays.element_kind] == Dual.MOMENT
-    leverage = np.where(angle, result.characteristic_length, 1.0).ravel() * rates
+    leverage = length * norms_of_product(matrix._replace(value=value), result.motion_space)
     order = _largest(leverage, lambda row: deformation_key(result, *divmod(row, 6)))
     return [(row // 6, row % 6 + 1) for row in order]
+
+
+def entry_rows(result: Decomposition) -> NDArray[np.integer]:
+    """(entries,) the row of D(c) of each entry of the assembly; -1 of what is none."""
+    element, deformation = result.raw.row_label - 1
+    size = 6 * result.data.arrays.element_number.size
+    return np.asarray(index_of(6 * element + deformation, size)[result.assembly.row_of])
+
+
+def entry_columns(result: Decomposition) -> NDArray[np.integer]:
+    """(entries,) the column of D(c) of each entry of the assembly, likewise."""
+    node, axis = result.raw.column_label - 1
+    size = 3 * result.data.arrays.node_number.size
+    return np.asarray(index_of(3 * node + axis, size)[result.assembly.column_of])
+
+
+def released_rates(result: Result) -> tuple[Sparse, FloatArray]:
+    """Rates of the released deformations by the columns of D(c), and lengths of their angles.
+
+    The lengths, (6 elements,), make angles comparable: 1 of what is no angle.
+    """
+    arrays, whole = result.data.arrays, result.assembly
+    released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
+    column = entry_columns(result)
+    matrix = Sparse(whole.row_of, column, whole.value, released.size)
+    angle = (dual_table()[arrays.element_kind] == Dual.MOMENT).ravel()
+    length = np.where(angle, result.characteristic_length, 1.0)
+    return matrix.only(released[whole.row_of] & (column >= 0)), length
+
+
+def reaction_entries(result: Result, able: NDArray[np.bool_]) -> Sparse:
+    """Reactions at some coordinates, (3 nodes,), by the rows of D(c), moments as forces."""
+    arrays, whole, row = result.data.arrays, result.assembly, entry_rows(result)
+    matrix = Sparse(whole.column_of, row, whole.value, able.size)
+    matrix = matrix.only(able[whole.column_of] & (row >= 0))
+    turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
+    weight = 1.0 / np.where(turned, result.characteristic_length, 1.0)
+    value = matrix.value * weight[matrix.row_of] / row_weights(result)[matrix.column_of]
+    return matrix._replace(value=value)
 
 
 def is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
     """(m,) whether the deformation of a row is of a class."""
     element, deformation = result.raw.row_label - 1
-    is_wanted: NDArray[np.bool_] = (
-        result.data.arrays.deformation_class[deformation, element] == wanted
-    )
-    return is_wanted
+    return np.asarray(result.data.arrays.deformation_class[deformation, element] == wanted)
 
 
 def is_releasable(result: Result) -> NDArray[np.bool_]:
@@ -143,27 +171,16 @@ def is_releasable(result: Result) -> NDArray[np.bool_]:
 
 
 def _with_reaction(result: Result, wanted: Class) -> Coordinates:
-    """Coordinates of a class on which the self-stresses act, the largest reaction first.
-
-    The reaction is sigma^T D, as a force; none where nothing is left of what the elements
-    contribute.
-    """
-    arrays = result.data.arrays
-    able = np.asarray(wanted == arrays.coordinate_class.T).ravel()
+    """Coordinates of a class on which the self-stresses act, the largest reaction first."""
+    able = np.equal(result.data.arrays.coordinate_class.T, wanted).ravel()
     if not able.any():
         return []
-    whole = result.assembly
-    element, deformation = result.raw.row_label - 1
-    row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
-    chosen = able[whole.column_of] & (row >= 0)
-    matrix = Sparse(whole.column_of, row, whole.value, able.size).only(chosen)
-    turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
-    weight = 1.0 / np.where(turned, result.characteristic_length, 1.0)
-    value = matrix.value * weight[matrix.row_of] / row_weights(result)[matrix.column_of]
-    space = result.stress_space
-    sizes = space._replace(value=np.abs(space.value))
-    reaction = norms_of_product(matrix._replace(value=value), space)
-    contributed = norms_of_product(matrix._replace(value=np.abs(value)), sizes)
+    # Zero where nothing is left of what the elements contribute: sigma^T D.
+    matrix, space = reaction_entries(result, able), result.stress_space
+    reaction = norms_of_product(matrix, space)
+    contributed = norms_of_product(
+        matrix._replace(value=np.abs(matrix.value)), space._replace(value=np.abs(space.value))
+    )
     reaction = np.where(reaction > NO_LEVERAGE * contributed, reaction, 0.0)
     order = _largest(reaction, lambda place: coordinate_key(result, *divmod(place, 3)))
     return [(place // 3, place % 3) for place in order]
@@ -171,8 +188,7 @@ def _with_reaction(result: Result, wanted: Class) -> Coordinates:
 
 def _largest(leverage: FloatArray, key: Key) -> list[int]:
     order = np.array(ranked(leverage, leverage.size, key), np.int64)
-    chosen: list[int] = order[leverage[order] > NO_LEVERAGE].tolist()
-    return chosen
+    return [int(row) for row in order[leverage[order] > NO_LEVERAGE]]
 
 
 def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = None) -> list[int]:
@@ -180,14 +196,22 @@ def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = N
 
     Only of `able` rows, if given.
     """
+    rows, support = rows_of(basis, able)
+    return [int(support[i]) for i in spanning(rows, lambda i: key(int(support[i])))]
+
+
+def rows_of(
+    basis: Basis, able: NDArray[np.bool_] | None = None
+) -> tuple[FloatArray, NDArray[np.integer]]:
+    """Those rows of a basis that are not zero, and which they are; of `able` ones, if given."""
     support = support_of(basis)
     if able is not None:
         support = support[able[support]]
     place = index_of(support, basis.size)[basis.place]
     there = place >= 0
-    rest = np.zeros((support.size, basis.vectors))
-    rest[place[there], basis.of_entries()[there]] = basis.value[there]
-    return [int(support[i]) for i in spanning(rest, lambda i: key(int(support[i])))]
+    made = np.zeros((support.size, basis.vectors))
+    made[place[there], basis.of_entries()[there]] = basis.value[there]
+    return made, support
 
 
 def spanning(rows: FloatArray, key: Key) -> list[int]:

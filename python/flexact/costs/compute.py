@@ -9,8 +9,8 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from ..advice.proposal import tried
 from ..advice.releases.releases import releases_of
+from ..advice.step import tried
 from ..analysis.change import Change
 from ..analysis.decomposition import asked_for
 from ..analysis.deformation_words import deformation_word

@@ -10,9 +10,8 @@ from operator import add
 
 import numpy as np
 
-from ..advice.holding import hold_in_words, holds_in_words, holds_of, number_of
-from ..advice.spaces.spaces import Spaces
-from ..advice.spaces.words import body_words, dashed_in_words, spaces_lines
+from ..advice.constraint_quality import hold_in_words, holds_in_words, holds_of, number_of
+from ..advice.spaces.spaces import Spaces, body_words, dashed_in_words, spaces_lines
 from ..analysis.naming import plain
 from ..analysis.result import Result
 from ..core.arrays import FloatArray

@@ -13,9 +13,16 @@ from ...analysis.result import Motion, Result
 from ...core.arrays import FloatArray
 from ...util.groups import groups_of
 from ...util.records import Frozen, cached_property
-from ..proposal import Proposal
+from ..step import Step
 from .cause import Cause, CauseKind, Causes, Relation
-from .gradients import THERE, Gradients, Lifts, Shares, are_affordable, generic_rank
+from .gradients import (
+    THERE,
+    Gradients,
+    MisalignmentRates,
+    UndividedBasis,
+    are_affordable,
+    generic_rank,
+)
 from .realignment import joint_move, mends_of
 from .relations import merged, relations_of
 from .trials import Trials
@@ -27,7 +34,7 @@ _OUTSIDE = 1.0e-4
 _SEED = 20_110_720
 
 
-class Told(NamedTuple):
+class Genericity(NamedTuple):
     """What is known of a vector of a basis."""
 
     is_special: bool
@@ -37,21 +44,16 @@ class Told(NamedTuple):
     """How many of these are special."""
 
 
-def all_alike(count: int, is_special: bool) -> list[Told]:
-    """Where all of them are one or the other."""
-    return [Told(is_special)] * count
-
-
-def by_count(indices: Sequence[int], special: int) -> dict[int, Told]:
+def by_count(indices: Sequence[int], special: int) -> dict[int, Genericity]:
     """So many of some, nobody knows which: the last ones."""
     first = len(indices) - special
     together = tuple(indices)
-    return {j: Told(k >= first, together, special) for k, j in enumerate(indices)}
+    return {j: Genericity(k >= first, together, special) for k, j in enumerate(indices)}
 
 
 def told_apart(
     told: FloatArray, never: FloatArray, groups: Sequence[tuple[Sequence[int], int]]
-) -> list[Told]:
+) -> list[Genericity]:
     """Which of some vectors are special.
 
     Args:
@@ -61,14 +63,14 @@ def told_apart(
             each group are special; what is in no group is generic.
     """
     beyond = told - never @ (never.T @ told)
-    made = all_alike(told.shape[1], False)
+    made = [Genericity(False)] * told.shape[1]
     for indices, special in groups:
         for k, found in _of_group(beyond, indices, special).items():
             made[k] = found
     return made
 
 
-def _of_group(beyond: FloatArray, indices: Sequence[int], special: int) -> dict[int, Told]:
+def _of_group(beyond: FloatArray, indices: Sequence[int], special: int) -> dict[int, Genericity]:
     rest = beyond[:, indices]
     lifted = [k for k in indices if float(np.linalg.norm(beyond[:, k])) > _OUTSIDE]
     chosen: list[int] = []
@@ -83,18 +85,16 @@ def _of_group(beyond: FloatArray, indices: Sequence[int], special: int) -> dict[
         # What is lifted to a higher order only, and was not looked at.
         return by_count(indices, special)
     if len(lifted) == len(chosen):
-        return {k: Told(k in chosen) for k in indices}
+        return {k: Genericity(k in chosen) for k in indices}
     together = tuple(lifted)
     return {
-        k: Told(k in chosen, together, len(chosen)) if k in lifted else Told(False) for k in indices
+        k: Genericity(k in chosen, together, len(chosen)) if k in lifted else Genericity(False)
+        for k in indices
     }
 
 
-class Groups(NamedTuple):
-    """What misalignments lift together: which, and how many of them are special."""
-
-    stresses: list[tuple[list[int], int]]
-    motions: list[tuple[list[int], int]]
+#: What misalignments lift together: which, and how many of them are special.
+Groups = list[tuple[list[int], int]]
 
 
 class Lifted(Frozen):
@@ -111,7 +111,12 @@ class Lifted(Frozen):
         """Find both spaces."""
         self.gradients = gradients
         result = gradients.result
-        changes = self._lifts = self._changes()
+        # By every place, in lengths of the mechanism, and every vector: (changes, s, k).
+        at_nodes = result.characteristic_length * gradients.at_nodes()
+        flat = (-1, *at_nodes.shape[2:])
+        changes = self._changes = np.concatenate(
+            (at_nodes.reshape(flat), gradients.by_vector.reshape(flat))
+        )
         self.special = generic_rank - result.rank
         motions = _kernel(np.moveaxis(changes, 2, 0).reshape(changes.shape[2], -1))
         stresses = _kernel(np.moveaxis(changes, 1, 0).reshape(changes.shape[1], -1))
@@ -125,15 +130,13 @@ class Lifted(Frozen):
 
     def couplings(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
         """(a, b) how much all changes make of self-stresses (s, a) and motions (k, b)."""
-        made: FloatArray = np.linalg.norm(self._blocks(stresses, motions), axis=2)
-        return made
+        return np.asarray(np.linalg.norm(self._blocks(stresses, motions), axis=2))
 
     def _blocks(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
-        made: FloatArray = np.moveaxis(stresses.T @ self._lifts @ motions, 0, 2)
-        return made
+        return np.asarray(np.moveaxis(stresses.T @ self._changes @ motions, 0, 2))
 
-    def groups(self, stresses: FloatArray, motions: FloatArray) -> Groups | None:
-        """What misalignments lift together, to first order, and how many of each are special.
+    def groups(self, stresses: FloatArray, motions: FloatArray) -> tuple[Groups, Groups] | None:
+        """Self-stresses and motions that misalignments lift together, to first order.
 
         Args:
             stresses: (s, a) self-stresses.
@@ -158,27 +161,18 @@ class Lifted(Frozen):
             made.append((rows.tolist(), columns.tolist(), special))
         if sum(special for _, _, special in made) != self.special:
             return None
-        return Groups(
+        return (
             [(rows, special) for rows, _, special in made],
             [(columns, special) for _, columns, special in made],
         )
-
-    def _changes(self) -> FloatArray:
-        """(changes, s, k) by every place, in lengths of the mechanism, and every vector."""
-        gradients = self.gradients
-        length = gradients.result.characteristic_length
-        at_nodes, by_vector = length * gradients.at_nodes(), gradients.by_vector
-        shape = (-1, *at_nodes.shape[2:])
-        return np.concatenate((at_nodes.reshape(shape), by_vector.reshape(shape)))
 
 
 def _kernel(rows: FloatArray) -> FloatArray:
     """(d, g) orthonormal: combinations of d rows that vanish."""
     values, vectors = np.linalg.eigh(rows @ rows.T)
-    made: FloatArray = vectors[
-        :, values <= _NOTHING**2 * max(float(values.max(initial=0.0)), 1e-12)
-    ]
-    return made
+    return np.asarray(
+        vectors[:, values <= _NOTHING**2 * max(float(values.max(initial=0.0)), 1e-12)]
+    )
 
 
 def _within(space: FloatArray, other: FloatArray, most: int) -> FloatArray:
@@ -186,8 +180,7 @@ def _within(space: FloatArray, other: FloatArray, most: int) -> FloatArray:
     if space.shape[1] <= most:
         return space
     turned = np.linalg.svd(space.T @ other)[0]
-    made: FloatArray = space @ turned[:, :most]
-    return made
+    return np.asarray(space @ turned[:, :most])
 
 
 #: How many special self-stresses are explained, and by how many relations a motion.
@@ -213,12 +206,10 @@ def causes_of(result: Result) -> Causes:
     whole = result.with_internal_declared or result
     rank, trials = generic_rank(whole)
     motions, stresses = len(result.motions), len(result.self_stresses)
-    if rank is None:
-        unknown = Cause(CauseKind.UNKNOWN)
-        return Causes((unknown,) * motions, (unknown,) * stresses)
-    if rank == whole.rank:
-        generic = Cause(CauseKind.GENERIC)
-        return Causes((generic,) * motions, (generic,) * stresses, (), rank, trials)
+    if rank is None or rank == whole.rank:
+        one = Cause(CauseKind.UNKNOWN if rank is None else CauseKind.GENERIC)
+        tried = 0 if rank is None else trials
+        return Causes((one,) * motions, (one,) * stresses, (), rank, tried)
     can_be_told = whole is result or whole.is_told_by_parts
     if not can_be_told or not are_affordable(whole):
         return Causes(
@@ -234,8 +225,8 @@ def causes_of(result: Result) -> Causes:
 def _by_count(count: int, generic: int, special: int) -> tuple[Cause, ...]:
     if generic == 0:
         return (Cause(CauseKind.SPECIAL),) * count
-    told = list(by_count(range(count), min(special, count)).values())
-    return _made(told, lambda _, kind: Cause(kind))
+    told = by_count(range(count), min(special, count)).values()
+    return _made(list(told), lambda _, kind: Cause(kind))
 
 
 class _Special:
@@ -253,12 +244,12 @@ class _Special:
         self.rank = rank
         self.gradients = Gradients(whole)
         self.lifted = Lifted(self.gradients, rank)
-        self.shares = Shares(result, whole, self.gradients)
+        self.shares = UndividedBasis(result, whole, self.gradients)
         self.trials = Trials(whole, rank)
 
     def causes(self, trials: int) -> Causes:
         """All of it."""
-        lifts = Lifts(self.gradients)
+        lifts = MisalignmentRates(self.gradients)
         motions, stresses = self.shares.motions, self.shares.stresses
         pairs = self.lifted.couplings(self.shares.own_stresses, motions)
 
@@ -271,47 +262,36 @@ class _Special:
             share = stresses[:, k]
             return Cause(kind, lift=lifts.of_stress(share), relations=self._of_stress(share))
 
+        mends: tuple[Step, ...] = ()
+        if self.whole.is_told_by_parts:
+            relations = merged(chain(*self._relations.values()))
+            mends = mends_of(self.whole, relations, self._motions)
+            mends = mends or joint_move(self.whole, self.gradients)
         return Causes(
             _made(self._motions_told(motions), of_motion),
             _made(self._stresses_told(stresses), of_stress),
-            self._mends(),
+            mends,
             self.rank,
             trials,
         )
 
-    def _mends(self) -> tuple[Proposal, ...]:
-        if not self.whole.is_told_by_parts:
-            return ()
-        relations = merged(chain(*self._relations.values()))
-        return mends_of(self.whole, relations, self._motions) or joint_move(
-            self.whole, self.gradients
-        )
-
     # Which are special ------------------------------------------------------
 
-    def _motions_told(self, told: FloatArray) -> list[Told]:
+    def _motions_told(self, told: FloatArray) -> list[Genericity]:
         groups = self.lifted.groups(self.shares.own_stresses, told)
-        return self._told(
-            told, self.generic[0], self.lifted.motions, None if groups is None else groups.motions
-        )
+        return self._told(told, self.generic[0], self.lifted.motions, groups and groups[1])
 
-    def _stresses_told(self, told: FloatArray) -> list[Told]:
+    def _stresses_told(self, told: FloatArray) -> list[Genericity]:
         groups = self.lifted.groups(told, self.shares.own_motions)
-        return self._told(
-            told, self.generic[1], self.lifted.stresses, None if groups is None else groups.stresses
-        )
+        return self._told(told, self.generic[1], self.lifted.stresses, groups and groups[0])
 
     def _told(
-        self,
-        told: FloatArray,
-        generic: int,
-        never: FloatArray,
-        groups: list[tuple[list[int], int]] | None,
-    ) -> list[Told]:
+        self, told: FloatArray, generic: int, never: FloatArray, groups: Groups | None
+    ) -> list[Genericity]:
         """Which of some told vectors are special; what the undivided mechanism has not is not."""
         there = np.flatnonzero(np.linalg.norm(told, axis=0) > THERE).tolist()
         if generic == 0 and len(there) == told.shape[1]:
-            return all_alike(len(there), True)
+            return [Genericity(True)] * len(there)
         return told_apart(told, never, groups or [(there, self.lifted.special)])
 
     @cached_property
@@ -339,9 +319,8 @@ class _Special:
             if same is not None:
                 made[k] = made[same]
                 continue
-            one, trials = told[k], self.trials
-            many = (one.together, one.special) if one.together else ((k,), 1)
-            made[k] = relations_of(whole, many[0], self._motions, trials, many[1])
+            which, special = (told[k].together, told[k].special) if told[k].together else ((k,), 1)
+            made[k] = relations_of(whole, which, self._motions, self.trials, special)
         return made
 
     def _of_stress(self, share: FloatArray) -> tuple[Relation, ...]:
@@ -368,7 +347,7 @@ class _Special:
         return made
 
 
-def _made(told: list[Told], cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Cause, ...]:
+def _made(told: list[Genericity], cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Cause, ...]:
     """The causes of some modes; `cause_of` makes what may be special."""
     made = []
     for k, one in enumerate(told):
@@ -376,14 +355,9 @@ def _made(told: list[Told], cause_of: Callable[[int, CauseKind], Cause]) -> tupl
             made.append(Cause(CauseKind.GENERIC))
             continue
         found = cause_of(k, CauseKind.SPECIAL if one.is_special else CauseKind.GENERIC)
+        # What lifts nothing is none.
+        lift, first_order = found.lift or None, None if found.lift is None else bool(found.lift)
         made.append(
-            Cause(
-                found.kind,
-                one.together,
-                one.special,
-                found.lift or None,
-                None if found.lift is None else bool(found.lift),
-                found.relations,
-            )
+            Cause(found.kind, one.together, one.special, lift, first_order, found.relations)
         )
     return tuple(made)

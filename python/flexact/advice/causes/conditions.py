@@ -153,7 +153,7 @@ _Made = tuple[_Residual, FloatArray]
 
 def _residual(figures: Figures, one: Relation) -> _Made | None:
     kind = one.kind
-    if kind is RelationKind.POSITION:
+    if kind in (RelationKind.POSITION, RelationKind.REFLECTION):
         return None
     if kind in (RelationKind.ALONG, RelationKind.ACROSS_AXIS):
         return _of_axis(figures, one)
@@ -161,22 +161,19 @@ def _residual(figures: Figures, one: Relation) -> _Made | None:
         return _of_joints(figures, one)
     if one.of is LineKind.MEMBER and kind in (RelationKind.ONE_LINE, RelationKind.ONE_PLANE):
         return _of_points(figures, one)
-    planes, lines = _figures(figures, one)
-    if planes is None or lines is None:
+    found = _figures(figures, one)
+    if found is None:
         return None
+    planes, lines = found
     if kind is RelationKind.ROTATION:
         return _of_half_turn(figures, one, lines) if one.of is LineKind.AXIS else None
-    if kind is RelationKind.REFLECTION:
-        return None
     if kind is RelationKind.REGULUS:
         return _of_regulus(figures, lines)
     return _of_figures(figures, one, planes, lines)
 
 
-def _figures(
-    figures: Figures, one: Relation
-) -> tuple[list[FigureAt], list[FigureAt]] | tuple[None, None]:
-    """The planes and lines that a relation is about."""
+def _figures(figures: Figures, one: Relation) -> tuple[list[FigureAt], list[FigureAt]] | None:
+    """The planes and lines that a relation is about; None where one of them is not known."""
     planes: list[FigureAt] = []
     lines: list[FigureAt] = []
     limb_of = {part: limb.parts for limb in figures.limbs.all for part in limb.parts}
@@ -188,7 +185,7 @@ def _figures(
         if part.kind is PartKind.HINGE:
             axis = figures.axis(part)
             if axis is None:
-                return None, None
+                return None
             lines.append(axis)
         elif part.kind is not PartKind.SHEET:
             lines.append(figures.line(part))
@@ -198,19 +195,20 @@ def _figures(
             lines.append(figures.fold(limb))
             done |= set(limb)
         else:
-            return None, None
+            return None
     return planes, lines
 
 
 def _of_figures(
     figures: Figures, one: Relation, planes: list[FigureAt], lines: list[FigureAt]
-) -> _Made | None:
-    length, kind = figures.length, one.kind
-    terms = _TERMS.get(kind)
-    if terms is None:
-        return None
-    free = _free(figures, one, planes, lines)
-    of_line, of_plane = terms
+) -> _Made:
+    length, direction = figures.length, one.direction
+    of_line, of_plane = _TERMS[one.kind]
+    if not direction.any():
+        direction = [*planes, *lines][0](*figures.here)[1][0]
+    # Direction, point over the length, and what else is shared, as it is.
+    pitch = [one.pitch / length] if one.kind is RelationKind.COMPLEX else []
+    free = np.concatenate((direction, one.point / length, pitch))
 
     def residual(places: FloatArray, vectors: FloatArray, free: FloatArray) -> FloatArray:
         made = [of_line(*figure(places, vectors), free, length) for figure in lines]
@@ -222,7 +220,7 @@ def _of_figures(
 
 def _with_couple(figures: Figures, one: Relation, about: FloatArray, made: _Made) -> _Made:
     """The lines make a couple about a given direction besides: of two parallel ones their plane."""
-    lines, plain = _figures(figures, one)[1] or [], made[0]
+    lines, plain = (_figures(figures, one) or ([], []))[1], made[0]
 
     def residual(places: FloatArray, vectors: FloatArray, free: FloatArray) -> FloatArray:
         at = [line(places, vectors) for line in lines]
@@ -232,18 +230,6 @@ def _with_couple(figures: Figures, one: Relation, about: FloatArray, made: _Made
         return np.concatenate([plain(places, vectors, free), *more], axis=1)
 
     return residual, made[1]
-
-
-def _free(
-    figures: Figures, one: Relation, planes: list[FigureAt], lines: list[FigureAt]
-) -> FloatArray:
-    """Direction, point over the length, and what else is shared, as it is."""
-    direction = one.direction
-    if not direction.any():
-        first = next(iter([*planes, *lines]))
-        direction = first(*figures.here)[1][0]
-    pitch = [one.pitch / figures.length] if one.kind is RelationKind.COMPLEX else []
-    return np.concatenate((direction, one.point / figures.length, pitch))
 
 
 def _of_regulus(figures: Figures, lines: list[FigureAt]) -> _Made:
@@ -410,7 +396,7 @@ def _of_joints(figures: Figures, one: Relation) -> _Made | None:
     middle = at.mean(axis=0)
     if one.kind is RelationKind.TWO_LINES:
         return _of_two_lines(figures, nodes)
-    terms = _circle if one.kind is RelationKind.CIRCLE else _conic
+    terms = circle_terms if one.kind is RelationKind.CIRCLE else conic_terms
 
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:
         rows = terms(places[:, nodes, :2] / length - middle)
@@ -420,12 +406,14 @@ def _of_joints(figures: Figures, one: Relation) -> _Made | None:
     return residual, np.linalg.svd(terms(at - middle))[2][-1]
 
 
-def _circle(at: FloatArray) -> FloatArray:
+def circle_terms(at: FloatArray) -> FloatArray:
+    """(..., 4) terms of a circle at points (..., 2): dependent of points on one."""
     x, y = at[..., 0], at[..., 1]
     return np.stack((x**2 + y**2, x, y, np.ones_like(x)), axis=-1)
 
 
-def _conic(at: FloatArray) -> FloatArray:
+def conic_terms(at: FloatArray) -> FloatArray:
+    """(..., 6) terms of a conic, likewise."""
     x, y = at[..., 0], at[..., 1]
     return np.stack((x**2, x * y, y**2, x, y, np.ones_like(x)), axis=-1)
 
@@ -465,13 +453,11 @@ def _through_points(at: FloatArray) -> FloatArray:
 
 def _unit(vectors: FloatArray) -> FloatArray:
     sizes = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    made: FloatArray = vectors / np.maximum(sizes, 1.0e-300)
-    return made
+    return np.asarray(vectors / np.maximum(sizes, 1.0e-300))
 
 
 def _dot(one: FloatArray, other: FloatArray) -> FloatArray:
-    made: FloatArray = (one * other).sum(axis=-1, keepdims=True)
-    return made
+    return np.asarray((one * other).sum(axis=-1, keepdims=True))
 
 
 def _size(unit: FloatArray) -> FloatArray:

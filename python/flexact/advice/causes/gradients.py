@@ -8,7 +8,9 @@ u' dD v of all pairs and all changes is theory.md (20) with every change kept ap
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -65,8 +67,7 @@ class Geometry(Frozen):
     @cached_property
     def places(self) -> FloatArray:
         """(nodes, 3) [m]; zero of orientations."""
-        made: FloatArray = np.where(self.free, self.data.arrays.node_value[:3].T, 0.0)
-        return made
+        return np.asarray(np.where(self.free, self.data.arrays.node_value[:3].T, 0.0))
 
     @cached_property
     def sizes(self) -> FloatArray:
@@ -78,8 +79,7 @@ class Geometry(Frozen):
         total = np.bincount(nodes[used], logs, arrays.node_kind.size)
         count = np.bincount(nodes[used], minlength=arrays.node_kind.size)
         mean = float(logs.mean()) if logs.size else 0.0
-        made: FloatArray = np.exp(np.where(count > 0, total / np.maximum(count, 1), mean))
-        return made
+        return np.asarray(np.exp(np.where(count > 0, total / np.maximum(count, 1), mean)))
 
     def moved(self, places: FloatArray, vectors: FloatArray) -> ModelData:
         """The model with its nodes and vectors elsewhere, (nodes, 3) and (elements, 3)."""
@@ -135,7 +135,7 @@ def generic_rank(result: Result) -> tuple[int | None, int]:
     return best, trials
 
 
-class Exploded:
+class DetachedElements:
     """The rows of D of each element of a model in its reference configuration."""
 
     def __init__(self, arrays: ModelArrays, vectors: FloatArray) -> None:
@@ -265,7 +265,7 @@ class Gradients(Frozen):
         both = ((p >= 0) & (q >= 0))[:, None]
         change[:, :3] = share * np.where(both, moved[q] - moved[p], 0.0)
         change[:, 3:] = share * (vectors - self.geometry.vectors)
-        rows = Exploded(arrays, self.geometry.vectors).matrices(change)
+        rows = DetachedElements(arrays, self.geometry.vectors).matrices(change)
         made = np.zeros((arrays.element_number.size, 6, arrays.node_kind.size + 1, 3))
         node = arrays.element_node.T - 1
         for slot in range(4):
@@ -281,8 +281,7 @@ class Gradients(Frozen):
         element, deformation = raw.row_label - 1
         column, axis = raw.column_label - 1
         chosen = made[element[:, None], deformation[:, None], column[None], axis[None]]
-        scaled: FloatArray = raw.row_scale[:, None] * chosen * raw.column_scale
-        return scaled
+        return np.asarray(raw.row_scale[:, None] * chosen * raw.column_scale)
 
     @property
     def _offsets(self) -> FloatArray:
@@ -291,8 +290,7 @@ class Gradients(Frozen):
         p, q = arrays.element_node[[0, 2]] - 1
         places = self.geometry.places
         both = ((p >= 0) & (q >= 0))[:, None]
-        made: FloatArray = np.where(both, places[q] - places[p], 0.0)
-        return made
+        return np.asarray(np.where(both, places[q] - places[p], 0.0))
 
     def _derivatives(self) -> FloatArray:
         """(elements, 6, s, k) by the three components of the offset, then of the vector."""
@@ -304,7 +302,7 @@ class Gradients(Frozen):
         node, axis = self.result.raw.column_label - 1
         motion[node, axis] = self.motions * self.result.raw.column_scale[:, None]
         moving = motion[arrays.element_node.T - 1].reshape(size, 12, -1)
-        exploded = Exploded(self.result.data.arrays, self.geometry.vectors)
+        exploded = DetachedElements(self.result.data.arrays, self.geometry.vectors)
         offset, vector = self._offsets, self.geometry.vectors
         length = np.linalg.norm(offset, axis=1)
         made = np.zeros((size, 6, stress.shape[2], moving.shape[2]))
@@ -329,15 +327,14 @@ def are_affordable(result: Result) -> bool:
 
 def _orthonormal(basis: Basis, scale: FloatArray) -> FloatArray:
     """The same space in the scaled matrix, by orthonormal columns."""
-    made: FloatArray = np.linalg.qr(basis.toarray() / scale[:, None])[0]
-    return made
+    return np.asarray(np.linalg.qr(basis.toarray() / scale[:, None])[0])
 
 
 #: Of equal ones, to within this part, the first by name counts.
 _EQUAL = 1.0e-6
 
 
-class Lifts:
+class MisalignmentRates:
     """The fastest lifts of combinations of motions, or of self-stresses."""
 
     def __init__(self, gradients: Gradients) -> None:
@@ -357,23 +354,17 @@ class Lifts:
     def _found(self, at_nodes: FloatArray, by_turning: FloatArray) -> Lift:
         result = self._result
         moves, turns = _largest(at_nodes), _largest(by_turning)
-        node = _first(moves, lambda i: node_key(result, i))
-        element = _first(turns, lambda i: _element_key(result, i))
-        by_move = float(moves[node]) if node is not None else 0.0
-        by_turn = float(turns[element]) if element is not None else 0.0
-        if by_move * result.characteristic_length <= _NOTHING:
-            node, by_move = None, 0.0
-        if by_turn <= _NOTHING:
-            element, by_turn = None, 0.0
-        given = result.given.arrays
-        return Lift(
-            by_move,
-            None if node is None else int(given.node_number[result.condensed.nodes[node]]),
-            by_turn,
-            None
-            if element is None
-            else int(given.element_number[result.condensed.elements[element]]),
-        )
+        node = _first(moves, partial(node_key, result))
+        element = _first(turns, partial(_element_key, result))
+        given, condensed = result.given.arrays, result.condensed
+        by_move, node_number, by_turn, element_number = 0.0, None, 0.0, None
+        if node is not None and moves[node] * result.characteristic_length > _NOTHING:
+            by_move = float(moves[node])
+            node_number = int(given.node_number[condensed.nodes[node]])
+        if element is not None and turns[element] > _NOTHING:
+            by_turn = float(turns[element])
+            element_number = int(given.element_number[condensed.elements[element]])
+        return Lift(by_move, node_number, by_turn, element_number)
 
 
 #: Differences are good to some 1e-8.
@@ -385,16 +376,14 @@ def _largest(blocks: FloatArray) -> FloatArray:
     if not blocks.size:
         return np.zeros(blocks.shape[0])
     gram = blocks @ np.swapaxes(blocks, 1, 2)
-    made: FloatArray = np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, -1], 0.0))
-    return made
+    return np.asarray(np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, -1], 0.0)))
 
 
-def _first(sizes: FloatArray, key: object) -> int | None:
+def _first(sizes: FloatArray, key: Callable[[int], tuple[object, ...]]) -> int | None:
     largest = float(sizes.max(initial=0.0))
     if not largest > 0.0:
         return None
-    able = np.flatnonzero(sizes >= (1.0 - _EQUAL) * largest).tolist()
-    return int(min(able, key=key))  # type: ignore[call-overload]
+    return min(np.flatnonzero(sizes >= (1.0 - _EQUAL) * largest).tolist(), key=key)
 
 
 def node_key(result: Result, node: int) -> tuple[object, ...]:
@@ -425,7 +414,7 @@ def _step(result: Result) -> float:
 THERE = 0.5
 
 
-class Shares(Frozen):
+class UndividedBasis(Frozen):
     """Columns of unit length, zero of what the undivided mechanism has not.
 
     Attributes:
@@ -444,10 +433,8 @@ class Shares(Frozen):
         told = self.result.motions
         if self.whole is self.result:
             return self.own_motions
-        made = np.zeros((self.gradients.motions.shape[1], len(told)))
-        for k, motion in enumerate(told):
-            made[:, k] = self._share_of_motion(motion)
-        return _unit(made)
+        made = [self._share_of_motion(motion) for motion in told]
+        return _unit(np.array(made).reshape(len(told), self.gradients.motions.shape[1]).T)
 
     @cached_property
     def own_motions(self) -> FloatArray:
@@ -481,12 +468,12 @@ class Shares(Frozen):
             return own[:, : len(told)]
         of_whole = _loads_of(list(whole.self_stresses))
         of_told = _loads_of(list(told))
-        keys = {key: i for i, key in enumerate(sorted({*of_whole, *of_told}))}
-        left, right = np.zeros((len(keys), 6, own.shape[1])), np.zeros((len(keys), 6, len(told)))
-        for loads, made in ((of_whole, left), (of_told, right)):
-            for key, block in loads.items():
-                made[keys[key]] = block
-        shares = np.linalg.lstsq(left.reshape(-1, own.shape[1]), right.reshape(-1, len(told)))[0]
+        keys = sorted({*of_whole, *of_told})
+        left, right = (
+            np.concatenate([loads.get(key, np.zeros((6, count))) for key in keys])
+            for loads, count in ((of_whole, own.shape[1]), (of_told, len(told)))
+        )
+        shares = np.linalg.lstsq(left, right)[0]
         return _unit(own @ shares)
 
     @cached_property
@@ -514,5 +501,4 @@ def _loads_of(stresses: list[SelfStress]) -> dict[tuple[int, int], FloatArray]:
 def _unit(vectors: FloatArray) -> FloatArray:
     """Columns of unit length; those that are nothing stay zero."""
     sizes = np.linalg.norm(vectors, axis=0)
-    made: FloatArray = np.where(sizes > 1.0e-9, vectors / np.where(sizes > 0.0, sizes, 1.0), 0.0)
-    return made
+    return np.asarray(np.where(sizes > 1.0e-9, vectors / np.where(sizes > 0.0, sizes, 1.0), 0.0))

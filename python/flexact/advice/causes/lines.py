@@ -9,7 +9,7 @@ rank five belong to one linear complex (Hunt, *Kinematic Geometry of Mechanisms*
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations
 from typing import NamedTuple
 
@@ -22,6 +22,7 @@ from ...analysis.screws import Screw, ScrewKind, screw_of
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
+from ...util.groups import groups_of
 from ...util.records import cached_property
 from .cause import RelationKind
 
@@ -69,21 +70,18 @@ class Limbs:
             for part in self.parts.all
             if part.kind not in (PartKind.BODY, PartKind.HINGE) and len(part.ends) == 2
         ]
-        owner = list(range(len(flexible)))
         ends: dict[int, list[int]] = {}
         for k, part in enumerate(flexible):
             for position in part.ends:
                 ends.setdefault(position, []).append(k)
         inner = {p: users for p, users in ends.items() if self._is_inner(p, len(users))}
-        for users in inner.values():
-            first, last = (_root(owner, k) for k in users)
-            owner[first] = last
+        owner = groups_of(len(flexible), ((first, last) for first, last in inner.values())).tolist()
         groups: dict[int, list[int]] = {}
-        for k in range(len(flexible)):
-            groups.setdefault(_root(owner, k), []).append(k)
+        for k, group in enumerate(owner):
+            groups.setdefault(group, []).append(k)
         made = []
         for mine in groups.values():
-            members = tuple(sorted((flexible[k] for k in mine), key=_by_name))
+            members = tuple(sorted((flexible[k] for k in mine), key=by_name))
             points = {position for part in members for position in part.ends}
             outer = tuple(sorted(p for p in points if p not in inner))
             made.append(Limb(members, outer, tuple(sorted(points - set(outer)))))
@@ -94,7 +92,7 @@ class Limbs:
         if users != 2 or position in self.parts.body_at or len(self.parts.at(position)) != 2:
             return False
         classes = self.outcome.given.arrays.coordinate_class[:, position]
-        turned = self._orientations.get(position, set())
+        turned = self._orientations.get(position, ())
         return bool(np.all(classes != Class.FIXED)) and len(turned) == 1
 
     @cached_property
@@ -112,8 +110,7 @@ class Limbs:
 
     def place(self, position: int) -> FloatArray:
         """(3,) of a position node [m]."""
-        value: FloatArray = self.outcome.given.arrays.node_value[:3, position]
-        return value
+        return np.asarray(self.outcome.given.arrays.node_value[:3, position])
 
     @cached_property
     def hubs(self) -> tuple[tuple[object, tuple[tuple[Limb, int], ...]], ...]:
@@ -134,30 +131,19 @@ class Limbs:
         body = self.parts.body_at.get(position)
         if body is not None:
             return ("body", body)
-        if self.parts.is_held(position) and self._is_held_turning(position):
+        turning = self._orientations.get(position, ())
+        if all(map(self.parts.is_held, (position, *turning))):
             return None
-        return ("joint", position) if len(self._orientations.get(position, ())) == 1 else None
-
-    def _is_held_turning(self, position: int) -> bool:
-        return all(self.parts.is_held(node) for node in self._orientations.get(position, ()))
+        return ("joint", position) if len(turning) == 1 else None
 
     def orientation_at(self, position: int) -> int | None:
         """The one orientation node at a position node; None where there is none, or several."""
         found = self._orientations.get(position, set())
         return next(iter(found)) if len(found) == 1 else None
 
-    def is_ground(self, position: int) -> bool:
-        """Whether a position node is fixed."""
-        return self.parts.is_held(position)
 
-
-def _root(owner: list[int], k: int) -> int:
-    while owner[k] != k:
-        k = owner[k]
-    return k
-
-
-def _by_name(part: Part) -> tuple[object, ...]:
+def by_name(part: Part) -> tuple[object, ...]:
+    """The key by which parts are sorted."""
     return natural(part.name), part.elements
 
 
@@ -193,6 +179,12 @@ class Line(NamedTuple):
     def coordinates(self, length: float) -> FloatArray:
         """(6,) Pluecker's coordinates, moments over a length."""
         return np.concatenate((self.direction, np.cross(self.point, self.direction) / length))
+
+
+def line_of(limbs: Limbs, part: Part) -> Line:
+    """The line of a wire, bar or member from end to end."""
+    first, last = (limbs.place(end) for end in part.ends)
+    return Line(first, (last - first) / np.linalg.norm(last - first))
 
 
 class Lines:
@@ -258,23 +250,37 @@ class Lines:
 
     def planes(self) -> list[tuple[list[int], FloatArray, FloatArray]]:
         """Three or more in one plane each: which, the normal, and a point of it."""
-        return list(self._largest(self._planes_of_pairs(), self._is_in_plane))
+
+        def is_in(line: Line, normal: FloatArray, point: FloatArray) -> bool:
+            off = abs(float((line.point - point) @ normal))
+            return abs(float(line.direction @ normal)) <= _SAME and off <= _SAME * self.length
+
+        return self._largest(self._planes_of_pairs(), is_in)
 
     def points(self) -> list[tuple[list[int], FloatArray, FloatArray]]:
         """Three or more through one point each: which, nothing, and the point."""
-        return list(self._largest(self._points_of_pairs(), self._is_through))
+
+        def is_through(line: Line, _: FloatArray, point: FloatArray) -> bool:
+            off = float(np.linalg.norm(np.cross(point - line.point, line.direction)))
+            return off <= _SAME * max(self.length, float(np.linalg.norm(point)))
+
+        met = (self.meeting(i, j) for i, j in self._pairs())
+        return self._largest(
+            ((np.zeros(3), point) for point in met if point is not None), is_through
+        )
 
     def _largest(
         self,
-        found: Iterator[tuple[FloatArray, FloatArray]],
-        has: Callable[[int, FloatArray, FloatArray], bool],
-    ) -> Iterator[tuple[list[int], FloatArray, FloatArray]]:
-        seen: set[tuple[int, ...]] = set()
+        found: Iterable[tuple[FloatArray, FloatArray]],
+        has: Callable[[Line, FloatArray, FloatArray], bool],
+    ) -> list[tuple[list[int], FloatArray, FloatArray]]:
+        """Groups of three or more, each once."""
+        made: dict[tuple[int, ...], tuple[list[int], FloatArray, FloatArray]] = {}
         for normal, point in found:
-            group = [k for k in range(len(self)) if has(k, normal, point)]
-            if len(group) > 2 and tuple(group) not in seen:
-                seen.add(tuple(group))
-                yield group, normal, point
+            group = [k for k, line in enumerate(self.lines) if has(line, normal, point)]
+            if len(group) > 2:
+                made.setdefault(tuple(group), (group, normal, point))
+        return list(made.values())
 
     def _pairs(self) -> Iterator[tuple[int, int]]:
         return combinations(range(min(len(self), _MOST_LINES)), 2)
@@ -291,22 +297,6 @@ class Lines:
             else:
                 continue
             yield normal / np.linalg.norm(normal), a.point
-
-    def _points_of_pairs(self) -> Iterator[tuple[FloatArray, FloatArray]]:
-        for i, j in self._pairs():
-            point = self.meeting(i, j)
-            if point is not None:
-                yield np.zeros(3), point
-
-    def _is_in_plane(self, k: int, normal: FloatArray, point: FloatArray) -> bool:
-        line = self.lines[k]
-        off = abs(float((line.point - point) @ normal))
-        return bool(abs(float(line.direction @ normal)) <= _SAME and off <= _SAME * self.length)
-
-    def _is_through(self, k: int, _: FloatArray, point: FloatArray) -> bool:
-        line = self.lines[k]
-        off = float(np.linalg.norm(np.cross(point - line.point, line.direction)))
-        return off <= _SAME * max(self.length, float(np.linalg.norm(point)))
 
     def unstopped(self) -> Screw | None:
         """The one motion that a body has which is held along these lines; of rank five."""
@@ -350,12 +340,8 @@ def in_common(lines: Lines, *, planar: bool) -> list[Common]:
     """
     if not 2 <= len(lines) <= _IN_COMMON_MOST_LINES:
         return []
-    same = list(_of_one_line(lines))
-    if same:
-        return same
-    held = list(_of_six(lines))
-    if held:
-        return held
+    if told := list(_of_one_line(lines)) or list(_of_six(lines)):
+        return told
     through = list(_of_one_point(lines))
     groups = _cover(lines, planar)
     if through:
@@ -369,12 +355,8 @@ def in_common(lines: Lines, *, planar: bool) -> list[Common]:
 def _of_one_line(lines: Lines) -> Iterator[Common]:
     for group in lines.together(lines.is_one):
         first = lines.lines[group[0]]
-        yield Common(
-            RelationKind.ONE_LINE,
-            tuple(group),
-            without_sense(first.direction),
-            lines.in_place(first.point),
-        )
+        where = without_sense(first.direction), lines.in_place(first.point)
+        yield Common(RelationKind.ONE_LINE, tuple(group), *where)
 
 
 def _of_one_point(lines: Lines) -> Iterator[Common]:
@@ -401,13 +383,8 @@ def _of_all(lines: Lines) -> Iterator[Common]:
         yield Common(RelationKind.REGULUS, every, _NONE, lines.in_place(_NONE))
     screw = lines.unstopped() if len(lines) >= 6 else None
     if screw is not None:
-        yield Common(
-            RelationKind.COMPLEX,
-            every,
-            without_sense(screw.direction),
-            lines.in_place(screw.point),
-            screw.pitch,
-        )
+        where = without_sense(screw.direction), lines.in_place(screw.point)
+        yield Common(RelationKind.COMPLEX, every, *where, screw.pitch)
 
 
 def _cover(lines: Lines, planar: bool) -> list[Common]:
@@ -457,7 +434,9 @@ def clusters_of(result: Result) -> tuple[frozenset[int], ...]:
             if r not in near[q] or any({p, q, r} <= body for body in made):
                 continue
             made.append(_grown({p, q, r}, near, needed))
-    free = [body for body in made if not _is_held(result, body)]
+    # Those of which no coordinate of a joint is fixed.
+    classes = result.given.arrays.coordinate_class
+    free = [body for body in made if not np.any(classes[:, sorted(body)] == Class.FIXED)]
     return tuple(sorted(free, key=lambda body: (-len(body), _key(result, body))))
 
 
@@ -468,12 +447,6 @@ def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[
         if not new:
             return frozenset(body)
         body |= new
-
-
-def _is_held(result: Result, body: frozenset[int]) -> bool:
-    """Whether a coordinate of one of its joints is fixed."""
-    classes = result.given.arrays.coordinate_class[:, sorted(body)]
-    return bool(np.any(classes == Class.FIXED))
 
 
 def _key(result: Result, body: frozenset[int]) -> object:

@@ -11,7 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 from itertools import combinations
+from operator import add
 from typing import NamedTuple
 
 import numpy as np
@@ -23,19 +25,35 @@ from ...core.arrays import BoolArray, FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
 from .cause import LineKind, Relation, RelationKind
-from .conditions import Figure, Figures, are_one, half_turned
-from .lines import Common, Limb, Limbs, Line, Lines, clusters_of, in_common, position_of_hinge
+from .conditions import (
+    Figure,
+    Figures,
+    are_one,
+    circle_terms,
+    conic_terms,
+    half_turned,
+)
+from .lines import (
+    Common,
+    Limb,
+    Limbs,
+    Line,
+    Lines,
+    by_name,
+    clusters_of,
+    in_common,
+    line_of,
+    position_of_hinge,
+)
 from .trials import Trials, symmetries_of
 
+_STRAIGHT = (PartKind.WIRE, PartKind.BAR)
 #: Loads below this part of the largest are none.
 _REST = 1.0e-6
 
 
-class Push(NamedTuple):
-    """What a limb exerts on a body or point where it ends."""
-
-    limb: Limb
-    wrench: Wrench
+#: A limb, and what it exerts on a body or point where it ends.
+Push = tuple[Limb, Wrench]
 
 
 def pushes_on(stress: SelfStress, limbs: Limbs) -> list[tuple[object, list[Push]]]:
@@ -51,7 +69,7 @@ def pushes_on(stress: SelfStress, limbs: Limbs) -> list[tuple[object, list[Push]
             loads = stress.of(limb.at(position)).ends
             wrench = next((end.wrench for end in loads if end.position == position), None)
             if wrench is not None and wrench.size > _REST * largest:
-                found.append(Push(limb, wrench))
+                found.append((limb, wrench))
         if found:
             made.append((key, found))
     return made
@@ -66,24 +84,20 @@ def of_forces(result: Result, stress: SelfStress, limbs: Limbs) -> list[Relation
     ]
     for pushes in sorted(able, key=lambda found: -len(found)):
         lines = Lines(
-            [Line(push.wrench.point, push.wrench.direction) for push in pushes],
+            [Line(wrench.point, wrench.direction) for _, wrench in pushes],
             result.characteristic_length,
         )
-        made = []
-        for one in in_common(lines, planar=result.given.planar):
-            mine = [pushes[k] for k in one.group]
-            made.append(
-                Relation(
-                    one.kind,
-                    LineKind.FORCE,
-                    tuple(part for push in mine for part in push.limb.parts),
-                    (),
-                    one.direction,
-                    one.point,
-                    _couple([push.wrench for push in mine]),
-                    one.pitch,
-                )
+        made = [
+            Relation(
+                *(one.kind, LineKind.FORCE),
+                tuple(part for k in one.group for part in pushes[k][0].parts),
+                (),
+                *(one.direction, one.point),
+                _couple([pushes[k][1] for k in one.group]),
+                one.pitch,
             )
+            for one in in_common(lines, planar=result.given.planar)
+        ]
         if made:
             return made
     return []
@@ -94,28 +108,25 @@ def _has_line(push: Push) -> bool:
 
     Of other limbs the loads of two or three on a body in balance always share a line or a plane.
     """
-    kinds = [part.kind for part in push.limb.parts]
-    is_straight = len(kinds) == 1 and kinds[0] in (PartKind.WIRE, PartKind.BAR)
+    limb, wrench = push
+    kinds = [part.kind for part in limb.parts]
+    is_straight = len(kinds) == 1 and kinds[0] in _STRAIGHT
     is_folded = kinds == [PartKind.SHEET] * 2
-    return push.wrench.kind is WrenchKind.FORCE and (is_straight or is_folded)
+    return wrench.kind is WrenchKind.FORCE and (is_straight or is_folded)
 
 
 def _couple(wrenches: list[Wrench]) -> FloatArray:
     """(3,) the direction of the couple that wrenches make together; zero where they make none."""
-    total = wrenches[0]
-    for wrench in wrenches[1:]:
-        total = total + wrench
+    total = reduce(add, wrenches)
     size = max(wrench.size for wrench in wrenches)
-    if total.size <= _REST * size:
-        return np.zeros(3)
-    if float(np.linalg.norm(total.force)) * total.length > _REST * size:
+    pushes = float(np.linalg.norm(total.force)) * total.length > _REST * size
+    if pushes or total.size <= _REST * size:
         return np.zeros(3)
     return without_sense(total.moment / np.linalg.norm(total.moment))
 
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
 _SAME = 1.0e-6
-_NOWHERE = np.zeros(3)
 
 
 class _Plane(NamedTuple):
@@ -141,8 +152,7 @@ def of_sheets(
     hubs: dict[object, dict[Limb, SelfStress]] = {}
     for stress in stresses:
         for key, pushes in pushes_on(stress, limbs):
-            for push in pushes:
-                hubs.setdefault(key, {})[push.limb] = stress
+            hubs.setdefault(key, {}).update((limb, stress) for limb, _ in pushes)
     for found in hubs.values():
         parts = [limb.parts[0] for limb in found if len(limb.parts) == 1]
         kinds = {part.kind for part in parts}
@@ -151,9 +161,6 @@ def of_sheets(
         sheets = _Sheets(result, found, limbs, parts)
         yield tuple(sheets.in_one_plane())
         yield tuple(sheets.of_motions(motions))
-
-
-_STRAIGHT = (PartKind.WIRE, PartKind.BAR)
 
 
 class _Sheets:
@@ -179,29 +186,35 @@ class _Sheets:
         for plane in self.planes:
             if plane.part in told:
                 continue
-            mine = [one.part for one in self.planes if self._are_one(plane, one)]
-            mine += [wire for wire in self.wires if self._has(plane, wire)]
+            mine = [
+                one.part
+                for one in self.planes
+                if float(np.linalg.norm(np.cross(plane.normal, one.normal))) <= _SAME
+                and self._is_near(plane, one.point)
+            ]
+            mine += [
+                wire
+                for wire in self.wires
+                if all(self._is_near(plane, self.limbs.place(end)) for end in wire.ends)
+            ]
             if len(mine) > 1:
                 told.update(mine)
-                yield _relation(
-                    RelationKind.ONE_PLANE, mine, without_sense(plane.normal), plane.point
-                )
+                normal = without_sense(plane.normal)
+                yield _relation(RelationKind.ONE_PLANE, mine, normal, plane.point)
 
     def of_motions(self, motions: Sequence[Motion]) -> Iterator[Relation]:
         """A line in all planes that all wires meet, or a direction that all lie across."""
         parts = [*(plane.part for plane in self.planes), *self.wires]
         if not self.planes or len(parts) < 2:
             return
-        for motion in motions:
-            for one in motion.bodies:
-                screw = one.screw
-                direction = without_sense(screw.direction)
-                if screw.kind is ScrewKind.ROTATION and self._all_let_turn(screw):
-                    yield _relation(RelationKind.ONE_TRANSVERSAL, parts, direction, screw.point)
-                    return
-                if screw.kind is ScrewKind.TRANSLATION and self._all_let_move(screw):
-                    yield _relation(RelationKind.ACROSS, parts, direction, _NOWHERE)
-                    return
+        for screw in (one.screw for motion in motions for one in motion.bodies):
+            direction = without_sense(screw.direction)
+            if screw.kind is ScrewKind.ROTATION and self._all_let_turn(screw):
+                yield _relation(RelationKind.ONE_TRANSVERSAL, parts, direction, screw.point)
+                return
+            if screw.kind is ScrewKind.TRANSLATION and self._all_let_move(screw):
+                yield _relation(RelationKind.ACROSS, parts, direction, np.zeros(3))
+                return
 
     def _all_let_turn(self, screw: Screw) -> bool:
         if not all(
@@ -210,16 +223,14 @@ class _Sheets:
             for plane in self.planes
         ):
             return False
-        for wire in self.wires:
-            first, way = self._line(wire)
-            moment = np.cross(first - screw.point, way) @ screw.direction
-            if abs(float(moment)) > _SAME * self.length:
-                return False
-        return True
+        lines = (line_of(self.limbs, wire) for wire in self.wires)
+        moments = (np.cross(at - screw.point, way) @ screw.direction for at, way in lines)
+        return all(abs(float(moment)) <= _SAME * self.length for moment in moments)
 
     def _all_let_move(self, screw: Screw) -> bool:
         across = [float(np.linalg.norm(np.cross(p.normal, screw.direction))) for p in self.planes]
-        along = [abs(float(self._line(wire)[1] @ screw.direction)) for wire in self.wires]
+        ways = [line_of(self.limbs, wire).direction for wire in self.wires]
+        along = [abs(float(way @ screw.direction)) for way in ways]
         return max((*across, *along)) <= _SAME
 
     def _are_one(self, one: _Plane, other: _Plane) -> bool:
@@ -231,10 +242,6 @@ class _Sheets:
 
     def _is_near(self, plane: _Plane, point: FloatArray) -> bool:
         return abs(float((point - plane.point) @ plane.normal)) <= _SAME * self.length
-
-    def _line(self, wire: Part) -> tuple[FloatArray, FloatArray]:
-        first, last = (self.limbs.place(end) for end in wire.ends)
-        return first, (last - first) / np.linalg.norm(last - first)
 
 
 def _relation(
@@ -341,15 +348,12 @@ def conic_of(points: FloatArray) -> RelationKind | None:
     """
     if len(points) < 6:
         return None
-    x, y = ((points - points.mean(axis=0)) / np.abs(points - points.mean(axis=0)).max()).T
-    one = np.ones_like(x)
-    if _is_dependent(np.stack((x**2 + y**2, x, y, one))):
+    at = (points - points.mean(axis=0)) / np.abs(points - points.mean(axis=0)).max()
+    if _is_dependent(circle_terms(at).T):
         return RelationKind.CIRCLE
-    if _are_on_two_lines(np.stack((x, y), axis=1)):
+    if _are_on_two_lines(at):
         return RelationKind.TWO_LINES
-    if _is_dependent(np.stack((x**2, x * y, y**2, x, y, one))):
-        return RelationKind.CONIC
-    return None
+    return RelationKind.CONIC if _is_dependent(conic_terms(at).T) else None
 
 
 def _are_on_two_lines(points: FloatArray) -> bool:
@@ -365,8 +369,7 @@ def _are_on_two_lines(points: FloatArray) -> bool:
 def _is_on_line(points: FloatArray, first: FloatArray, second: FloatArray) -> BoolArray:
     way = second - first
     off = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
-    found: BoolArray = np.abs(off) <= _SAME * float(way @ way)
-    return found
+    return np.asarray(np.abs(off) <= _SAME * float(way @ way), bool)
 
 
 def _is_dependent(rows: FloatArray) -> bool:
@@ -463,7 +466,7 @@ class _Ladder:
         self.result, self.stresses, self.motions = result, stresses, motions
         self.limbs, self.trials, self.special = trials.figures.limbs, trials, special
         found = dict.fromkeys(one.part for stress in stresses for one in stress.parts)
-        self.parts = tuple(sorted(found, key=self._key))
+        self.parts = tuple(sorted(found, key=by_name))
         self.are_bars = all(part.kind is PartKind.BAR for part in self.parts)
 
     def found(self) -> tuple[Relation, ...]:
@@ -496,9 +499,8 @@ class _Ladder:
 
     def _told(self, relations: Sequence[Relation]) -> tuple[Relation, ...]:
         """Nothing where they are too many to be told."""
-        if len(relations) > _MOST:
-            return ()
-        return tuple(replace(one, is_sufficient=True) for one in relations)
+        few = relations if len(relations) <= _MOST else ()
+        return tuple(replace(one, is_sufficient=True) for one in few)
 
     def _least(self, every: Sequence[Relation]) -> tuple[Relation, ...]:
         """As few relations as are enough together, else the parts that stand so."""
@@ -526,12 +528,12 @@ class _Ladder:
         values, axes = np.linalg.svd(points - middle, full_matrices=False)[1:]
         size = float(values[0])
         if len(values) > 1 and values[1] <= _SAME * size:
-            yield self._of_all(RelationKind.ONE_LINE, without_sense(axes[0]), middle)
+            kind, axis = RelationKind.ONE_LINE, axes[0]
         elif self.are_bars and not self.result.given.planar and values[-1] <= _SAME * size:
-            yield self._of_all(RelationKind.ONE_PLANE, without_sense(axes[-1]), middle)
-
-    def _of_all(self, kind: RelationKind, direction: FloatArray, point: FloatArray) -> Relation:
-        return Relation(kind, LineKind.MEMBER, self.parts, (), direction, point)
+            kind, axis = RelationKind.ONE_PLANE, axes[-1]
+        else:
+            return
+        yield Relation(kind, LineKind.MEMBER, self.parts, (), without_sense(axis), middle)
 
     def _of_clusters(self) -> Iterator[Relation]:
         """Bars that hold a body made of bars: their lines."""
@@ -541,22 +543,14 @@ class _Ladder:
             mine = [part for part in self.parts if len(set(part.ends) & positions) == 1]
             if len(mine) < 3:
                 continue
-            lines = Lines([self._line(part) for part in mine], self.result.characteristic_length)
+            lines = Lines(
+                [line_of(self.limbs, part) for part in mine], self.result.characteristic_length
+            )
             for one in in_common(lines, planar=self.result.given.planar):
-                yield Relation(
-                    one.kind,
-                    LineKind.MEMBER,
-                    tuple(mine[k] for k in one.group),
-                    (),
-                    one.direction,
-                    one.point,
-                    pitch=one.pitch,
-                )
+                parts = tuple(mine[k] for k in one.group)
+                where = one.direction, one.point
+                yield Relation(one.kind, LineKind.MEMBER, parts, (), *where, pitch=one.pitch)
             return
-
-    def _line(self, part: Part) -> Line:
-        first, last = (self.limbs.place(p) for p in part.ends)
-        return Line(first, (last - first) / np.linalg.norm(last - first))
 
     def _of_joints(self) -> Iterator[Relation]:
         """In the plane: joints on one circle, two lines or a conic."""
@@ -573,18 +567,13 @@ class _Ladder:
         elements = [index for part in self.parts for index in part.elements]
         found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist()) - {-1}
         able = [p for p in found if arrays.node_kind[p] <= NodeKind.POSITION]
-        return tuple(sorted(able, key=self._joint_key))
-
-    def _joint_key(self, position: int) -> tuple[object, ...]:
-        name = self.result.parts.name_of_point(position)
-        return natural(name), self._rounded(position)
-
-    def _rounded(self, position: int) -> tuple[float, ...]:
         step = 1.0e-9 * self.result.characteristic_length
-        return tuple((np.round(self.limbs.place(position) / step) + 0.0).tolist())
 
-    def _key(self, part: Part) -> tuple[object, ...]:
-        return natural(part.name), part.elements
+        def key(position: int) -> tuple[object, ...]:
+            place = np.round(self.limbs.place(position) / step) + 0.0
+            return natural(self.result.parts.name_of_point(position)), tuple(place.tolist())
+
+        return tuple(sorted(able, key=key))
 
 
 def merged(relations: Iterable[Relation]) -> tuple[Relation, ...]:
@@ -596,16 +585,14 @@ def merged(relations: Iterable[Relation]) -> tuple[Relation, ...]:
             made.append(one)
             continue
         parts = dict.fromkeys((*made[same].parts, *one.parts))
-        ordered = sorted(parts, key=lambda part: (natural(part.name), part.elements))
+        ordered = sorted(parts, key=by_name)
         made[same] = replace(made[same], parts=tuple(ordered))
     return tuple(made)
 
 
 def _go_together(one: Relation, other: Relation) -> bool:
-    if one.kind is not other.kind or one.of is not other.of:
+    if (one.kind, one.of) != (other.kind, other.of) or not set(one.parts) & set(other.parts):
         return False
     if one.kind is not RelationKind.PARALLEL and one.parts != other.parts:
-        return False
-    if not set(one.parts) & set(other.parts):
         return False
     return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= _SAME)

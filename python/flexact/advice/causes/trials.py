@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...util.records import Frozen, cached_property
-from ...util.rotations import about
+from ...util.rotations import about as rotation_about
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
 from .gradients import Geometry, rank_at
@@ -29,17 +28,6 @@ _MOST_JOINTS = 36
 #: How many times a rotation may bring all back in one turn.
 _FOLDS = (2, 3, 4, 5, 6, 8)
 _SAME = 1.0e-6
-
-
-class _Operation(NamedTuple):
-    """A rotation or reflection about the middle of the joints."""
-
-    matrix: FloatArray
-    axis: FloatArray
-    fold: int
-    """0 of a reflection."""
-    image: tuple[int, ...]
-    """Which joint each one goes to."""
 
 
 def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
@@ -57,62 +45,51 @@ def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
     places = result.given.arrays.node_value[:3, nodes].T
     middle = places.mean(axis=0)
     held = [result.parts.is_held(node) for node in nodes]
-    for operation in _operations(places - middle, bars, held, result.given.planar):
-        kind = RelationKind.ROTATION if operation.fold else RelationKind.REFLECTION
-        axis, fold = without_sense(operation.axis), max(operation.fold, 1)
-        of = LineKind.MEMBER
-        yield Relation(kind, of, tuple(parts), tuple(nodes), axis, middle, fold=fold)
+    for axis, fold in _operations(places - middle, bars, held, result.given.planar):
+        kind = RelationKind.ROTATION if fold else RelationKind.REFLECTION
+        what = LineKind.MEMBER, tuple(parts), tuple(nodes)
+        yield Relation(kind, *what, without_sense(axis), middle, fold=max(fold, 1))
 
 
 def _operations(
     places: FloatArray, bars: set[frozenset[int]], held: list[bool], planar: bool
-) -> Iterator[_Operation]:
-    """Half-turns, then reflections, then other rotations, that take bars onto bars."""
+) -> Iterator[tuple[FloatArray, int]]:
+    """Axes and folds of what takes bars onto bars.
+
+    Half-turns, then reflections, of fold 0, then other rotations; about the middle of the joints.
+    """
     size = float(np.abs(places).max())
     axes = _candidates(places / size, planar)
-    folds = ((2,), (0,), _FOLDS[1:])
-    for some in folds:
-        for fold in some:
-            for axis in axes if fold or not planar else _in_plane(axes):
-                matrix = about(axis, 2.0 * np.pi / fold) if fold else _reflection(axis)
-                image = _image(places @ matrix.T, places, size)
-                if image is None or image == tuple(range(len(places))):
-                    continue
-                moved = {frozenset(image[k] for k in bar) for bar in bars}
-                if moved == bars and all(held[k] == held[image[k]] for k in range(len(image))):
-                    yield _Operation(matrix, axis, fold, image)
+    in_plane = [axis for axis in axes if abs(float(axis[2])) <= _SAME]
+    for fold in (_FOLDS[0], 0, *_FOLDS[1:]):
+        for axis in axes if fold or not planar else in_plane:
+            matrix = rotation_about(axis, 2.0 * np.pi / fold) if fold else _reflection(axis)
+            image = _image(places @ matrix.T, places, size)
+            if image is None or image == tuple(range(len(places))):
+                continue
+            moved = {frozenset(image[k] for k in bar) for bar in bars}
+            if moved == bars and all(held[k] == held[image[k]] for k in range(len(image))):
+                yield axis, fold
 
 
 def _candidates(places: FloatArray, planar: bool) -> list[FloatArray]:
     """Axes that a symmetry may have: global and principal ones, and those to and between joints."""
-    found = list(np.eye(3)[::-1])
-    if planar:
-        found = found[:1]
+    found = list(np.eye(3)[::-1])[: 1 if planar else 3]
     found += list(np.linalg.svd(places, full_matrices=True)[2][::-1])
     found += list(places)
     for a, b in combinations(range(len(places)), 2):
         found += [places[a] + places[b], places[b] - places[a]]
-    made: list[FloatArray] = []
-    seen: set[tuple[float, ...]] = set()
+    made: dict[tuple[float, ...], FloatArray] = {}
     for axis in found:
         length = float(np.linalg.norm(axis))
-        if length <= _SAME:
-            continue
-        unit = without_sense(axis / length)
-        key = tuple((np.round(unit, 5) + 0.0).tolist())
-        if key not in seen:
-            seen.add(key)
-            made.append(unit)
-    return made
-
-
-def _in_plane(axes: list[FloatArray]) -> list[FloatArray]:
-    return [axis for axis in axes if abs(float(axis[2])) <= _SAME]
+        if length > _SAME:
+            unit = without_sense(axis / length)
+            made.setdefault(tuple((np.round(unit, 5) + 0.0).tolist()), unit)
+    return list(made.values())
 
 
 def _reflection(normal: FloatArray) -> FloatArray:
-    made: FloatArray = np.eye(3) - 2.0 * np.outer(normal, normal)
-    return made
+    return np.asarray(np.eye(3) - 2.0 * np.outer(normal, normal))
 
 
 def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...] | None:
@@ -128,7 +105,7 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
 def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
     """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
     is_turn = one.kind is RelationKind.ROTATION
-    matrix = about(one.direction, 2.0 * np.pi / one.fold)
+    matrix = rotation_about(one.direction, 2.0 * np.pi / one.fold)
     matrix = matrix if is_turn else _reflection(one.direction)
     own = np.searchsorted(result.condensed.nodes, one.nodes)
     now = result.given.arrays.node_value[:3, list(one.nodes)].T - one.point
@@ -174,6 +151,7 @@ class Trials(Frozen):
     def __init__(self, result: Result, generic: int) -> None:
         """Keep the result."""
         self.result, self.generic = result, generic
+        # How many ranks may still be found.
         self.left = [int(np.clip(_MOST_WORK // max(result.rows, 1), _FEWEST, _MOST))]
 
     @property
@@ -197,14 +175,12 @@ class Trials(Frozen):
                 break
             if self.left[0] <= 0:
                 return False
-            made = self.having(relations, trial)
-            if made is None:
-                continue
-            self.left[0] -= 1
-            rank = rank_at(self.geometry, *made)
-            if rank is None or rank > self.generic - special:
-                return False
-            tried += 1
+            if made := self.having(relations, trial):
+                self.left[0] -= 1
+                rank = rank_at(self.geometry, *made)
+                if rank is None or rank > self.generic - special:
+                    return False
+                tried += 1
         return tried == _TRIALS
 
     def having(

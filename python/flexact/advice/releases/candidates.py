@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.change import Change
-from ...analysis.decomposition import column_weights, row_weights
+from ...analysis.decomposition import column_weights
 from ...analysis.mode_basis import column_key, coordinate_key, deformation_key, row_key
 from ...analysis.result import Result
 from ...analysis.sparse_basis import Sparse, index_of, support_of
-from ...analysis.ways import is_of_class, spanning
+from ...analysis.ways import is_of_class, reaction_entries, released_rates, rows_of, spanning
 from ...core.arrays import Basis, FloatArray
-from ...core.elements import Class, Dual, NodeKind, Role, coordinate_name, dual_table, role_table
+from ...core.elements import Class, NodeKind, Role, coordinate_name, role_table
 from ...model.parts.parts import PartKind
 from ...util.records import Frozen
 
@@ -59,12 +59,12 @@ def tier_of_node(result: Result, given: int) -> int:
 
 def kind_of(result: Result, change: Change) -> Kind:
     """Of what kind the deformation or the coordinate of a change is, however it is turned."""
-    if change.deformations:
-        return _of_deformation(result, *change.deformations[0][:2])
-    return _of_coordinate(result, *change.coordinates[0][:2])
-
-
-def _of_deformation(result: Result, element: int, number: int) -> Kind:
+    for node, _, _ in change.coordinates[:1]:
+        index = result.given.node_index[node]
+        turns = int(result.given.arrays.node_kind[index] > NodeKind.POSITION)
+        held = int(np.count_nonzero(result.given.arrays.coordinate_class[:, index] == 1))
+        return "node", tier_of_node(result, index), turns, held
+    element, number, _ = change.deformations[0]
     index = result.given.element_index[element]
     part = result.parts.of_element(index)
     role = int(role_table()[result.given.arrays.element_kind[index], number - 1])
@@ -73,19 +73,8 @@ def _of_deformation(result: Result, element: int, number: int) -> Kind:
     if not wide and role in _BENDINGS:
         # Of a member that is wide in neither direction both are alike.
         return part.kind.value, 1, int(Role.BENDING_XY_P), 0
-    return (
-        part.kind.value,
-        tier_of_element(result, index),
-        int(_ENDS.get(Role(role), role)),
-        in_plane,
-    )
-
-
-def _of_coordinate(result: Result, node: int, name: str) -> Kind:
-    index = result.given.node_index[node]
-    turns = bool(result.given.arrays.node_kind[index] > NodeKind.POSITION)
-    held = int(np.count_nonzero(result.given.arrays.coordinate_class[:, index] == 1))
-    return "node", tier_of_node(result, index), int(turns), held
+    tier = tier_of_element(result, index)
+    return part.kind.value, tier, int(_ENDS.get(Role(role), role)), in_plane
 
 
 #: Rows of a null space that are held in full, times vectors, and times vectors again.
@@ -132,74 +121,48 @@ def fits(basis: Basis) -> bool:
 def of_rows(result: Result, vectors: Places | None = None) -> Reach:
     """The fixed deformations among the rows of D(c), over the self-stresses or some of them."""
     able = is_of_class(result, Class.FIXED)
-    rows, index = _rows(_some(result.stress_space, vectors), able)
-    return Reach(
-        *(rows, index, lambda row: row_key(result, row)),
-        lambda row: _released(result, *(result.raw.row_label[:, row] - 1).tolist()),
-    )
+    space = result.stress_space
+    if vectors is not None:
+        space = space.only(vectors.astype(np.int32))
+
+    def change(row: int) -> Change:
+        return _of_deformation(result, *(result.raw.row_label[:, row] - 1).tolist())
+
+    return Reach(*rows_of(space, able), lambda row: row_key(result, row), change)
 
 
 def of_columns(result: Result, vectors: Places | None = None) -> Reach:
     """The columns of D(c), over the motions or some of them."""
-    space = _some(result.motion_space, vectors)
-    rows, index = _rows(space, np.ones(result.columns, bool))
-    return Reach(
-        *(rows, index, lambda column: column_key(result, column)),
-        lambda column: _declared(result, *(result.raw.column_label[:, column] - 1).tolist()),
-    )
+    space = result.motion_space
+    if vectors is not None:
+        space = space.only(vectors.astype(np.int32))
+
+    def change(column: int) -> Change:
+        node, axis = (result.raw.column_label[:, column] - 1).tolist()
+        return _of_coordinate(result, node, axis, Class.INDEPENDENT)
+
+    return Reach(*rows_of(space), lambda column: column_key(result, column), change)
 
 
 def of_supports(result: Result) -> Reach:
     """The fixed coordinates, over the self-stresses: the reactions, as forces."""
-    arrays = result.data.arrays
-    whole = result.assembly
-    able = (arrays.coordinate_class.T == Class.FIXED).ravel()
-    element, deformation = result.raw.row_label - 1
-    row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
-    chosen = able[whole.column_of] & (row >= 0)
-    matrix = Sparse(whole.column_of, row, whole.value, able.size).only(chosen)
-    turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
-    weight = 1.0 / np.where(turned, result.characteristic_length, 1.0)
-    value = matrix.value * weight[matrix.row_of] / row_weights(result)[matrix.column_of]
-    rows, index = _product(matrix._replace(value=value), result.stress_space)
+    able = (result.data.arrays.coordinate_class.T == Class.FIXED).ravel()
     return Reach(
-        *(rows, index, lambda place: coordinate_key(result, *divmod(place, 3))),
-        lambda place: _of_coordinate_of_candidates(result, *divmod(place, 3), Class.DEPENDENT),
+        *_product(reaction_entries(result, able), result.stress_space),
+        lambda place: coordinate_key(result, *divmod(place, 3)),
+        lambda place: _of_coordinate(result, *divmod(place, 3), Class.DEPENDENT),
     )
 
 
 def of_released(result: Result) -> Reach:
     """The released deformations, over the motions: their rates, angles as lengths."""
-    arrays = result.data.arrays
-    whole = result.assembly
-    released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
-    node, axis = result.raw.column_label - 1
-    column = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
-    chosen = released[whole.row_of] & (column >= 0)
-    matrix = Sparse(whole.row_of, column, whole.value, released.size).only(chosen)
-    angle = (dual_table()[arrays.element_kind] == Dual.MOMENT).ravel()
-    weight = np.where(angle, result.characteristic_length, 1.0)
-    value = matrix.value * weight[matrix.row_of] / column_weights(result)[matrix.column_of]
-    rows, index = _product(matrix._replace(value=value), result.motion_space)
+    matrix, length = released_rates(result)
+    value = matrix.value * length[matrix.row_of] / column_weights(result)[matrix.column_of]
     return Reach(
-        *(rows, index, lambda place: deformation_key(result, *divmod(place, 6))),
-        lambda place: _held(result, *divmod(place, 6)),
+        *_product(matrix._replace(value=value), result.motion_space),
+        lambda place: deformation_key(result, *divmod(place, 6)),
+        lambda place: _of_deformation(result, *divmod(place, 6), Class.FIXED),
     )
-
-
-def _some(basis: Basis, vectors: Places | None) -> Basis:
-    return basis if vectors is None else basis.only(vectors.astype(np.int32))
-
-
-def _rows(basis: Basis, able: NDArray[np.bool_]) -> tuple[FloatArray, Places]:
-    """Those rows of a basis that are not zero."""
-    support = support_of(basis)
-    support = support[able[support]]
-    place = index_of(support, basis.size)[basis.place]
-    there = place >= 0
-    made = np.zeros((support.size, basis.vectors))
-    made[place[there], basis.of_entries()[there]] = basis.value[there]
-    return made, support
 
 
 def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, Places]:
@@ -215,27 +178,15 @@ def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, Places]:
     return made[0][left], index[left]
 
 
-def _released(result: Result, element: int, deformation: int) -> Change:
-    return _of_deformation_of_candidates(result, element, deformation, Class.DEPENDENT)
-
-
-def _declared(result: Result, node: int, axis: int) -> Change:
-    return _of_coordinate_of_candidates(result, node, axis, Class.INDEPENDENT)
-
-
-def _held(result: Result, element: int, deformation: int) -> Change:
-    return _of_deformation_of_candidates(result, element, deformation, Class.FIXED)
-
-
-def _of_deformation_of_candidates(
-    result: Result, element: int, deformation: int, given: Class
+def _of_deformation(
+    result: Result, element: int, deformation: int, given: Class = Class.DEPENDENT
 ) -> Change:
     index, own = result.condensed.in_given(element, deformation + 1)
     number = int(result.given.arrays.element_number[index])
     return Change(deformations=((number, own, given),))
 
 
-def _of_coordinate_of_candidates(result: Result, node: int, axis: int, given: Class) -> Change:
+def _of_coordinate(result: Result, node: int, axis: int, given: Class) -> Change:
     arrays = result.data.arrays
     name = coordinate_name(int(arrays.node_kind[node]), axis)
     return Change(coordinates=((int(arrays.node_number[node]), name, given),))
@@ -278,7 +229,10 @@ def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candi
             at.
     """
     count = reach.vectors
-    place = _order(reach)
+    # The place of each row among all by names and geometry.
+    keys = [reach.key(int(i)) for i in reach.index]
+    place = np.empty(len(keys), np.int64)
+    place[sorted(range(len(keys)), key=keys.__getitem__)] = np.arange(len(keys))
     found = list(_sets(reach, place, count, wishes))
     if not found:
         return []
@@ -290,8 +244,8 @@ def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candi
         return []
     rounded = np.round(np.log(condition), 6)[:, None]
     ranks = np.concatenate([np.round(ranking(sets, condition), 6), rounded], axis=1).tolist()
-    keys = [tuple(sorted(place[list(each)].tolist())) for each in sets.tolist()]
-    order = sorted(range(len(keys)), key=lambda i: (tuple(ranks[i]), keys[i]))
+    ties = [tuple(sorted(place[list(each)].tolist())) for each in sets.tolist()]
+    order = sorted(range(len(ties)), key=lambda i: (tuple(ranks[i]), ties[i]))
     return [
         Candidate(
             tuple(sorted(sets[i].tolist(), key=lambda row: int(place[row]))),
@@ -300,14 +254,6 @@ def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candi
         )
         for i in order
     ]
-
-
-def _order(reach: Reach) -> Places:
-    """(n,) the place of each row among all by names and geometry."""
-    keys = [reach.key(int(i)) for i in reach.index]
-    place = np.empty(len(keys), np.int64)
-    place[sorted(range(len(keys)), key=keys.__getitem__)] = np.arange(len(keys))
-    return place
 
 
 def _conditions(rows: FloatArray, sets: Places) -> FloatArray:

@@ -7,6 +7,7 @@ above that; in between somebody else is asked.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -61,18 +62,18 @@ def echelon_of(matrix: FloatArray, least: float = 0.0) -> Echelon | None:
     others = np.setdiff1d(np.arange(rows), basis)
     if not _smallest(matrix[basis]) > least:
         return None
-    factor = _in_terms_of(matrix[basis], matrix[others])
+
+    def in_terms_of_basis() -> FloatArray:
+        return np.asarray(np.linalg.solve(matrix[basis].T, matrix[others].T), np.float64)
+
+    factor = in_terms_of_basis()
     for _ in range(_MOST_EXCHANGES * factor.size):
         i, j = divmod(int(np.argmax(np.abs(factor))), others.size)
         if abs(factor[i, j]) <= _EXCHANGED:
             break
         basis[i], others[j] = others[j], basis[i]
-        factor = _in_terms_of(matrix[basis], matrix[others])
+        factor = in_terms_of_basis()
     return Echelon(basis, others, factor, _smallest(matrix[basis]))
-
-
-def _in_terms_of(basis: FloatArray, others: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.solve(basis.T, others.T), np.float64)
 
 
 def _smallest(block: FloatArray) -> float:
@@ -183,14 +184,13 @@ class Minor:
     def without(self, rows: NDArray[np.integer], columns: NDArray[np.integer]) -> Minor:
         """Without some pieces, of the basis and of the others, that are decided elsewhere."""
         gone = set(rows.tolist()), set(columns.tolist())
-        basis = [piece for k, piece in enumerate(self.basis) if k not in gone[0]]
-        others = [piece for k, piece in enumerate(self.others) if k not in gone[1]]
-        left_rows = np.setdiff1d(np.arange(len(self.basis)), rows)
-        left_columns = np.setdiff1d(np.arange(len(self.others)), columns)
+        kept = [k for k in range(len(self.basis)) if k not in gone[0]]
+        kept_others = [k for k in range(len(self.others)) if k not in gone[1]]
         chosen = self.chosen.union(
             *(self.basis[k].taken for k in gone[0]), *(self.others[k].left for k in gone[1])
         )
-        some = np.ix_(left_rows, left_columns)
+        some = np.ix_(kept, kept_others)
+        basis, others = [self.basis[k] for k in kept], [self.others[k] for k in kept_others]
         return Minor(self.factor[some], self.error[some], basis, others, chosen)
 
     def deleted(self, i: int, judge: Judge) -> Minor:
@@ -308,9 +308,7 @@ class _Counter:
 
     def count(self, minor: Minor) -> int:
         """The weighted number of bases."""
-        product = 1
-        factor, parts = _components(minor)
-        product *= factor
+        product, parts = _components(minor)
         for part in parts:
             if product == 0:
                 break
@@ -350,25 +348,21 @@ class _Counter:
 
     def _reduced(self, minor: Minor) -> tuple[Minor, bool]:
         """With pieces in parallel and in series put together, if there are any."""
-        single = np.argwhere(np.count_nonzero(minor.factor, axis=0) == 1).ravel()
-        if single.size and minor.factor.size:
-            gone = set()
-            for j in single.tolist():
-                i = int(np.argmax(np.abs(minor.factor[:, j])))
-                minor.basis[i] = in_parallel(minor.basis[i], minor.others[j])
-                gone.add(j)
-            return _merged(minor, gone, False), True
-        single = np.argwhere(np.count_nonzero(minor.factor, axis=1) == 1).ravel()
-        if single.size and minor.factor.size:
-            gone = set()
-            for i in single.tolist():
-                j = int(np.argmax(np.abs(minor.factor[i])))
-                minor.others[j] = in_series(minor.others[j], minor.basis[i])
-                gone.add(i)
-            return _merged(minor, gone, True), True
+        size, nonzero = np.abs(minor.factor), minor.factor != 0.0
+        for is_row in (False, True) if minor.factor.size else ():
+            single = np.flatnonzero(np.count_nonzero(nonzero, axis=int(is_row)) == 1).tolist()
+            for k in single:
+                if is_row:
+                    j = int(np.argmax(size[k]))
+                    minor.others[j] = in_series(minor.others[j], minor.basis[k])
+                else:
+                    i = int(np.argmax(size[:, k]))
+                    minor.basis[i] = in_parallel(minor.basis[i], minor.others[k])
+            if single:
+                return _merged(minor, set(single), is_row), True
         for is_row, merge in ((False, in_parallel), (True, in_series)):
             pieces = minor.basis if is_row else minor.others
-            gone = set()
+            gone: set[int] = set()
             for i, j in list(minor.alike(is_row, self.judge)):
                 if i not in gone and j not in gone:
                     pieces[i] = merge(pieces[i], pieces[j])
@@ -393,18 +387,13 @@ def _components(minor: Minor) -> tuple[int, list[Minor]]:
     rows, columns = len(minor.basis), len(minor.others)
     pairs = np.argwhere(minor.factor != 0.0)
     group = groups_of(rows + columns, ((i, rows + j) for i, j in pairs.tolist()))
-    factor, parts = 1, []
     sizes = np.bincount(group, minlength=rows + columns)
-    for k, piece in enumerate(minor.basis):
-        if sizes[group[k]] == 1:
-            factor *= piece.inside
-    for k, piece in enumerate(minor.others):
-        if sizes[group[rows + k]] == 1:
-            factor *= piece.outside
-    for one in np.flatnonzero(sizes > 1).tolist():
-        mine = group == one
-        parts.append(minor.without(np.flatnonzero(~mine[:rows]), np.flatnonzero(~mine[rows:])))
-    return factor, parts
+    ways = [piece.inside for piece in minor.basis] + [piece.outside for piece in minor.others]
+    factor = math.prod(way for k, way in enumerate(ways) if sizes[group[k]] == 1)
+    outside = [group != one for one in np.flatnonzero(sizes > 1)]
+    return factor, [
+        minor.without(np.flatnonzero(each[:rows]), np.flatnonzero(each[rows:])) for each in outside
+    ]
 
 
 def _uniform(pieces: list[Piece], size: int) -> int:

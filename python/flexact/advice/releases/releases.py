@@ -1,23 +1,44 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which sets of deformations, released, leave no self-stress."""
+"""Which sets of deformations, released, or of coordinates, declared, leave nothing over.
+
+Sets of releases leave no self-stress, sets of declarations no motion. Declarations that are driven
+against a constraint, which makes a self-stress, are taken back.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import chain
 
 import numpy as np
 
+from ...analysis import ways
+from ...analysis.calls import taken_back
 from ...analysis.change import Change
 from ...analysis.decomposition import row_duals
+from ...analysis.deformation_words import deformation_words
+from ...analysis.mode_basis import row_key
+from ...analysis.mode_words import joined
+from ...analysis.naming import Pieces, coordinate_in_words, named_element
 from ...analysis.result import Result
 from ...analysis.sparse_basis import groups_of
-from ...core.arrays import Basis, FloatArray
-from ...core.elements import Dual, NodeKind, Role, dual_table, role_table
+from ...analysis.ways import Coordinate, Deformation
+from ...core.arrays import FloatArray
+from ...core.elements import (
+    Class,
+    Dual,
+    NodeKind,
+    Role,
+    coordinate_name,
+    dual_table,
+    role_table,
+)
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
 from ...util.records import Frozen
-from ..proposal import Proposal, Purpose, after, nothing
+from ..step import Purpose, Step, after, together, tried
 from . import candidates as reaches
 from .candidates import (
     BODY,
@@ -29,13 +50,24 @@ from .candidates import (
     tier_of_element,
     tier_of_node,
 )
-from .counting import as_it_stands, changed, complete, counted, joined
 from .matroid import echelon_of
-from .verify import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
+from .verify import (
+    NOTHING_LEFT_OUT,
+    LeftOut,
+    Listed,
+    as_it_stands,
+    changed,
+    complete,
+    counted,
+    decades,
+    left_of,
+    listed,
+)
+from .words import Release, coordinate_named, outcome_as_given
 
 #: Stresses below this part of the largest of a self-stress are none.
 _NOTHING = 1.0e-7
-#: Column of ESTIFF, and of the shear, by role; of planar beams those of `_PLANAR`.
+#: Columns of ESTIFF by role: of the stiffness, and of the shear of a bending.
 _STIFFNESS: dict[int, int] = {
     Role.ELONGATION: 0,
     Role.TORSION: 1,
@@ -103,6 +135,8 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
 
     None where that of a stressed row of another part is not known.
     """
+    properties = result.given.properties
+    assert properties is not None
     made = np.zeros((stressed.size, stressed.size))
     element, deformation = result.raw.row_label - 1
     kind = result.data.arrays.element_kind[element]
@@ -112,9 +146,11 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
     }
     for k in np.flatnonzero(stressed).tolist():
         e, role = int(element[k]), int(roles[k])
-        value, shear = _given(result, e, role, int(deformation[k]))
-        if value is None:
-            if result.parts.of_element(int(result.condensed.elements[e])).kind is PartKind.BODY:
+        given = int(result.condensed.elements[e])
+        numbers = properties.stiffness[given].tolist()
+        value = numbers[_STIFFNESS.get(role, int(deformation[k]))]
+        if not value > 0.0:
+            if result.parts.of_element(given).kind is PartKind.BODY:
                 continue
             return None
         length = float(result.data.frames.length[e])
@@ -123,7 +159,7 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
         elif role not in _SHEAR:
             made[k, k] = length / value
         else:
-            phi = 12.0 * shear / length**2
+            phi = 12.0 * max(numbers[_SHEAR[role]], 0.0) / length**2
             made[k, k] = length / (12.0 * value) * (4.0 + phi)
             other = place.get((e, _OTHER_END.get(role, -1)))
             if other is not None and stressed[other]:
@@ -131,21 +167,12 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
     return made
 
 
-def _given(result: Result, element: int, role: int, deformation: int) -> tuple[float | None, float]:
-    """Stiffness of a deformation as ESTIFF gives it, and the shear, zero without."""
-    assert result.given.properties is not None
-    numbers = result.given.properties.stiffness[int(result.condensed.elements[element])]
-    value = float(numbers[_STIFFNESS.get(role, deformation)])
-    shear = float(numbers[_SHEAR[role]]) if role in _SHEAR else 0.0
-    return (value if value > 0.0 else None), (shear if shear > 0.0 else 0.0)
-
-
 #: Rows of D(c) of all analyses that are made.
 _MOST_ROWS = 1_200_000
 #: Of vectors that hang together so many are taken at once.
 _AT_ONCE = 60
 #: Blocks with smaller singular values are not used.
-_STEPS_LEAST = 1.0e-4
+_LEAST_SINGULAR = 1.0e-4
 
 #: The rows over some of the vectors of a result.
 ReachOf = Callable[[Result, Places], Reach]
@@ -155,15 +182,20 @@ Unwelcome = Callable[[Result, Reach], FloatArray]
 
 def by_steps(
     stands: Result, purpose: Purpose, reach_of: ReachOf, unwelcome: Unwelcome
-) -> Proposal | None:
+) -> Release | None:
     """One set that leaves nothing; None where it is not found in little time.
 
     Its condition is the largest of those of the steps.
     """
     now, changes, condition, rows = stands, list[Change](), 1.0, 0
-    while before := _left(purpose, now):
-        groups = _groups(_space(purpose, now))
-        done = sum(group.size for group in groups)
+    while before := left_of(purpose, now):
+        space = now.stress_space if purpose is Purpose.RELEASE else now.motion_space
+        # Of vectors that share places, of each such group the first.
+        group = groups_of(space) if space.vectors else np.zeros(0, np.int64)
+        order = np.argsort(group, kind="stable")
+        ends = np.flatnonzero(np.diff(group[order])) + 1
+        groups = [part[:_AT_ONCE] for part in np.split(order, ends) if part.size]
+        done = sum(vectors.size for vectors in groups)
         # So many more are needed if each step goes as far as this one.
         if not done or rows + now.rows * before / done > _MOST_ROWS:
             return None
@@ -176,43 +208,26 @@ def by_steps(
             condition = max(condition, 1.0 / block[1])
             changes += [reach.change(int(reach.index[row])) for row in block[0]]
         try:
-            now = changed(stands, joined(changes))
+            now = changed(stands, together(changes))
         except FlexactError:
             return None
-        if _left(purpose, now) >= before:
+        if left_of(purpose, now) >= before:
             return None
-    return Proposal(purpose, joined(changes), condition, after(now))
-
-
-def _left(purpose: Purpose, result: Result) -> int:
-    is_release = purpose is Purpose.RELEASE
-    return result.over_constrained if is_release else result.under_constrained
-
-
-def _space(purpose: Purpose, result: Result) -> Basis:
-    return result.stress_space if purpose is Purpose.RELEASE else result.motion_space
-
-
-def _groups(space: Basis) -> list[Places]:
-    """Vectors that share places, of each such group the first."""
-    if not space.vectors:
-        return []
-    group = groups_of(space)
-    order = np.argsort(group, kind="stable")
-    parts = np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
-    return [part[:_AT_ONCE] for part in parts]
+    return Release(stands, purpose, together(changes), condition, after(now))
 
 
 def _block(reach: Reach, unwelcome: FloatArray) -> tuple[list[int], float] | None:
     """Rows with a well-conditioned block, and its smallest singular value."""
     for most in np.unique(unwelcome).tolist():
         some = np.flatnonzero(unwelcome <= most)
-        form = echelon_of(reach.rows[some], _STEPS_LEAST)
+        form = echelon_of(reach.rows[some], _LEAST_SINGULAR)
         if form is not None:
             return some[form.basis].tolist(), form.smallest
     return None
 
 
+#: Nothing is listed.
+_NONE: Listed = ((), NOTHING_LEFT_OUT)
 #: How many supports that may be freed are listed.
 _MOST_SUPPORTS = 4
 
@@ -236,8 +251,8 @@ class Releases(Frozen):
 
     size: int
     count: int | None
-    sets: tuple[Proposal, ...] = ()
-    supports: tuple[Proposal, ...] = ()
+    sets: tuple[Release, ...] = ()
+    supports: tuple[Release, ...] = ()
     left_out: LeftOut = NOTHING_LEFT_OUT
     doubtful: int | None = 0
 
@@ -248,7 +263,7 @@ def releases_of(result: Result, with_bodies: bool = False) -> Releases:
     A set of s deformations works exactly when the s x s block of their rows in the left null
     space of D(c) is regular; they are counted on the deck as it stands, where each beam of a
     divided sheet is one of its own. What is listed are deformations of whole sheets, at their
-    ends, as a designer would release them. `condition` of a proposal is the inverse of the
+    ends, as a designer would release them. `condition` of a set is the inverse of the
     smallest singular value of its block in an orthonormal basis, with moments compared by the
     characteristic length: by so much the largest self-stress can exceed what the released
     deformations carry of it.
@@ -269,42 +284,32 @@ def releases_of(result: Result, with_bodies: bool = False) -> Releases:
     stands = as_it_stands(result)
     size = stands.over_constrained
     if not size:
-        return Releases(0, 1, (nothing(result, Purpose.RELEASE),))
+        nothing = Release(result, Purpose.RELEASE, Change(), 1.0, after(result))
+        return Releases(0, 1, (nothing,))
     if stands.stress_space.vectors < size or not reaches.fits(stands.stress_space):
         one = by_steps(stands, Purpose.RELEASE, reaches.of_rows, _tiers)
-        sets = () if one is None else (one,)
-        return Releases(size, None, sets, left_out=LeftOut(is_too_large=True))
-    reach = reaches.of_rows(stands)
-    count = counted(stands, reach, lambda after: after.over_constrained)
-    tried = Outcome((), NOTHING_LEFT_OUT)
-    for source in _sources(result, stands):
-        tried = _listed(result, source, with_bodies) if count.certain != 0 else tried
-        if tried.proposals:
-            break
-    supports = _supports(result, _whole(result, stands))
-    return Releases(
-        *(size, count.certain, tried.proposals, supports.proposals),
-        tried.left_out,
-        count.doubtful,
-    )
+        return Releases(size, None, _own(result, one), left_out=LeftOut(is_too_large=True))
+    count, doubtful = counted(stands, reaches.of_rows(stands), Purpose.RELEASE)
+    whole = stands
+    if result.with_internal_declared is not None:
+        whole = complete(result.with_internal_declared)
+    elif result.condensed.chains:
+        whole = complete(result)
+    # Whole sheets are listed where they have as many self-stresses.
+    sets, left_out = _NONE
+    for source in dict.fromkeys(one for one in (whole, stands) if one.over_constrained == size):
+        if count != 0 and not sets:
+            sets, left_out = _listed(result, source, with_bodies)
+    supports, _ = _supports(result, whole)
+    return Releases(size, count, sets, supports, left_out, doubtful)
 
 
-def _sources(result: Result, stands: Result) -> list[Result]:
-    """Results whose rows are listed: of whole sheets, where they have as many self-stresses."""
-    whole = _whole(result, stands)
-    same = [whole] if whole.over_constrained == stands.over_constrained else []
-    return same if whole is stands else [*same, stands]
+def _own(result: Result, one: Release | None) -> tuple[Release, ...]:
+    """A set, if one was found, as a step of the result itself."""
+    return () if one is None else (replace(one, analysis=result),)
 
 
-def _whole(result: Result, stands: Result) -> Result:
-    """The result with each divided sheet or wire as one beam."""
-    whole = result.with_internal_declared
-    if whole is not None:
-        return complete(whole)
-    return complete(result) if result.condensed.chains else stands
-
-
-def _listed(result: Result, source: Result, with_bodies: bool) -> Outcome:
+def _listed(result: Result, source: Result, with_bodies: bool) -> Listed:
     reach = reaches.of_rows(source)
     tiers = _tiers(source, reach)
     cost = cost_of(source, reach)
@@ -329,10 +334,10 @@ def _tiers(source: Result, reach: Reach) -> FloatArray:
     return np.array([tier_of_element(source, int(i)) for i in elements], float)
 
 
-def _supports(result: Result, source: Result) -> Outcome:
+def _supports(result: Result, source: Result) -> Listed:
     space = source.stress_space
     if source.over_constrained != space.vectors or not reaches.fits(space):
-        return Outcome((), NOTHING_LEFT_OUT)
+        return _NONE
     reach = reaches.of_supports(source)
     found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))
     return listed(result, reach, Purpose.RELEASE, found, _MOST_SUPPORTS)
@@ -362,8 +367,8 @@ class Declarations(Frozen):
 
     size: int
     count: int | None
-    sets: tuple[Proposal, ...] = ()
-    holds: tuple[Proposal, ...] = ()
+    sets: tuple[Release, ...] = ()
+    holds: tuple[Release, ...] = ()
     left_out: LeftOut = NOTHING_LEFT_OUT
     doubtful: int | None = 0
 
@@ -373,7 +378,7 @@ def declarations_of(result: Result) -> Declarations:
 
     A set of m coordinates works exactly when the m x m block of their rows in the null space of
     D(c) is regular. They are counted on the deck as it stands, where each beam of a divided
-    sheet is one of its own. `condition` of a proposal is the inverse of the smallest singular
+    sheet is one of its own. `condition` of a set is the inverse of the smallest singular
     value of its block in an orthonormal basis, with rotations compared by the characteristic
     length. Sets of a condition within ten times the best come first, of these such of bodies,
     then of joints, then of what is inside of sheets; displacements before rotations. Without a
@@ -385,32 +390,30 @@ def declarations_of(result: Result) -> Declarations:
     stands = as_it_stands(result)
     size = stands.under_constrained
     if not size:
-        return Declarations(0, 1, (nothing(result, Purpose.DECLARE),))
+        nothing = Release(result, Purpose.DECLARE, Change(), 1.0, after(result))
+        return Declarations(0, 1, (nothing,))
     if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
-        one = by_steps(stands, Purpose.DECLARE, reaches.of_columns, _tiers_of_declarations)
-        sets = () if one is None else (one,)
-        return Declarations(size, None, sets, left_out=LeftOut(is_too_large=True))
-    reach = reaches.of_columns(stands)
-    count = counted(stands, reach, lambda after: after.under_constrained)
+        one = by_steps(stands, Purpose.DECLARE, reaches.of_columns, _tiers_of_nodes)
+        return Declarations(size, None, _own(result, one), left_out=LeftOut(is_too_large=True))
+    count, doubtful = counted(stands, reaches.of_columns(stands), Purpose.DECLARE)
     whole = complete(result) if result.condensed.chains else stands
-    tried = Outcome((), NOTHING_LEFT_OUT)
+    sets, left_out = _NONE
     for source in dict.fromkeys(one for one in (whole, stands) if one.under_constrained == size):
-        tried = _listed_of_declarations(result, source)
-        if tried.proposals:
-            break
+        if not sets:
+            sets, left_out = _listed_coordinates(result, source)
     is_told = whole.under_constrained == size and result.with_internal_declared is None
-    holds = _holds(result, whole) if is_told else Outcome((), NOTHING_LEFT_OUT)
-    return Declarations(
-        *(size, count.certain, tried.proposals, holds.proposals),
-        tried.left_out,
-        count.doubtful,
-    )
+    holds: tuple[Release, ...] = ()
+    if is_told:
+        reach = reaches.of_released(whole)
+        found = candidates(reach, lambda _, worst: decades(worst), np.zeros(len(reach.index)))
+        holds, _ = listed(result, reach, Purpose.HOLD, found, _MOST_HELD)
+    return Declarations(size, count, sets, holds, left_out, doubtful)
 
 
-def _listed_of_declarations(result: Result, source: Result) -> Outcome:
+def _listed_coordinates(result: Result, source: Result) -> Listed:
     reach = _without_repeats(source, reaches.of_columns(source))
     nodes = source.raw.column_label[0, reach.index] - 1
-    tiers = _tiers_of_declarations(source, reach)
+    tiers = _tiers_of_nodes(source, reach)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
 
     def ranking(sets: Places, condition: FloatArray) -> FloatArray:
@@ -418,22 +421,17 @@ def _listed_of_declarations(result: Result, source: Result) -> Outcome:
         turning = turns[sets].sum(axis=1)[:, None]
         return np.concatenate([decades(condition), of_sets, turning], axis=1)
 
-    found = candidates(reach, ranking, tiers)
-    return listed(result, reach, Purpose.DECLARE, _one_inside(found, tiers))
+    # Of sets that differ in what is inside of sheets and wires alone the best.
+    first: dict[tuple[int, ...], Candidate] = {}
+    for one in candidates(reach, ranking, tiers):
+        first.setdefault(tuple(i for i in one.members if tiers[i] < LINK), one)
+    return listed(result, reach, Purpose.DECLARE, list(first.values()))
 
 
-def _tiers_of_declarations(source: Result, reach: Reach) -> FloatArray:
+def _tiers_of_nodes(source: Result, reach: Reach) -> FloatArray:
     """(n,) how late coordinates are declared."""
     nodes = source.condensed.nodes[source.raw.column_label[0, reach.index] - 1]
     return np.array([tier_of_node(source, int(i)) for i in nodes], float)
-
-
-def _one_inside(found: list[Candidate], tiers: FloatArray) -> list[Candidate]:
-    """Of sets that differ in what is inside of sheets and wires alone the best."""
-    first: dict[tuple[int, ...], Candidate] = {}
-    for one in found:
-        first.setdefault(tuple(i for i in one.members if tiers[i] < LINK), one)
-    return list(first.values())
 
 
 def _without_repeats(source: Result, reach: Reach) -> Reach:
@@ -449,7 +447,87 @@ def _without_repeats(source: Result, reach: Reach) -> Reach:
     return reach.only(np.array(sorted(first.values()), np.int64))
 
 
-def _holds(result: Result, source: Result) -> Outcome:
-    reach = reaches.of_released(source)
-    found = candidates(reach, lambda _, condition: decades(condition), np.zeros(len(reach.index)))
-    return listed(result, reach, Purpose.HOLD, found, _MOST_HELD)
+# Declarations taken back --------------------------------------------------------------
+
+#: Of more self-stresses no sets are looked for; so many steps there are at most.
+_MOST_STRESSES, _MOST_TAKEN_BACK = 60, 4
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TakenBack(Step):
+    """Declarations that are taken back."""
+
+    def words(self) -> Pieces:
+        """Such as "take back the declaration of sheet 1: ... (RLSE 1 5 instead of DYNE 1 5)"."""
+        outcome, change = outcome_as_given(self.analysis), self.change
+        what: list[Pieces] = [
+            (
+                named_element(outcome, element),
+                f": {deformation_words(outcome, outcome.data.element_index[element], number)}",
+            )
+            for element, number, _ in change.deformations
+        ]
+        what += [coordinate_in_words(outcome, node, name) for node, name, _ in change.coordinates]
+        if self.analysis.given.source is not None:
+            notes = [f"RLSE {e} {k} instead of DYNE {e} {k}" for e, k, _ in change.deformations]
+            for node, name, _ in change.coordinates:
+                place = coordinate_named(self.analysis, node, name)
+                notes.append(f"without DYNX {place.operands}")
+        else:
+            made = [taken_back(outcome, Deformation(e, k, "")) for e, k, _ in change.deformations]
+            made += [
+                taken_back(outcome, Coordinate(n, name, "")) for n, name, _ in change.coordinates
+            ]
+            notes = list(chain.from_iterable(made)) if all(made) else []
+        is_one = len(what) == 1
+        return (
+            f"take back the declaration{'' if is_one else 's'} of ",
+            *joined(what),
+            ", which is driven against a constraint" if is_one else "",
+            f" ({', '.join(notes)})" if notes else "",
+        )
+
+
+def undeclarations_of(result: Result) -> tuple[TakenBack, ...]:
+    """What declarations can be taken back so that no self-stress is left, each tried.
+
+    A single one where there is one self-stress, deformations or coordinates; else a set of
+    deformations. None where what is declared takes no part in the self-stresses.
+    """
+    count = result.over_constrained
+    if not 0 < count <= _MOST_STRESSES or result.stress_space.vectors < count:
+        return ()
+    made = []
+    for change, condition in _changes(result, count):
+        try:
+            then = tried(result, change)
+        except FlexactError:
+            continue
+        if not then.over_constrained and then.under_constrained <= result.under_constrained:
+            made.append(TakenBack(result, Purpose.UNDECLARE, change, condition, then))
+    return tuple(made[:_MOST_TAKEN_BACK])
+
+
+def _changes(result: Result, count: int) -> Iterator[tuple[Change, float]]:
+    """What may be taken back, and its condition."""
+    if count == 1:
+        for label in ways.driven_deformations(result)[:_MOST_TAKEN_BACK]:
+            yield _of_deformations(result, [label]), 1.0
+        arrays = result.data.arrays
+        for node, axis in ways.driven_coordinates(result)[:_MOST_TAKEN_BACK]:
+            name = coordinate_name(int(arrays.node_kind[node]), axis)
+            place = int(arrays.node_number[node]), name, Class.DEPENDENT
+            yield Change(coordinates=(place,)), 1.0
+        return
+    rows = sorted(ways.driven_set(result), key=partial(row_key, result))
+    if len(rows) == count:
+        block = result.stress_space.toarray()[rows]
+        labels = [(e - 1, number) for e, number in result.raw.row_label[:, rows].T.tolist()]
+        condition = 1.0 / float(np.linalg.svd(block, compute_uv=False)[-1])
+        yield _of_deformations(result, labels), condition
+
+
+def _of_deformations(result: Result, labels: ways.Deformations) -> Change:
+    numbers = result.given.arrays.element_number
+    given = (result.condensed.in_given(*label) for label in labels)
+    return Change(tuple((int(numbers[e]), number, Class.DEPENDENT) for e, number in given))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +31,8 @@ from ...model.parts.condensing import as_given
 from ...model.parts.forms import Form
 from ...model.parts.parts import Part, PartKind
 from ...util.text import harmless
-from ..proposal import Proposal, Purpose
+from ..step import Purpose, Step
+from ..words import row_of
 
 #: Number of an element and a deformation of it, from 1, of the model as given.
 Deformation = tuple[int, int]
@@ -70,160 +72,170 @@ def outcome_as_given(result: Result) -> Decomposition:
     return Decomposition(result.name, as_given(result.given), result.raw, result.asked)
 
 
-def released(outcome: Decomposition, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
-    """What is done to release deformations, part by part.
+#: Words before and behind the name of a part, and what is free or held then, by role.
+_RELEASED = {
+    # No notch, cut or fold frees this alone: a sheet with a fold holds one thing, not two.
+    Role.ELONGATION: ("let ", " slide along its length", " (elongation free)"),
+    Role.TORSION: ("make ", " soft in torsion", " (twist free)"),
+}
+_HELD = {
+    Role.ELONGATION: ("make ", " stiff along its length", " (elongation held)"),
+    Role.TORSION: ("stiffen ", " against twist", " (twist held)"),
+}
+_SOFT = {Role.ELONGATION: " soft along its length", Role.TORSION: " soft in torsion"}
+#: What a hinge or a bearing does that is released.
+_HINGE = {
+    Role.ROTATION: " turn",
+    Role.ANGLE: " turn",
+    Role.TILT_Y: " tilt",
+    Role.TILT_Z: " tilt",
+}
+
+
+class _Deformation:
+    """A deformation of an element of the model as given, and what words are made of."""
+
+    def __init__(self, outcome: Decomposition, element: int, number: int) -> None:
+        """Of the number of an element, and of a deformation of it, from 1."""
+        self.outcome, self.element, self.number = outcome, element, number
+        self.index = outcome.data.element_index[element]
+        self.part, self.name = outcome.parts.of_element(self.index), named_element(outcome, element)
+        self.role = Role(role_of(outcome, self.index, number))
+        self.word = deformation_words(outcome, self.index, number)
+        self.bending = bending_of(outcome, self.index, number)
+        self.is_planar = bool(planar_table()[outcome.data.arrays.element_kind[self.index]])
+
+    @property
+    def is_in_plane(self) -> bool:
+        """Whether it is the bending of a sheet in its own plane."""
+        is_sheet = self.outcome.parts.form[self.index] == Form.SHEET and not self.is_planar
+        return is_sheet and self.bending is not None and self.bending.word == "in-plane bending"
+
+    @property
+    def place(self) -> str:
+        """The end at which a part bends."""
+        if self.bending is None or self.bending.position not in self.part.ends:
+            return " at a place inside it"
+        return f" at {place_words(self.outcome.parts, self.bending.position, self.part)}"
+
+    def released(self) -> Phrase:
+        """How it is released, of what is no hinge and no in-plane bending of a sheet."""
+        if self.part.kind is PartKind.BODY:
+            return self._of_body()
+        if self.role in _RELEASED:
+            before, what, free = _RELEASED[self.role]
+            return Phrase(before, self.name, what, "", free)
+        if self.bending is not None:
+            free = f" ({self.word.partition(' at ')[0]} free there)"
+            if self.part.kind is PartKind.SHEET and not self.is_planar:
+                return Phrase("let ", self.name, " bend out of its plane", self.place, free)
+            return Phrase("give ", self.name, " a notch", self.place, free)
+        return Phrase("let ", self.name, " give", "", f" ({self.word} free)")
+
+    def _of_body(self) -> Phrase:
+        """Of a rigid member, which is one of several of its body or the body itself."""
+        data, parts, name = self.outcome.data, self.outcome.parts, self.name
+        between = ""
+        if self.index in parts.links:
+            nodes = (data.arrays.element_node[[0, 2], self.index] - 1).tolist()
+            ends = dict.fromkeys(place_words(parts, node) for node in nodes if node >= 0)
+            # A body is no place on itself.
+            if len(ends) == 2 and name.words not in ends:
+                between = f" between {' and '.join(ends)}"
+        elif own := harmless(part_name(data.element_names[self.index])).strip():
+            name = name._replace(words=with_article(own))
+        if self.role in _SOFT:
+            return Phrase("make ", name, _SOFT[self.role], between)
+        if self.bending is not None:
+            kind, _, place = self.word.partition(" at ")
+            where = f"{kind.removeprefix('bending')}{between or f' at {place}'}"
+            return Phrase("make ", name, " soft in bending", where)
+        return Phrase("let ", name, " give", f" {self.word.removeprefix('displacement ')}{between}")
+
+    def held(self) -> Phrase:
+        """How it is held that is released."""
+        if self.part.kind is PartKind.HINGE:
+            return Phrase("lock ", self.name, "", "", f" ({self.word} held)")
+        if self.role in _HELD:
+            before, what, held = _HELD[self.role]
+            return Phrase(before, self.name, what, "", held)
+        if self.bending is not None:
+            held = f" ({self.word.partition(' at ')[0]} held there)"
+            return Phrase("stiffen ", self.name, "", self.place, held)
+        return Phrase("stiffen ", self.name, "", "", f" ({self.word} held)")
+
+
+def released(outcome: Decomposition, deformations: Iterable[Deformation]) -> Iterator[Phrase]:
+    """What is done to release deformations, part by part; those of a body by its members.
 
     Args:
         outcome: That on the model as given; see `outcome_as_given`.
         deformations: What is released.
     """
-    return tuple(
-        phrase
-        for part, mine in _by_part(outcome, deformations)
-        for phrase in _of_part(outcome, part, mine)
-    )
+    by_part: dict[tuple[Part, int], list[_Deformation]] = {}
+    for one in (_Deformation(outcome, *each) for each in deformations):
+        member = one.element if one.part.kind is PartKind.BODY else 0
+        by_part.setdefault((one.part, member), []).append(one)
+    for (part, _), mine in by_part.items():
+        for one in mine:
+            one.name = mine[0].name
+        yield from _of_part(outcome, part, mine)
 
 
-def held(outcome: Decomposition, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
-    """What is done to hold released deformations, one by one."""
-    return tuple(_held(outcome, *one) for one in deformations)
+def _of_part(outcome: Decomposition, part: Part, mine: list[_Deformation]) -> Iterator[Phrase]:
+    name, (first, *more) = mine[0].name, mine
+    is_hinge, is_body = part.kind is PartKind.HINGE, part.kind is PartKind.BODY
+    rest = [] if is_body else _held_without(outcome, part, mine)
+    can_go = not is_body and not rest and _can_go(outcome, part)
+    in_plane = [one for one in mine if one.is_in_plane]
+    roles = {one.role for one in mine}
+    is_wire = {role_of(outcome, first.index, number) for number in rest} == {Role.ELONGATION}
+    if can_go and more and is_hinge and not roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z}:
+        yield Phrase("replace ", name, " by a ball joint", "", " (all its rotations free)")
+    elif can_go and more:
+        yield Phrase("take ", name, " out")
+    elif is_hinge:
+        for one in mine:
+            what = _HINGE.get(one.role, " slide")
+            where = one.word.removeprefix("tilt").removeprefix("displacement")
+            if what == " turn":
+                where = " about its axis" * (one.role == Role.ROTATION)
+            yield Phrase("let ", name, what, where)
+    elif can_go:
+        out = " out"
+        if first.role == Role.ELONGATION:
+            is_bar = part.kind is PartKind.BAR
+            out += ", or make it adjustable in length" if is_bar else _SLIDES
+        yield Phrase("take ", name, out, "", f" ({first.word} free)")
+    else:
+        is_wire = is_wire and len(in_plane) == 2
+        if is_wire:
+            both = " (in-plane bending free at both its ends)"
+            yield Phrase("replace ", name, " by a wire", "", both)
+        for one in mine:
+            if not one.is_in_plane:
+                yield one.released()
+            elif not is_wire:
+                free = " (in-plane bending free there)"
+                yield Phrase("cut ", name, " to a waist", one.place, free)
 
 
-def _by_part(
-    outcome: Decomposition, deformations: Iterable[Deformation]
-) -> Iterator[tuple[Part, list[Deformation]]]:
-    """Deformations by part; those of a body by its members."""
-    made: dict[tuple[Part, int], list[Deformation]] = {}
-    for element, number in deformations:
-        part = outcome.parts.of_element(outcome.data.element_index[element])
-        member = element if part.kind is PartKind.BODY else 0
-        made.setdefault((part, member), []).append((element, number))
-    for (part, _), mine in made.items():
-        yield part, mine
+_SLIDES = ", or let it slide along its length"
 
 
-def _of_part(outcome: Decomposition, part: Part, mine: list[Deformation]) -> Iterator[Phrase]:
-    name = named_element(outcome, mine[0][0])
-    if part.kind is PartKind.HINGE:
-        yield from _of_hinge(outcome, part, name, mine)
-        return
-    if _holds_nothing_else(outcome, part, mine) and _can_go(outcome, part):
-        yield _taken_out(outcome, part, name, mine)
-        return
-    in_plane = [one for one in mine if _is_in_plane(outcome, *one)]
-    left = {_role(outcome, mine[0][0], number) for number in _held_without(outcome, part, mine)}
-    is_wire = len(in_plane) == 2 and left == {Role.ELONGATION}
-    if is_wire:
-        yield Phrase(
-            "replace ", name, " by a wire", "", " (in-plane bending free at both its ends)"
-        )
-    for one in mine:
-        if one in in_plane and not is_wire:
-            where = f" at {_place(outcome, part, *one)}"
-            yield Phrase("cut ", name, " to a waist", where, " (in-plane bending free there)")
-        elif one not in in_plane:
-            yield _one(outcome, part, name, *one)
-
-
-def _one(outcome: Decomposition, part: Part, name: Named, element: int, number: int) -> Phrase:
-    """A deformation that is no in-plane bending of a sheet."""
-    if part.kind is PartKind.BODY:
-        return _of_body(outcome, name, element, number)
-    role, word = _role(outcome, element, number), _word(outcome, element, number)
-    if role == Role.ELONGATION:
-        # No notch, cut or fold frees this alone: a sheet with a fold holds one thing, not two.
-        return Phrase("let ", name, " slide along its length", "", " (elongation free)")
-    if role == Role.TORSION:
-        return Phrase("make ", name, " soft in torsion", "", " (twist free)")
-    if bending_of(outcome, outcome.data.element_index[element], number) is not None:
-        kind = word.partition(" at ")[0]
-        where, free = f" at {_place(outcome, part, element, number)}", f" ({kind} free there)"
-        if part.kind is PartKind.SHEET and not _is_planar(outcome, element):
-            return Phrase("let ", name, " bend out of its plane", where, free)
-        return Phrase("give ", name, " a notch", where, free)
-    return Phrase("let ", name, " give", "", f" ({word} free)")
-
-
-def _of_body(outcome: Decomposition, name: Named, element: int, number: int) -> Phrase:
-    """A deformation of a rigid member, which is one of several of its body or the body itself."""
-    index = outcome.data.element_index[element]
-    role, word = _role(outcome, element, number), _word(outcome, element, number)
-    own = harmless(part_name(outcome.data.element_names[index])).strip()
-    between = ""
-    if index in outcome.parts.links:
-        nodes = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
-        ends = dict.fromkeys(place_words(outcome.parts, node) for node in nodes if node >= 0)
-        # A body is no place on itself.
-        is_told = len(ends) == 2 and name.words not in ends
-        between = f" between {' and '.join(ends)}" if is_told else ""
-    elif own:
-        name = name._replace(words=with_article(own))
-    if role == Role.TORSION:
-        return Phrase("make ", name, " soft in torsion", between)
-    if role == Role.ELONGATION:
-        return Phrase("make ", name, " soft along its length", between)
-    if bending_of(outcome, index, number) is not None:
-        kind, _, place = word.partition(" at ")
-        axis = kind.removeprefix("bending")
-        return Phrase("make ", name, " soft in bending", f"{axis}{between or f' at {place}'}")
-    return Phrase("let ", name, " give", f" {word.removeprefix('displacement ')}{between}")
-
-
-def _of_hinge(
-    outcome: Decomposition, part: Part, name: Named, mine: list[Deformation]
-) -> Iterator[Phrase]:
-    roles = {_role(outcome, *one) for one in mine}
-    is_bearing = bool(roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z})
-    if _holds_nothing_else(outcome, part, mine) and len(mine) > 1 and _can_go(outcome, part):
-        if is_bearing:
-            yield Phrase("take ", name, " out")
-        else:
-            yield Phrase("replace ", name, " by a ball joint", "", " (all its rotations free)")
-        return
-    for one in mine:
-        role, word = _role(outcome, *one), _word(outcome, *one)
-        if role in (Role.ROTATION, Role.ANGLE):
-            yield Phrase("let ", name, " turn", " about its axis" * (role == Role.ROTATION))
-        elif role in (Role.TILT_Y, Role.TILT_Z):
-            yield Phrase("let ", name, " tilt", word.removeprefix("tilt"))
-        else:
-            yield Phrase("let ", name, " slide", word.removeprefix("displacement"))
-
-
-def _taken_out(outcome: Decomposition, part: Part, name: Named, mine: list[Deformation]) -> Phrase:
-    """A part that holds nothing else."""
-    if len(mine) > 1:
-        return Phrase("take ", name, " out")
-    free = f" ({_word(outcome, *mine[0])} free)"
-    if _role(outcome, *mine[0]) != Role.ELONGATION:
-        return Phrase("take ", name, " out", "", free)
-    is_bar = part.kind is PartKind.BAR
-    instead = "make it adjustable in length" if is_bar else "let it slide along its length"
-    return Phrase("take ", name, f" out, or {instead}", "", free)
-
-
-def _holds_nothing_else(outcome: Decomposition, part: Part, mine: Sequence[Deformation]) -> bool:
-    """Whether these are all that a part, other than a body, holds."""
-    return part.kind is not PartKind.BODY and not _held_without(outcome, part, mine)
-
-
-def _held_without(outcome: Decomposition, part: Part, mine: Sequence[Deformation]) -> list[int]:
+def _held_without(outcome: Decomposition, part: Part, mine: Sequence[_Deformation]) -> list[int]:
     """What a part holds, or has declared, without some: deformations of one beam, from 1."""
-    index = outcome.data.element_index
     row = next((c for c in outcome.data.chains if c.elements[0] == part.elements[0]), None)
     if row is None:
         classes = outcome.data.arrays.deformation_class[:, part.elements[0]].tolist()
-        gone = {number for _, number in mine}
+        gone = {one.number for one in mine}
     else:
         # What one of its beams releases, a row of beams does not hold.
-        classes = [max(each, key=_is_free) for each in zip(*row.classes, strict=True)]
-        beams = [(row.elements.index(index[element]), number) for element, number in mine]
-        gone = {row.own(beam, number) for beam, number in beams}
-    return [
-        k
-        for k, given in enumerate(classes, 1)
-        if k not in gone and given != Class.NONE and not _is_free(given)
-    ]
+        beams = zip(*row.classes, strict=True)
+        classes = [max(each, key=lambda given: given == Class.DEPENDENT) for each in beams]
+        gone = {row.own(row.elements.index(one.index), one.number) for one in mine}
+    free = Class.NONE, Class.DEPENDENT
+    return [k for k, given in enumerate(classes, 1) if k not in gone and given not in free]
 
 
 def _can_go(outcome: Decomposition, part: Part) -> bool:
@@ -237,58 +249,6 @@ def _can_go(outcome: Decomposition, part: Part) -> bool:
     return not np.any((classes == Class.DEPENDENT) | (classes == Class.INDEPENDENT))
 
 
-def _is_free(given: int) -> bool:
-    return given == Class.DEPENDENT
-
-
-def _held(outcome: Decomposition, element: int, number: int) -> Phrase:
-    """What is done to hold a released deformation."""
-    index = outcome.data.element_index[element]
-    part, name = outcome.parts.of_element(index), named_element(outcome, element)
-    role, word = _role(outcome, element, number), _word(outcome, element, number)
-    if part.kind is PartKind.HINGE:
-        return Phrase("lock ", name, "", "", f" ({word} held)")
-    if role == Role.TORSION:
-        return Phrase("stiffen ", name, " against twist", "", " (twist held)")
-    if role == Role.ELONGATION:
-        return Phrase("make ", name, " stiff along its length", "", " (elongation held)")
-    if bending_of(outcome, index, number) is not None:
-        kind = word.partition(" at ")[0]
-        where = f" at {_place(outcome, part, element, number)}"
-        return Phrase("stiffen ", name, "", where, f" ({kind} held there)")
-    return Phrase("stiffen ", name, "", "", f" ({word} held)")
-
-
-def _word(outcome: Decomposition, element: int, number: int) -> str:
-    return deformation_words(outcome, outcome.data.element_index[element], number)
-
-
-def _role(outcome: Decomposition, element: int, number: int) -> int:
-    return role_of(outcome, outcome.data.element_index[element], number)
-
-
-def _is_planar(outcome: Decomposition, element: int) -> bool:
-    kind = outcome.data.arrays.element_kind[outcome.data.element_index[element]]
-    return bool(planar_table()[kind])
-
-
-def _is_in_plane(outcome: Decomposition, element: int, number: int) -> bool:
-    """Whether a deformation is the bending of a sheet in its own plane."""
-    index = outcome.data.element_index[element]
-    if outcome.parts.form[index] != Form.SHEET or _is_planar(outcome, element):
-        return False
-    bending = bending_of(outcome, index, number)
-    return bending is not None and bending.word == "in-plane bending"
-
-
-def _place(outcome: Decomposition, part: Part, element: int, number: int) -> str:
-    """The end at which a part bends."""
-    bending = bending_of(outcome, outcome.data.element_index[element], number)
-    if bending is None or bending.position not in part.ends:
-        return "a place inside it"
-    return place_words(outcome.parts, bending.position, part)
-
-
 #: How many alternatives of several parts each are named, and how many of one part.
 _MOST_SETS, _MOST_NAMED = 3, 11
 #: Of more statements or calls it is told how many there are.
@@ -297,51 +257,59 @@ _MOST_STATEMENTS = 24
 _PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
 
 
-def release_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """What is done to release, free or hold, how, and where else symmetry makes it the same.
+@dataclass(frozen=True, eq=False, repr=False)
+class Release(Step):
+    """Deformations or coordinates of another class: released, freed, declared, or held."""
 
-    Such as "cut sheet 1 to a waist at its clamp (in-plane bending free there) (RLSE 1 3);
-    likewise sheet 2".
-    """
-    outcome = outcome_as_given(result)
-    phrases = _phrases(outcome, proposal.purpose, proposal.change)
-    others = [_phrases(outcome, proposal.purpose, each) for each in proposal.alternatives]
-    note = _note(outcome, proposal.purpose, proposal.change)
-    joined = _told(phrases)
-    return (*joined, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
+    def words(self) -> Pieces:
+        """What is done, how, and where else symmetry makes it the same.
+
+        Such as "cut sheet 1 to a waist at its clamp (in-plane bending free there) (RLSE 1 3);
+        likewise sheet 2", or "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2);
+        likewise F along x".
+        """
+        outcome, purpose = outcome_as_given(self.analysis), self.purpose
+        if purpose is Purpose.DECLARE and not self.change.deformations:
+            return self._declared(outcome)
+        phrases, *others = (
+            _phrases(outcome, purpose, each) for each in (self.change, *self.alternatives)
+        )
+        if purpose is not Purpose.HOLD:
+            is_freed = not self.change.deformations
+            note = "" if is_freed else _statements(outcome, self.change, "RLSE")
+        elif outcome.given.source is not None:
+            note = _statements(outcome, self.change, "RLSE", "without ")
+        else:
+            note = _statements(outcome, self.change, HOLD)
+        told = _told(phrases)
+        return (*told, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
+
+    def _declared(self, outcome: Decomposition) -> Pieces:
+        """What is declared or held."""
+        change = self.change
+        declared, fixed = (_statements(outcome, change, word) for word in ("DYNX", "FIX"))
+        it = "it" if len(change.coordinates) == 1 else "them"
+        own, *others = (_coordinates(outcome, each) for each in (change, *self.alternatives))
+        more = [each for each in others if plain(each) != plain(own)]
+        pieces: list[Piece] = ["declare ", *own, " independent"]
+        pieces.append(f" ({declared})" if declared else "")
+        # To hold a fold that turns is to clamp it in mid-air.
+        folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
+        nodes = {outcome.given.node_index[place[0]] for place in change.coordinates}
+        if not (self.analysis.folds and nodes <= folds):
+            pieces.append(f", or hold {it}{f' ({fixed})' if fixed else ''}")
+        if more:
+            pieces += ["; likewise ", *_shortened(more, len(change.coordinates))]
+        return tuple(piece for piece in pieces if piece)
 
 
-def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """What is declared or held, how, and what else symmetry makes the same.
-
-    Such as "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2); likewise F along x".
-    A proposal that holds deformations is told by `release_in_words`.
-    """
-    if proposal.change.deformations:
-        return release_in_words(result, proposal)
-    outcome = outcome_as_given(result)
-    declared, fixed = (_statements(outcome, proposal.change, word) for word in ("DYNX", "FIX"))
-    it = "it" if len(proposal.change.coordinates) == 1 else "them"
-    own = _coordinates(outcome, proposal.change)
-    others = [_coordinates(outcome, each) for each in proposal.alternatives]
-    more = [each for each in others if plain(each) != plain(own)]
-    pieces: list[Piece] = ["declare ", *own, " independent"]
-    pieces.append(f" ({declared})" if declared else "")
-    # To hold a fold that turns is to clamp it in mid-air.
-    folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
-    nodes = {outcome.given.node_index[place[0]] for place in proposal.change.coordinates}
-    if not (result.folds and nodes <= folds):
-        pieces.append(f", or hold {it}")
-        pieces.append(f" ({fixed})" if fixed else "")
-    if more:
-        pieces += ["; likewise ", *_shortened(more, len(proposal.change.coordinates))]
-    return tuple(piece for piece in pieces if piece)
-
-
-def _phrases(outcome: Decomposition, purpose: Purpose, change: Change) -> tuple[Phrase, ...]:
+def _phrases(outcome: Decomposition, purpose: Purpose, change: Change) -> list[Phrase]:
     deformations = [(element, number) for element, number, _ in change.deformations]
-    made = (held if purpose is Purpose.HOLD else released)(outcome, deformations)
-    return made + tuple(_freed(outcome, node, name) for node, name, _ in change.coordinates)
+    if purpose is Purpose.HOLD:
+        made = [_Deformation(outcome, *one).held() for one in deformations]
+    else:
+        made = list(released(outcome, deformations))
+    return made + [_freed(outcome, node, name) for node, name, _ in change.coordinates]
 
 
 def _freed(outcome: Decomposition, node: int, name: str) -> Phrase:
@@ -394,7 +362,7 @@ def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
         number = int(outcome.given.arrays.element_number[part.elements[0]])
         within = named_element(outcome, number)
         items.append((f"{in_words(count)} coordinate{'s' * (count > 1)} inside ", within))
-    return _listed(items[:_MOST_NAMED], len(items) - _MOST_NAMED)
+    return row_of(items, _MOST_NAMED)
 
 
 def _of_several_points(outcome: Decomposition, change: Change) -> dict[str, set[int]]:
@@ -411,19 +379,19 @@ def _of_several_points(outcome: Decomposition, change: Change) -> dict[str, set[
 
 def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:
     """Where the same may be done."""
-    own = plain(_listed([phrase.pieces for phrase in phrases]))
-    others = [each for each in others if plain(_listed([one.pieces for one in each])) != own]
+    own = plain(row_of([phrase.pieces for phrase in phrases]))
+    others = [each for each in others if plain(row_of([one.pieces for one in each])) != own]
     if not others:
         return ()
     frames = sorted(phrase.frame for phrase in phrases)
     if any(sorted(phrase.frame for phrase in each) != frames for each in others):
-        sets = [_listed([phrase.pieces for phrase in each]) for each in others]
+        sets = [row_of([phrase.pieces for phrase in each]) for each in others]
         return ("; just as well ", *_shortened(sets, 2))
     at = " at" if phrases[0].before in ("cut ", "give ") else ""
     every = [*phrases, *(phrase for each in others for phrase in each)]
     is_all_said = len({(phrase.frame, phrase.where) for phrase in every}) == 1
     if len(phrases) > 1:
-        sets = [_listed(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
+        sets = [row_of(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
     elif is_all_said:
         return (f"; likewise{at} ", *_named([each[0].part for each in others]))
     else:
@@ -439,15 +407,15 @@ def _told(phrases: Sequence[Phrase]) -> Pieces:
     items: list[Pieces] = []
     for first, *more in groups.values():
         names = list(dict.fromkeys(phrase.short for phrase in more))
-        rest = _listed(names[:_MOST_NAMED], len(names) - _MOST_NAMED)
+        rest = row_of(names, _MOST_NAMED)
         items.append((*first.pieces, *((", and so ", *rest) if rest else ())))
-    return _listed(items)
+    return row_of(items)
 
 
 def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
     """Alternatives, one behind the other; of many the first."""
     if size == 1:
-        return _listed(sets[:_MOST_NAMED], len(sets) - _MOST_NAMED)
+        return row_of(sets, _MOST_NAMED)
     made: list[Piece] = []
     for k, each in enumerate(sets[:_MOST_SETS]):
         made += ["; or " if k else "", *each]
@@ -464,29 +432,8 @@ def _named(parts: Sequence[Named]) -> Pieces:
         short = [
             (Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)
         ]
-        return (f"{_PLURALS[head]} ", *_listed(short))
-    return _listed([(part,) for part in parts])
-
-
-def _listed(items: Sequence[Pieces], more: int = 0) -> Pieces:
-    """Such as a, b and c."""
-    if more > 0:
-        items = [*items, (f"{more} more",)]
-    made: list[Piece] = []
-    for k, item in enumerate(items):
-        made += [""] if not k else [" and "] if k == len(items) - 1 else [", "]
-        made += item
-    return tuple(piece for piece in made if piece)
-
-
-def _note(outcome: Decomposition, purpose: Purpose, change: Change) -> str:
-    """How it is done: in a deck by statements, in Python by calls."""
-    if purpose is not Purpose.HOLD:
-        statements = [_statements(outcome, change, "RLSE")] if change.deformations else []
-        return ", ".join(filter(None, statements))
-    if outcome.given.source is not None:
-        return _statements(outcome, change, "RLSE", "without ")
-    return _statements(outcome, change, HOLD)
+        return (f"{_PLURALS[head]} ", *row_of(short))
+    return row_of([(part,) for part in parts])
 
 
 def _statements(outcome: Decomposition, change: Change, keyword: str, before: str = "") -> str:
@@ -510,12 +457,13 @@ def _operands(outcome: Decomposition, change: Change) -> list[str]:
     made = [" ".join(map(str, (e, *sorted(mine)))) for e, mine in of_element.items()]
     of_node: dict[str, list[str]] = {}
     for node, name, _ in change.coordinates:
-        place, component = _coordinate(outcome, node, name).operands.split()
+        place, component = coordinate_named(outcome, node, name).operands.split()
         of_node.setdefault(place, []).append(component)
     return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
 
 
-def _coordinate(outcome: Decomposition, node: int, name: str) -> Coordinate:
+def coordinate_named(outcome: Decomposition, node: int, name: str) -> Coordinate:
+    """The coordinate of a name of a node, by the number of the node."""
     index = outcome.data.node_index[node]
     kind = int(outcome.data.arrays.node_kind[index])
     axis = next(axis for axis in AXES[kind] if coordinate_name(kind, axis) == name)

@@ -19,16 +19,62 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.change import AddedSheet, AddedWire, Change
-from ...analysis.decomposition import Asked
-from ...analysis.result import Result, result_of
+from ...analysis.naming import Named, Pieces
+from ...analysis.places import axis_words, direction_words, node_words, others_words, place_words
+from ...analysis.result import Result
 from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
+from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
 from ...util.records import Frozen
-from ..proposal import After, Proposal, Purpose
+from ..step import Purpose, Step, after, analysed
+from ..words import row_of
 from .screws import SAME, Family, FamilyKind, ScrewSpace
 from .subjects import Attachment, Freed, Site, Subject
 from .wanted_motion import Aim
+from .words import Geometry
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Added(Step):
+    """Wires or a sheet that are added."""
+
+    def words(self) -> Pieces:
+        """Where they end on the body, and along what they run."""
+        return ("add ", *added_in_words(self.analysis, self.change))
+
+
+def added_in_words(result: Result, change: Change) -> Pieces:
+    """The wires or the sheet of a change: where they end on the body, along what they run."""
+    geometry = Geometry(result)
+    added: list[AddedWire | AddedSheet] = [*change.wires, *change.sheets]
+    return row_of([wire_in_words(geometry, each) for each in added])
+
+
+def wire_in_words(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
+    """Such as "a wire from the stage, where sheet 1 ends, along y"."""
+    result = geometry.outcome
+    parts = result.parts
+    node = parts.data.node_index[wire.position]
+    end, ground = np.array(wire.end), np.array(wire.ground)
+    along, word = f" along {direction_words(ground - end)}", "wire"
+    if isinstance(wire, AddedSheet):
+        along, word = f"{along}, wide along {axis_words(np.array(wire.width))}", "sheet"
+    turned = parts.data.node_index[wire.orientation]
+    owner = node_words(parts, turned) if turned in parts.body_at else ""
+    there = node_words(parts, turned) if parts.is_shared(turned) else place_words(parts, node)
+    if not np.array_equal(parts.data.arrays.node_value[:3, node], end):
+        link = Named("node", wire.position, owner or there)
+        return (f"a {word} from {geometry.point(end)}, on a link to ", link, f",{along}")
+    here = [part for part in parts.at(node) if part.kind is not PartKind.BODY]
+    if there != owner:
+        where = ""
+    elif here:
+        where = f", where {others_words(here)} end{'s' * (len(here) == 1)},"
+    else:
+        where = f" at {geometry.point(end)}"
+    return (f"a {word} from ", Named("node", wire.position, there), where + along)
+
 
 #: A line that is weaker than this, by its condition, is none.
 _WEAKEST = 100.0
@@ -137,8 +183,7 @@ def _strongest(
 
 def _velocities(rows: FloatArray, arm: FloatArray, length: float) -> FloatArray:
     """(k, 3) velocity of a point in each twist [m], by its place from the middle."""
-    made: FloatArray = rows[:, 3:] + np.cross(rows[:, :3] / length, arm)
-    return made
+    return np.asarray(rows[:, 3:] + np.cross(rows[:, :3] / length, arm))
 
 
 def _able(wanted: FloatArray, arm: FloatArray, planar: bool) -> FloatArray:
@@ -155,19 +200,6 @@ def _able(wanted: FloatArray, arm: FloatArray, planar: bool) -> FloatArray:
 
 #: Of the characteristic length, places of new nodes have so many digits.
 _DIGITS = 12
-#: A point as near as this to one of the body, likewise, is that.
-_THERE = 1.0e-9
-
-
-def wire_along(
-    result: Result, subject: Subject, point: FloatArray, direction: FloatArray
-) -> AddedWire:
-    """A wire that ends on a body at a point [m] and runs along a direction to the ground."""
-    site = Site(result, subject)
-    near = min(site.own, key=lambda each: float(np.linalg.norm(each.place - point)))
-    is_there = bool(np.linalg.norm(near.place - point) <= _THERE * result.characteristic_length)
-    place = near.place if is_there else point
-    return wire_at(site, near._replace(place=place, is_there=is_there), direction)
 
 
 def wire_at(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
@@ -183,12 +215,6 @@ def wire_at(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
     )
 
 
-def sheet_at(site: Site, at: Attachment, direction: FloatArray, width: FloatArray) -> AddedSheet:
-    """A sheet from a point of a body along a direction to the ground."""
-    wire = wire_at(site, at, direction)
-    return AddedSheet(*wire[:4], _three(site, width), wire.body)
-
-
 def _three(site: Site, place: FloatArray) -> tuple[float, float, float]:
     """A place in decimals: a plane that is typed as z = 0.02 is not left by rounding."""
     digits = _DIGITS - math.floor(math.log10(site.result.characteristic_length))
@@ -202,8 +228,8 @@ def _as_given(place: FloatArray) -> tuple[float, float, float]:
 
 def proposed(
     freed: Freed, subject: Subject, aim: Aim, change: Change, count: int, condition: float
-) -> Proposal | None:
-    """The proposal of a change; None where it does not do what it should.
+) -> Added | None:
+    """The step of a change; None where it does not do what it should.
 
     The mechanism with nothing declared must have `count` motions fewer, all of the body; the body
     must go on doing what is wanted; and there must be no further self-stress. What only lengthens
@@ -211,9 +237,14 @@ def proposed(
     """
     result = freed.result
     try:
-        data = change.apply(result.given).data
-        after: Result = result_of(data, Asked(result.asked.method, result.asked.tolerance))
-        then, same = Freed(after), _same(subject, result, after)
+        made = analysed(result, change)
+        # The body by the numbers of its nodes in the changed mechanism.
+        numbers, index = result.given.arrays.node_number, made.given.node_index
+        positions, orientations = (
+            tuple(index[int(numbers[node])] for node in nodes)
+            for nodes in (subject.positions, subject.orientations)
+        )
+        then, same = Freed(made), Subject(subject.body, positions, orientations)
         if not then.has(same):
             return None
         space = then.space(same)
@@ -222,26 +253,12 @@ def proposed(
     fewer = freed.outcome.under_constrained - then.outcome.under_constrained
     if fewer != count or space.dimension != aim.freedom.dimension - count:
         return None
-    factors = np.repeat((aim.freedom.length, 1.0), 3)
-    if not all(space.has(row / factors) for row in aim.wanted):
+    if not all(space.has(row / aim.freedom.factors) for row in aim.wanted):
         return None
-    if after.over_constrained > result.over_constrained:
+    if made.over_constrained > result.over_constrained:
         return None
-    told = After(
-        after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
-    )
     purpose = Purpose.ADD_SHEET if change.sheets else Purpose.ADD_WIRE
-    return Proposal(purpose, change, max(condition, 1.0), told)
-
-
-def _same(subject: Subject, before: Result, after: Result) -> Subject:
-    """A body by the numbers of its nodes in the changed mechanism."""
-    numbers, index = before.given.arrays.node_number, after.given.node_index
-    positions, orientations = (
-        tuple(index[int(numbers[node])] for node in nodes)
-        for nodes in (subject.positions, subject.orientations)
-    )
-    return Subject(subject.body, positions, orientations)
+    return Added(result, purpose, change, max(condition, 1.0), after(made))
 
 
 #: How many wires, or sets of wires, are proposed.
@@ -252,7 +269,7 @@ _MOST_TRIED = 12
 _WORTH = 2.5
 
 
-def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Proposal, ...]:
+def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Added, ...]:
     """Wires that were tried: single ones, and where more are needed sets of them.
 
     Each stops so many motions of the mechanism as it has wires; the body goes on doing what is
@@ -277,7 +294,7 @@ def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Prop
 
 def _sets(
     freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
-) -> Iterator[Proposal]:
+) -> Iterator[Added]:
     """One set of wires that stops all that wires can stop; without one the largest there is."""
     most, smaller = aim.stoppable, list[tuple[Line, ...]]()
     for line in lines:
@@ -306,8 +323,8 @@ def _set_from(site: Site, aim: Aim, first: Line) -> tuple[Line, ...]:
 
 def _wires(
     freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
-) -> Proposal | None:
-    """The proposal of some wires; None where they do not do what they should."""
+) -> Added | None:
+    """The step of some wires; None where they do not do what they should."""
     wires = tuple(wire_at(site, line.attachment, line.direction) for line in lines)
     works = np.array([aim.unwanted @ np.roll(line.force, 3) for line in lines])
     values = np.linalg.svd(works, compute_uv=False)
@@ -335,23 +352,24 @@ class Plane(NamedTuple):
     """By what it is chosen."""
 
 
-def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[Proposal]:
+def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[Added]:
     """Sheets that were tried, the best first; none in the plane, where a sheet holds as a wire."""
     if aim.freedom.planar or len(aim.unwanted) < _HELD:
         return
-    planes = sorted(_planes(site, aim), key=lambda one: (round(one.cost, 6), one.attachment.key))
+    near = SAME * site.result.characteristic_length
+
+    def is_same(one: Plane, other: Plane) -> bool:
+        apart = abs(float((one.attachment.place - other.attachment.place) @ one.normal))
+        return abs(float(one.normal @ other.normal)) > 1.0 - SAME and apart <= near
+
     chosen: list[Plane] = []
-    for plane in planes:
-        if all(not _is_same(plane, other, site) for other in chosen):
+    for plane in sorted(
+        _planes(site, aim), key=lambda one: (round(one.cost, 6), one.attachment.key)
+    ):
+        if not any(is_same(plane, other) for other in chosen):
             chosen.append(plane)
-    tried = (_proposal(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
+    tried = (_sheet(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
     yield from islice(filter(None, tried), _SHEETS_MOST_PROPOSALS)
-
-
-def _is_same(one: Plane, other: Plane, site: Site) -> bool:
-    apart = abs(float((one.attachment.place - other.attachment.place) @ one.normal))
-    is_parallel = abs(float(one.normal @ other.normal)) > 1.0 - SAME
-    return is_parallel and apart <= SAME * site.result.characteristic_length
 
 
 def _planes(site: Site, aim: Aim) -> Iterator[Plane]:
@@ -372,9 +390,8 @@ def _held(space: ScrewSpace, point: FloatArray, normal: FloatArray) -> ScrewSpac
     """All forces along lines in a plane."""
     first, second = _across(normal)
     lines = [space.line(point, first), space.line(point, second), space.free(normal)]
-    factors = np.repeat((space.length, 1.0), 3)
-    rows = np.linalg.qr((np.array(lines) * factors).T)[0].T
-    return ScrewSpace(rows / factors, space.about, space.length, True)
+    rows = np.linalg.qr((np.array(lines) * space.factors).T)[0].T
+    return space.of_scaled(rows, True)
 
 
 def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -409,10 +426,11 @@ def _through_of_sheets(family: Family, site: Site, place: FloatArray) -> Iterato
             yield each
 
 
-def _proposal(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Proposal | None:
+def _sheet(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Added | None:
     along = _along(site, plane)
-    sheet = sheet_at(site, plane.attachment, along, np.cross(plane.normal, along))
-    change = replace(besides, sheets=(sheet,))
+    wire = wire_at(site, plane.attachment, along)
+    width = _three(site, np.cross(plane.normal, along))
+    change = replace(besides, sheets=(AddedSheet(*wire[:4], width, wire.body),))
     return proposed(freed, site.subject, aim, change, _HELD, plane.condition)
 
 
@@ -420,10 +438,8 @@ def _along(site: Site, plane: Plane) -> FloatArray:
     """Along a flexure in the plane if there is one, else outward from the middle of the body."""
     flat = np.abs(site.directions @ plane.normal) <= SAME
     if flat.any():
-        known: FloatArray = site.directions[int(np.argmax(flat))]
-        return known
+        return np.asarray(site.directions[int(np.argmax(flat))])
     arm = plane.attachment.place - site.middle
     arm = arm - (arm @ plane.normal) * plane.normal
     size = float(np.linalg.norm(arm))
-    made: FloatArray = arm / size if size > site.near else _across(plane.normal)[0]
-    return made
+    return np.asarray(arm / size if size > site.near else _across(plane.normal)[0])

@@ -181,13 +181,11 @@ def flat_family(free: FloatArray, lined: FloatArray) -> Family:
 def _common_point(axes: FloatArray, moments: FloatArray) -> FloatArray:
     """The point d through which all lines go: d x a = b for each."""
     matrix = np.concatenate([np.cross(np.eye(3), axis).T for axis in axes])
-    made: FloatArray = np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0]
-    return made
+    return np.asarray(np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0])
 
 
 def _unit(vector: FloatArray) -> FloatArray:
-    made: FloatArray = sense_of(vector) * vector / np.linalg.norm(vector)
-    return made
+    return np.asarray(sense_of(vector) * vector / np.linalg.norm(vector))
 
 
 #: How many lines of it are given.
@@ -460,8 +458,7 @@ def _placed(family: Family, about: FloatArray, length: float) -> Family:
 
 def _with_sense(vector: FloatArray) -> FloatArray:
     """A direction whose first component is positive, with zeros for what is rounding."""
-    made: FloatArray = sense_of(vector) * np.where(np.abs(vector) > ROUNDING, vector, 0.0) + 0.0
-    return made
+    return np.asarray(sense_of(vector) * np.where(np.abs(vector) > ROUNDING, vector, 0.0) + 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -497,12 +494,17 @@ class ScrewSpace(Frozen):
     @property
     def scaled(self) -> FloatArray:
         """(k, 6) the orthonormal rows."""
-        made: FloatArray = self.basis * self._factors
-        return made
+        return np.asarray(self.basis * self.factors)
 
     @property
-    def _factors(self) -> FloatArray:
+    def factors(self) -> FloatArray:
+        """(6,) by which twists and wrenches are made comparable: rows times them are scaled."""
         return np.repeat((self.length, 1.0), 3)
+
+    def of_scaled(self, rows: FloatArray, of_wrenches: bool | None = None) -> ScrewSpace:
+        """The space of other scaled rows, about the same point; of twists and wrenches alike."""
+        wrenches = self.of_wrenches if of_wrenches is None else of_wrenches
+        return ScrewSpace(rows / self.factors, self.about, self.length, wrenches, self.planar)
 
     @cached_property
     def families(self) -> tuple[Family, ...]:
@@ -530,8 +532,7 @@ class ScrewSpace(Frozen):
         d = floats(direction, "a direction")
         unit = d / np.linalg.norm(d)
         arm = floats(point, "a point") - self.about
-        made: FloatArray = np.concatenate((unit, np.cross(arm, unit) + pitch * unit))
-        return made
+        return np.asarray(np.concatenate((unit, np.cross(arm, unit) + pitch * unit)))
 
     @staticmethod
     def free(direction: ArrayLike) -> FloatArray:
@@ -541,7 +542,7 @@ class ScrewSpace(Frozen):
 
     def distance(self, screw: FloatArray) -> float:
         """Which part of a twist or a wrench, (6,), is not in the space: from 0 to 1."""
-        scaled = screw * self._factors
+        scaled = screw * self.factors
         rest = scaled - self.scaled.T @ (self.scaled @ scaled)
         return float(np.linalg.norm(rest) / np.linalg.norm(scaled))
 
@@ -556,9 +557,8 @@ class ScrewSpace(Frozen):
 
     def nearest(self, screw: FloatArray) -> FloatArray:
         """(6,) the part of a twist or a wrench that is in the space."""
-        scaled = screw * self._factors
-        made: FloatArray = (self.scaled.T @ (self.scaled @ scaled)) / self._factors
-        return made
+        scaled = screw * self.factors
+        return np.asarray((self.scaled.T @ (self.scaled @ scaled)) / self.factors)
 
     @cached_property
     def directions(self) -> FloatArray:
@@ -575,10 +575,9 @@ class ScrewSpace(Frozen):
 
         In parts of the largest that six numbers of this size could do.
         """
-        scaled = screw * self._factors
+        scaled = screw * self.factors
         swapped = np.concatenate((scaled[3:], scaled[:3])) / np.linalg.norm(scaled)
-        made: FloatArray = self.scaled @ swapped
-        return made
+        return np.asarray(self.scaled @ swapped)
 
     @cached_property
     def reciprocal(self) -> ScrewSpace:
@@ -590,10 +589,7 @@ class ScrewSpace(Frozen):
             used = np.array([2, 3, 4] if self.of_wrenches else [0, 1, 5])
         made = np.zeros((used.size - self.dimension, 6))
         made[:, used] = complement(swapped[:, used])
-        made = canonical(made)
-        return ScrewSpace(
-            made / self._factors, self.about, self.length, not self.of_wrenches, self.planar
-        )
+        return self.of_scaled(canonical(made), not self.of_wrenches)
 
 
 def complement(rows: FloatArray) -> FloatArray:

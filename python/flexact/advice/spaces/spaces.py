@@ -3,24 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...analysis.carriers import Joint
 from ...analysis.change import Change
+from ...analysis.naming import Line, Pieces, coordinate_in_words, in_words, named_element, sentence
+from ...analysis.places import axis_words, joint_words, part_words
 from ...analysis.result import Result
+from ...analysis.screws import ScrewKind
 from ...core.arrays import FloatArray
 from ...deck.rendering import model_error
 from ...model.parts.parts import Part
 from ...util.records import Frozen
 from ...util.text import in_short
-from ..proposal import Proposal
-from .flexures import sheets_for, wires_for
+from ..step import Step
+from .flexures import added_in_words, sheets_for, wire_in_words, wires_for
 from .screws import Family, ScrewSpace
 from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
 from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read, wanted_of
+from .words import Geometry, space_in_words
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +38,7 @@ class Spaces(Frozen):
         wanted: What it is meant to do: as was said, else its declared degrees of freedom.
         unwanted: In how many further ways it moves.
         stoppable: How many of these wires can stop without stopping anything that is wanted.
-        proposals: Wires that do so, each analysed: first single ones, then, where more are
+        steps: Wires that do so, each analysed: first single ones, then, where more are
             needed, a set of them that stops all that can be stopped, and sheets that stop three.
         tried: Whether wires and sheets were tried: if asked for, and of mechanisms that are not
             large.
@@ -46,7 +50,7 @@ class Spaces(Frozen):
     wanted: tuple[Wanted, ...] = ()
     unwanted: int = 0
     stoppable: int = 0
-    proposals: tuple[Proposal, ...] = ()
+    steps: tuple[Step, ...] = ()
     tried: bool = True
 
     @property
@@ -56,8 +60,8 @@ class Spaces(Frozen):
 
     @property
     def new_wires(self) -> FloatArray:
-        """(w, 2, 3) ends of the wires of the first proposal, on the body and on the ground [m]."""
-        wires = [wire for proposal in self.proposals[:1] for wire in proposal.change.wires]
+        """(w, 2, 3) ends of the wires of the first step, on the body and on the ground [m]."""
+        wires = [wire for step in self.steps[:1] for wire in step.change.wires]
         return np.array([(wire.end, wire.ground) for wire in wires]).reshape(-1, 2, 3)
 
     @property
@@ -90,7 +94,10 @@ def spaces_of(
             motions to be kept.
         TypeError: the body is no text, or what is wanted is none.
     """
-    _require_texts(body, wanted)
+    if not isinstance(body, (str, type(None))):
+        raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
+    if isinstance(wanted, str):
+        raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
     written = [read(each, planar=result.given.planar) for each in wanted]
     names = [each.body for each in written if each.body is not None]
     freed = Freed(result)
@@ -121,13 +128,6 @@ def spaces_of(
     )
 
 
-def _require_texts(body: object, wanted: object) -> None:
-    if not isinstance(body, (str, type(None))):
-        raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
-    if isinstance(wanted, str):
-        raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
-
-
 def _subject(freed: Freed, body: str | None) -> Subject | None:
     result = freed.result
     if body is not None:
@@ -139,3 +139,162 @@ def _subject(freed: Freed, body: str | None) -> Subject | None:
     if not able or not freed.is_known:
         return None
     return min(able, key=lambda each: rank_of(result, each, freed.space(each).dimension))
+
+
+# In words ---------------------------------------------------------------------------
+
+#: How many motions a sheet stops.
+_HELD_BY_A_SHEET = 3
+
+
+def spaces_lines(result: Result, spaces: Spaces | None, *, added: bool = True) -> tuple[Line, ...]:
+    """What a body can do, what holds it, and what may be added to it.
+
+    Without spaces it is said why, where there are bodies after all.
+
+    Args:
+        result: The result.
+        spaces: Freedom and constraint of the body.
+        added: Whether the wires and sheets to add are told; not where steps tell them.
+    """
+    if spaces is not None:
+        return (*_lines(result, spaces), *(_added(result, spaces) if added else ()))
+    if not subjects_of(result):
+        return ()
+    return (
+        sentence(
+            "What a body can do was left out: the mechanism has so many motions, with nothing "
+            "declared, that not all of them are kept."
+        ),
+    )
+
+
+def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
+    geometry, body = Geometry(result), body_words(result, spaces)
+    start = f"{body[:1].upper()}{body[1:]}"
+    free, held = spaces.freedom.dimension, spaces.constraint.dimension
+    if free:
+        head = f"Freedom of {body}, with nothing declared: {_independent(free, 'motion')}: "
+        yield Line((head,), space_in_words(geometry, spaces.freedom))
+    else:
+        yield sentence(f"{start} cannot move, with nothing declared.")
+    if held:
+        head = f"Constraint of {body}: {_independent(held, 'force or moment')}: "
+        yield Line((head,), space_in_words(geometry, spaces.constraint))
+    else:
+        yield sentence(f"Nothing holds {body}.")
+    lines = tuple((geometry.of(family),) for family in spaces.redundant)
+    if lines and free:
+        yield Line(("One more wire would be redundant along: ",), lines)
+    elif lines:
+        yield sentence("One more wire would be redundant along any line.")
+    yield from _on_intent(result, geometry, spaces, body)
+
+
+def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) -> Iterator[Line]:
+    """What is wanted, what moves besides, and what stops it."""
+    had = [each for each in spaces.wanted if each.is_free]
+    if had:
+        word = "Wanted, as declared: " if had[0].is_declared else "Wanted: "
+        yield Line((word,), tuple((_wanted(geometry, each),) for each in had))
+    for each in spaces.wanted:
+        if not each.is_free:
+            yield sentence(f"Wanted, but stopped: {_wanted(geometry, each)}.")
+    count = spaces.unwanted
+    if not count:
+        if had:
+            yield sentence(f"Nothing else of {body} moves.")
+        return
+    besides = f"Besides, {body} moves" if had else f"{body[:1].upper()}{body[1:]} moves"
+    others = "other " if had else ""
+    yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
+    if spaces.stoppable < count:
+        yield sentence(_impossible(spaces))
+    if not spaces.tried and not result.is_told_by_parts:
+        yield sentence("The mechanism is so large that no wires were tried.")
+    if spaces.tried and spaces.stoppable and not spaces.steps:
+        yield sentence(
+            "Of the wires that were tried none stops only that and causes no self-stress."
+        )
+    yield from _taken_back(result, spaces)
+
+
+def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
+    """Wires and sheets that stop what is unwanted."""
+    geometry, count = Geometry(result), spaces.unwanted
+    what = " and nothing that is wanted" if any(each.is_free for each in spaces.wanted) else ""
+    single = [each for each in spaces.steps if len(each.change.wires) == 1]
+    if single:
+        which = "To stop it" if count == 1 else "To stop one of them"
+        yield Line(
+            (f"{which}{what}, add: ",),
+            tuple(added_in_words(result, each.change) for each in single),
+        )
+    for step in spaces.steps:
+        many = len(step.change.wires)
+        if many > 1:
+            which = "all" if many == count else in_words(many)
+            items = tuple(wire_in_words(geometry, wire) for wire in step.change.wires)
+            yield Line((f"To stop {which} of them, add all of: ",), items)
+    sheets = [each for each in spaces.steps if each.change.sheets]
+    if sheets:
+        which = "all" if count == _HELD_BY_A_SHEET else "three"
+        yield Line(
+            (f"To stop {which} of them{what}, add: ",),
+            tuple(added_in_words(result, each.change) for each in sheets),
+        )
+
+
+def _taken_back(result: Result, spaces: Spaces) -> Iterator[Line]:
+    """Which declarations of what is not wanted go with the wires."""
+    changes = [step.change for step in spaces.steps[:1]]
+    items: list[Pieces] = []
+    for change in changes:
+        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
+        items += [(named_element(result, element),) for element, _, _ in change.deformations]
+    if items:
+        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
+
+
+def _impossible(spaces: Spaces) -> str:
+    left = spaces.unwanted - spaces.stoppable
+    if not spaces.stoppable:
+        what = "it" if left == 1 else "any of them"
+        return (
+            f"No wire can stop {what}: a force along any line that does no work on what is "
+            "wanted does none on it either; a moment would be needed."
+        )
+    return (
+        f"Wires can stop {in_words(spaces.stoppable)} of them; for the other "
+        f"{in_words(left)} a moment would be needed, which no force along a line gives without "
+        "work on what is wanted."
+    )
+
+
+def _wanted(geometry: Geometry, wanted: Wanted) -> str:
+    if wanted.kind is ScrewKind.TRANSLATION:
+        return f"translation along {axis_words(wanted.direction)}"
+    line = geometry.line(wanted.point, wanted.direction)
+    if wanted.kind is ScrewKind.ROTATION:
+        return f"rotation about {line}"
+    return f"a screw about {line}, pitch {wanted.pitch:.4g} m/rad"
+
+
+def dashed_in_words(wires: int) -> str:
+    """What so many dashed wires of a drawing are; behind words on the space that is drawn."""
+    return f"; dashed: {'a wire' if wires == 1 else 'wires'} to add" if wires else ""
+
+
+def body_words(result: Result, spaces: Spaces) -> str:
+    """What the body is called within a sentence, such as "the stage"."""
+    body = spaces.body
+    if isinstance(body, Part):
+        return part_words(body)
+    return joint_words(result.parts, body)
+
+
+def _independent(count: int, word: str) -> str:
+    if word == "force or moment":
+        word = "independent force or moment" if count == 1 else "independent forces and moments"
+        return f"{in_words(count)} {word}"
+    return f"{in_words(count)} independent {word}{'s' * (count != 1)}"

@@ -51,8 +51,7 @@ class Subject(NamedTuple):
     def middle(self, result: Result) -> FloatArray:
         """(3,) the mean of its points [m]."""
         values = result.given.arrays.node_value[:3, list(self.positions)]
-        made: FloatArray = values.mean(axis=1)
-        return made
+        return np.asarray(values.mean(axis=1))
 
 
 def subjects_of(result: Result) -> tuple[Subject, ...]:
@@ -84,10 +83,9 @@ def subject_named(result: Result, name: str) -> Subject:
     """
     every = tuple(_all(result))
     for spelling in (name, f"the {name}", name.removeprefix("the ")) if name.strip() else ():
-        bodies = [each for each in every if each.is_body and each.name == spelling]
-        found = bodies or _of_point(result, every, spelling)
-        if not found:
-            found = [each for each in every if each.name == spelling]
+        called = [each for each in every if each.name == spelling]
+        found = [each for each in called if each.is_body]
+        found = found or _of_point(result, every, spelling) or called
         if len(found) > 1:
             raise model_error(
                 "ambiguous-part",
@@ -100,14 +98,9 @@ def subject_named(result: Result, name: str) -> Subject:
 
 
 def _of_point(result: Result, every: tuple[Subject, ...], name: str) -> list[Subject]:
-    parts = result.parts
-    kinds = result.given.arrays.node_kind
-    places = [
-        node
-        for node in np.flatnonzero(kinds <= NodeKind.POSITION).tolist()
-        if parts.name_of_point(node) == name
-    ]
-    return [each for each in every if any(node in each.positions for node in places)]
+    placed = np.flatnonzero(result.given.arrays.node_kind <= NodeKind.POSITION).tolist()
+    places = {node for node in placed if result.parts.name_of_point(node) == name}
+    return [each for each in every if places & set(each.positions)]
 
 
 def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelError:
@@ -121,15 +114,11 @@ def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelErro
     else:
         what = f"there is no body called {in_short(name)}"
     names = list(dict.fromkeys(each.name for each in every if each.is_body))
-    names += [each.name for each in every if not each.is_body and _is_named(each)]
+    names += [each.name for each in every if isinstance(each.body, Joint) and bool(each.body.name)]
     near = nearest(name, names) or sorted(names, key=natural)[:3]
     are = "is" if len(near) == 1 else "are"
     hint = f"there {are} {', '.join(map(in_short, near))}" if near else "this mechanism has no body"
     return model_error("no-body", what, hint)
-
-
-def _is_named(subject: Subject) -> bool:
-    return isinstance(subject.body, Joint) and bool(subject.body.name)
 
 
 class Rank(NamedTuple):
@@ -166,19 +155,6 @@ def rank_of(result: Result, subject: Subject, freedom: int) -> Rank:
     )
 
 
-class _Rows(NamedTuple):
-    """Motions side by side, stored by rows."""
-
-    start: NDArray[np.integer]
-    """(size + 1,) where the entries of each row begin."""
-    vector: NDArray[np.integer]
-    """(entries,) the motion that each belongs to."""
-    value: FloatArray
-    """(entries,)."""
-    vectors: int
-    """How many motions there are."""
-
-
 class Freed:
     """A mechanism in which nothing is declared; each answer is found when it is asked for."""
 
@@ -193,31 +169,23 @@ class Freed:
         return cls(result, is_freed=False)
 
     @cached_property
-    def _data(self) -> ModelData:
-        data = self.result.data
-        arrays = data.arrays
-        coordinates, deformations = (
-            np.where(classes == Class.INDEPENDENT, np.int32(Class.DEPENDENT), classes)
-            for classes in (arrays.coordinate_class, arrays.deformation_class)
-        )
-        return ModelData(
-            arrays._replace(
-                coordinate_class=np.asfortranarray(coordinates),
-                deformation_class=np.asfortranarray(deformations),
-            ),
-            data.planar,
-            data.name,
-            data.element_names,
-            given_appearance=data.given_appearance,
-            has_long_numbers=data.has_long_numbers,
-        )
-
-    @cached_property
     def _raw(self) -> RawAnalysis:
         if not self._is_freed or not self.result.degrees_of_freedom:
             return self.result.raw
-        asked = self.result.asked
-        return decompose(self._data, Asked(asked.method, asked.tolerance))
+        data, asked = self.result.data, self.result.asked
+        coordinates, deformations = (
+            np.asfortranarray(
+                np.where(classes == Class.INDEPENDENT, np.int32(Class.DEPENDENT), classes)
+            )
+            for classes in (data.arrays.coordinate_class, data.arrays.deformation_class)
+        )
+        arrays = data.arrays._replace(coordinate_class=coordinates, deformation_class=deformations)
+        freed = ModelData(
+            *(arrays, data.planar, data.name, data.element_names),
+            given_appearance=data.given_appearance,
+            has_long_numbers=data.has_long_numbers,
+        )
+        return decompose(freed, Asked(asked.method, asked.tolerance))
 
     @cached_property
     def outcome(self) -> Result:
@@ -235,8 +203,11 @@ class Freed:
         return self.outcome.raw.motions.vectors == self.outcome.under_constrained
 
     @cached_property
-    def _motions(self) -> _Rows:
-        """The motions by rows, each of unit norm with rotations as lengths."""
+    def _motions(self) -> tuple[NDArray[np.integer], NDArray[np.integer], FloatArray]:
+        """The motions by rows, each of unit norm with rotations as lengths.
+
+        Where the entries of each row begin; of each entry the motion, and its value.
+        """
         if not self.is_known:
             raise model_error(
                 "too-many-motions",
@@ -249,7 +220,7 @@ class Freed:
         norms = np.sqrt(np.bincount(vector, weighted**2, motions.vectors))
         order = np.argsort(motions.place, kind="stable")
         start = np.searchsorted(motions.place[order], np.arange(motions.size + 1))
-        return _Rows(start, vector[order], (motions.value / norms[vector])[order], norms.size)
+        return start, vector[order], (motions.value / norms[vector])[order]
 
     @cached_property
     def _place_of(self) -> dict[int, int]:
@@ -264,14 +235,13 @@ class Freed:
 
     def _rates(self, nodes: tuple[int, ...]) -> FloatArray:
         """(3, motions) mean velocity of some nodes in each motion [m or rad]."""
-        motions = self._motions
-        made = np.zeros((3, motions.vectors))
-        for node in nodes:
-            for axis in range(3):
-                column = self._row_of.get((self._place_of[node], axis))
-                if column is not None:
-                    mine = slice(int(motions.start[column]), int(motions.start[column + 1]))
-                    made[axis, motions.vector[mine]] += motions.value[mine]
+        start, vector, value = self._motions
+        made = np.zeros((3, self.outcome.raw.motions.vectors))
+        for node, axis in itertools.product(nodes, range(3)):
+            column = self._row_of.get((self._place_of[node], axis))
+            if column is not None:
+                mine = slice(int(start[column]), int(start[column + 1]))
+                made[axis, vector[mine]] += value[mine]
         return made / len(nodes)
 
     def twists(self, subject: Subject) -> FloatArray:
@@ -336,17 +306,20 @@ class Site:
     def own(self) -> tuple[Attachment, ...]:
         """The points of the body, each place once, those with names first."""
         made: list[Attachment] = []
+        stands = self.result.parts.position_of
         for node in sorted(self.subject.positions, key=self._key):
             place = self._values[node]
             if all(np.linalg.norm(place - other.place) > self.near for other in made):
-                made.append(Attachment(place, node, self._turning(node), True, self._key(node)))
+                turning = (each for each in self.subject.orientations if stands.get(each) == node)
+                turned = next(turning, self.subject.orientations[0])
+                made.append(Attachment(place, node, turned, True, self._key(node)))
         return tuple(made)
 
     def carried(self, spaces: Sequence[ScrewSpace]) -> tuple[Attachment, ...]:
         """Points that a link would carry: where lines of these spaces come near to the body."""
-        places = [self.middle]
+        places, own = [self.middle], [self.middle, *(each.place for each in self.own)]
         for family in (each for space in spaces for each in space.lines):
-            places += [self._nearest(family, near) for near in (self.middle, *self._own_places)]
+            places += [self._nearest(family, near) for near in own]
             places += list(self._feet(family, self.middle)) if len(family.points) > 2 else []
         return self._carried(places)
 
@@ -361,20 +334,17 @@ class Site:
 
     def _carried(self, places: Sequence[FloatArray]) -> tuple[Attachment, ...]:
         made: list[Attachment] = []
+
+        def far(one: Attachment) -> tuple[object, ...]:
+            return round(float(np.linalg.norm(one.place - place)) / self.near), one.key
+
         for place in places:
             there = [each.place for each in (*self.own, *made)]
             if all(np.linalg.norm(place - other) > self.near for other in there):
-                base = min(self.own, key=lambda each: self._far(each, place))
+                base = min(self.own, key=far)
                 key = ((True,), (), (len(made),))
                 made.append(Attachment(place, base.position, base.orientation, False, key))
         return tuple(made)
-
-    @property
-    def _own_places(self) -> list[FloatArray]:
-        return [each.place for each in self.own]
-
-    def _far(self, one: Attachment, place: FloatArray) -> tuple[object, ...]:
-        return round(float(np.linalg.norm(one.place - place)) / self.near), one.key
 
     def _key(self, node: int) -> tuple[object, ...]:
         """Named points first, then those where named parts end, then by place."""
@@ -383,11 +353,6 @@ class Site:
         here = [part.name for part in parts.at(node) if part.kind is not PartKind.BODY]
         place = tuple((np.round(self._values[node] / self.near) + 0.0).tolist())
         return (not name,), natural(name or next(iter(here), "")), place
-
-    def _turning(self, position: int) -> int:
-        stands = self.result.parts.position_of
-        own = self.subject.orientations
-        return next((node for node in own if stands.get(node) == position), own[0])
 
     def _nearest(self, family: Family, place: FloatArray) -> FloatArray:
         """The point nearest to a place through which lines of a family go."""
@@ -400,8 +365,7 @@ class Site:
             return place - (arm @ family.normal) * family.normal
         if len(family.points):
             feet = self._feet(family, place)
-            made: FloatArray = feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))]
-            return made
+            return np.asarray(feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))])
         return place
 
     @staticmethod
@@ -409,8 +373,7 @@ class Site:
         """(n, 3) the point of each line of a family that is nearest to a place."""
         arms = place - family.points
         along = np.sum(arms * family.directions, axis=1)[:, None]
-        made: FloatArray = family.points + along * family.directions
-        return made
+        return np.asarray(family.points + along * family.directions)
 
     @cached_property
     def directions(self) -> FloatArray:
@@ -457,8 +420,7 @@ class Site:
             sides.append((round(outward, 6), round(room, 6), sense, end))
         # Outward, unless something is there already.
         sides.sort(key=lambda side: (side[1] > 1.0e-3, *side[:3]), reverse=True)
-        made: FloatArray = sides[0][3]
-        return made
+        return np.asarray(sides[0][3])
 
 
 def _add(axis: FloatArray, made: list[FloatArray]) -> None:

@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -60,10 +60,9 @@ class Aim(Frozen):
     def of(cls, freedom: ScrewSpace, twists: Sequence[FloatArray]) -> Aim:
         """Of a freedom space and the wanted twists in it, (6,) each."""
         rows = freedom.scaled
-        factors = np.repeat((freedom.length, 1.0), 3)
         if not len(twists) or not len(rows):
             return cls(freedom, rows[:0], rows)
-        shares = np.array([rows @ (twist * factors) for twist in twists])
+        shares = np.array([rows @ (twist * freedom.factors) for twist in twists])
         sizes = np.linalg.norm(shares, axis=1, keepdims=True)
         shares = shares / np.where(sizes > 0.0, sizes, 1.0)
         _, values, right = np.linalg.svd(shares)
@@ -73,7 +72,7 @@ class Aim(Frozen):
     @property
     def may_hold(self) -> ScrewSpace:
         """The wrenches that do no work on what is wanted."""
-        return self._space(self.wanted).reciprocal
+        return self.freedom.of_scaled(self.wanted).reciprocal
 
     @property
     def stoppable(self) -> int:
@@ -87,11 +86,6 @@ class Aim(Frozen):
         works = self.unwanted @ np.roll(line, 3)
         left = complement(works[None] / np.linalg.norm(works)) @ self.unwanted
         return Aim(self.freedom, self.wanted, left)
-
-    def _space(self, rows: FloatArray) -> ScrewSpace:
-        one = self.freedom
-        factors = np.repeat((one.length, 1.0), 3)
-        return ScrewSpace(rows / factors, one.about, one.length, one.of_wrenches, one.planar)
 
 
 _KINDS = ("translation", "rotation", "screw")
@@ -323,8 +317,7 @@ def _place(result: Result, written: Written) -> FloatArray:
     }
     found = [node for node, name in named.items() if name == word]
     if len(found) == 1:
-        made: FloatArray = result.given.arrays.node_value[:3, found[0]]
-        return made
+        return np.asarray(result.given.arrays.node_value[:3, found[0]])
     if found:
         raise model_error("ambiguous-name", f"{len(found)} points are called {in_short(word)}")
     near = nearest(word, named.values())
@@ -347,14 +340,13 @@ def declared_of(result: Result, subject: Subject, space: ScrewSpace) -> tuple[Wa
     That of a coordinate of the body itself is the translation along it, or the rotation about
     it, if the body can do that; every other one is the motion in which the others stand still.
     """
-    made = []
     left = Freed.as_declared(result)
     undeclared = left.space(subject) if left.is_known else None
-    for freedom in result.freedoms[:_MOST]:
-        found = _own(result, subject, space, freedom) or _moved(subject, space, freedom, undeclared)
-        if found is not None:
-            made.append(found)
-    return tuple(made)
+    made = (
+        _own(result, subject, space, freedom) or _moved(subject, space, freedom, undeclared)
+        for freedom in result.freedoms[:_MOST]
+    )
+    return tuple(filter(None, made))
 
 
 def not_wanted(result: Result, subject: Subject, aim: Aim) -> Change:
@@ -362,7 +354,11 @@ def not_wanted(result: Result, subject: Subject, aim: Aim) -> Change:
     coordinates, deformations = [], []
     for freedom in result.freedoms[:_MOST]:
         moved = _moved(subject, aim.freedom, freedom)
-        if moved is None or not _is_beside(aim, moved.twist):
+        if moved is None:
+            continue
+        # Whether it has a part in what is unwanted.
+        row = moved.twist * aim.freedom.factors
+        if np.linalg.norm(aim.unwanted @ row) <= 1.0e-3 * np.linalg.norm(row):
             continue
         kind, number = freedom.owner
         if kind == "node":
@@ -373,13 +369,6 @@ def not_wanted(result: Result, subject: Subject, aim: Aim) -> Change:
             given = int(result.given.arrays.element_number[place])
             deformations.append((given, own, Class.DEPENDENT))
     return Change(tuple(deformations), tuple(coordinates))
-
-
-def _is_beside(aim: Aim, twist: FloatArray) -> bool:
-    """Whether a twist has a part in what is unwanted."""
-    row = twist * np.repeat((aim.freedom.length, 1.0), 3)
-    size = float(np.linalg.norm(row))
-    return float(np.linalg.norm(aim.unwanted @ row)) > 1.0e-3 * size
 
 
 def _own(result: Result, subject: Subject, space: ScrewSpace, freedom: Freedom) -> Wanted | None:
@@ -393,7 +382,7 @@ def _own(result: Result, subject: Subject, space: ScrewSpace, freedom: Freedom) 
     pitch = 0.0 if turns else math.inf
     written = Written(freedom.label, None, way, direction, None, pitch)
     made = wanted_of(result, space, written)
-    return _declared(made) if made.is_free else None
+    return replace(made, is_declared=True) if made.is_free else None
 
 
 def _moved(
@@ -418,10 +407,4 @@ def _moved(
     return Wanted(
         *(freedom.label, screw.kind, screw.direction, screw.point, screw.pitch),
         *(twist, True, True),
-    )
-
-
-def _declared(one: Wanted) -> Wanted:
-    return Wanted(
-        *(one.text, one.kind, one.direction, one.point, one.pitch, one.twist, one.is_free, True)
     )

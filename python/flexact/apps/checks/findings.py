@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ...advice.describe import verdict_in_words
-from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
+from ...advice.describe import lines_on_motions, lines_on_self_stresses, verdict_in_words
 from ...analysis.mode_words import (
     conflict_in_words,
     internal_in_words,

@@ -6,18 +6,17 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
-from ...advice.advice import Advice, advice_of
+from ...advice.advice import Advice, advice_of, describe
 from ...advice.json import line_of
-from ...advice.proposal import tried
-from ...advice.steps import together
-from ...advice.words import describe
-from ...analysis.naming import counts_in_words
+from ...advice.step import together, tried
 from ...analysis.places import listed
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
+from ...core.progress import Progress
 from ...deck.rendering import ModelError
 from ...model.editing import edited_deck
 from ...show.writers import PAGES, PICTURES, STILLS
@@ -104,7 +103,9 @@ def _plan(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> None:
         raise BatchError("--json and -o - both go to standard output: choose one")
 
 
-def _written(advice: Advice, target: Path, steps: tuple[Chosen, ...] | None) -> str:
+def _written(
+    advice: Advice, target: Path, steps: tuple[Chosen, ...] | None, progress: Progress | None
+) -> str:
     """Write a page, a picture, or the deck that some steps make; say so.
 
     Raises:
@@ -126,22 +127,23 @@ def _written(advice: Advice, target: Path, steps: tuple[Chosen, ...] | None) -> 
     else:
         # Of a page by default the first step, or what makes it exact.
         asked = steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
+        # Those up to what is taken are enough.
+        there = tuple(islice(advice.numbered(progress), max(one.step for one in asked)))
         for one in asked:
-            if one.step > len(advice):
+            if one.step > len(there):
                 raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
-        taken = [(advice[one.step - 1], one.choice) for one in asked]
-        change = together(step.chosen(choice) for step, choice in taken)
-        after = taken[0][0].after if len(taken) == 1 else tried(advice.analysis, change)
+        taken = [there[one.step - 1] for one in asked]
+        change = together(there[one.step - 1].chosen(one.choice) for one in asked)
+        after = taken[0].after if len(taken) == 1 else tried(advice.analysis, change)
         words = f"step{'s' * (len(taken) > 1)} {listed([str(one) for one in asked])}"
-        outcome = counts_in_words(after.under_constrained, after.over_constrained)
         if kind in PAGES:
-            pieces = tuple(piece for step, _ in taken for piece in (*step.pieces, " "))
+            pieces = tuple(piece for step in taken for piece in (*step.pieces, " "))
             content = load(pages).page_of(advice, change, pieces)
-            said = f"{words} shown in {name}, {outcome}"
+            said = f"{words} shown in {name}, {after.outcome}"
         else:
             given = advice.analysis.given
             content = edited_deck(given, change.apply(given).data)
-            said = f"{words} written to {name}, {outcome}"
+            said = f"{words} written to {name}, {after.outcome}"
     if kind in (*PAGES, *STILLS):
         write_together({target: content})
     else:
@@ -170,14 +172,20 @@ def advise_decks(chosen: argparse.Namespace) -> ExitCode:
             result = read_and_analysed(deck, chosen, bar)
             try:
                 advice = advice_of(result, chosen.body, chosen.wanted, chosen.bodies)
-                advice.found(bar.show_work)
+                # A deck that a step makes needs no step behind it.
+                if chosen.json or target is None or target.suffix.lower() in (*PAGES, *STILLS):
+                    advice.found(bar.show_work)
                 with unwinding():
-                    written = _written(advice, target, chosen.apply) if target else ""
+                    written = ""
+                    if target is not None:
+                        written = _written(advice, target, chosen.apply, bar.show_work)
             except ModelError as error:
                 raise in_short(error) from None
             words = ""
             if chosen.json:
-                words = load("json").dumps(line_of(advice), allow_nan=False)
+                words = load("json").dumps(
+                    line_of(advice.analysis, advice.to_dict()), allow_nan=False
+                )
             elif not written:
                 words = f"{describe(advice, width=text_width())}\n"
         if words:

@@ -10,7 +10,7 @@ from itertools import islice, takewhile
 from typing import NamedTuple
 
 from ...advice.advice import Advice
-from ...advice.steps import Step
+from ...advice.step import Step
 from ...analysis.change import Change
 from ...analysis.naming import plain
 from ...model.editing import edited_deck

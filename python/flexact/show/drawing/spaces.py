@@ -14,7 +14,7 @@ from ...util.records import Frozen
 from ...util.rotations import frames_along, unit
 
 if TYPE_CHECKING:
-    from ...advice.holding import Hold
+    from ...advice.constraint_quality import Hold
     from ...advice.spaces.screws import Family
 
 #: Half the length of a line, and of an arrow from the middle: parts of the drawing's size.

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import contextlib
 
-from ...advice.advice import Advice
+from ...advice.advice import Advice, sections_of
 from ...advice.spaces.spaces import spaces_of
-from ...advice.words import sections_of
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.naming import Pieces
@@ -31,7 +30,7 @@ def page_of(advice: Advice, change: Change, words: Pieces) -> bytes:
     after: Result = result_of(
         model.data, Asked(asked.method, asked.tolerance, asked.prove, asked.accuracy), before.name
     )
-    told = (each.line for section in sections_of(advice) for each in section)
+    told = (line for section in sections_of(advice) for line, _ in section)
     stills = still_of(before), still_of(after)
     body = None
     if advice.spaces is not None:

@@ -12,9 +12,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...advice.describe import VerdictInWords, verdict_in_words
+from ...advice.describe import (
+    VerdictInWords,
+    lines_on_motions,
+    lines_on_self_stresses,
+    verdict_in_words,
+)
 from ...advice.spaces.spaces import Spaces
-from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
 from ...analysis.naming import Line, Named, Pieces
 from ...analysis.result import Result

@@ -16,7 +16,7 @@ already. The length of the mechanism makes rotations comparable with displacemen
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,7 +30,7 @@ from ..model.parts.parts import Part, PartKind
 from ..util.groups import groups_of
 from ..util.records import Frozen
 from .spaces.screws import ScrewSpace
-from .spaces.words import wrenches_in_words
+from .spaces.words import Geometry, space_in_words
 
 #: Rates below this part of the largest are rounding.
 _ROUNDING = 1.0e-9
@@ -81,7 +81,11 @@ def holds_of(result: Result) -> tuple[Hold, ...]:
     if not 0 < net.bodies <= _MOST_BODIES:
         return ()
     found = [each for each in map(net.wrenches, net.groups) if each is not None]
-    if not found or len(found) < len(net.groups) or not net.is_joined_by(found):
+    if not found or len(found) < len(net.groups):
+        return ()
+    # Bodies that share a point have a hinge there, which has it in what it holds.
+    pairs = {each.bodies for each in found}
+    if any(len(own) != 2 or tuple(sorted(own)) not in pairs for own in net.pins.values()):
         return ()
     sines = _sines([net.on_bodies(each) for each in found])
     return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
@@ -100,8 +104,7 @@ def _sines(rows: list[FloatArray]) -> list[float]:
 
 def _orthonormal(rows: FloatArray) -> FloatArray:
     _, sizes, turned = np.linalg.svd(rows, full_matrices=False)
-    made: FloatArray = turned[sizes > _ROUNDING * sizes.max(initial=0.0)]
-    return made
+    return np.asarray(turned[sizes > _ROUNDING * sizes.max(initial=0.0)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,11 +225,6 @@ class _Net:
         wrenches = held * np.repeat((1.0, self.length), 3)
         return _Carried(elements, (ends[0], ends[1]), middle, wrenches)
 
-    def is_joined_by(self, found: list[_Carried]) -> bool:
-        """Whether bodies that share a point have a hinge there, which has it in what it holds."""
-        pairs = {each.bodies for each in found}
-        return all(len(own) == 2 and tuple(sorted(own)) in pairs for own in self.pins.values())
-
     def _rates(self, elements: tuple[int, ...], nodes: list[int]) -> FloatArray:
         """(held, 3 nodes) rates of what elements hold, rotations by the length of the mechanism."""
         raw, classes = self.result.assembly, self.data.arrays.deformation_class
@@ -290,11 +288,6 @@ def _cross(arm: FloatArray) -> FloatArray:
     return np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
 
 
-def worst_first(holds: tuple[Hold, ...]) -> Iterator[Hold]:
-    """Flexures by how well they hold, the worst first."""
-    return iter(sorted(holds, key=lambda hold: round(hold.sine, 6)))
-
-
 #: What the number is.
 MEANING = "the sine of the smallest angle to what all others hold: 1 on its own, 0 over-constrained"
 #: So many are named in a caption.
@@ -308,7 +301,7 @@ def number_of(hold: Hold) -> str:
 
 def hold_in_words(result: Result, hold: Hold) -> str:
     """What a flexure holds, a sentence."""
-    held = "; ".join(map(plain, wrenches_in_words(result, hold.space)))
+    held = "; ".join(map(plain, space_in_words(Geometry(result), hold.space)))
     few = hold.space.dimension
     count = f"{few} independent force{'s' * (few > 1)} or moments: " if few > 1 else ""
     verb = "hold" if len(hold.parts) > 1 else "holds"
@@ -318,7 +311,7 @@ def hold_in_words(result: Result, hold: Hold) -> str:
 
 def holds_in_words(holds: Sequence[Hold]) -> str:
     """How well each flexure holds, the worst first, a sentence."""
-    worst = list(worst_first(tuple(holds)))
+    worst = sorted(holds, key=lambda hold: round(hold.sine, 6))
     told = "; ".join(f"{hold.name}: {number_of(hold)}" for hold in worst[:_MOST])
     more = f"; and {len(worst) - _MOST} more" if len(worst) > _MOST else ""
     return f"What each flexure holds, and how well ({MEANING}): {told}{more}."
