@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 import flexact
 from flexact.apps.cli.analyse import FORMS, LOGS
 from flexact.apps.cli.command import parser_of
-from flexact.apps.cli.decks import TABLES
 from flexact.apps.cli.main import main
 from flexact.apps.convert.text import JSON, YAML
 from flexact.apps.editor.completion import complete_at
