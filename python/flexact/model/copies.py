@@ -184,7 +184,7 @@ def _copies(
     # Within which points are joined [m]; None where none are.
     tolerance: float | None = None
     if join is True:
-        tolerance = ROUNDING * max(source.size(), target.size())
+        tolerance = ROUNDING * max(source.size, target.size)
     elif join is not False:
         tolerance = numbers_of_size(join, (1,), "join is True, False or a distance", "m")[0]
     copying = _Copying(source, *chosen, target, tolerance)

@@ -9,13 +9,27 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from ...analysis.differences import Side, SideError, broken_side, change_of, side_of, stored_side
 from ...analysis.result import Result
 from ...analysis.verdict_words import verdict_word
-from ...show.page import Entry, Pair, before_and_after, changes_part, compare_page, index_page
+from ...deck.rendering import ProblemsError
+from ...show.page import (
+    Entry,
+    Pair,
+    before_and_after,
+    broken_entry,
+    broken_page,
+    changes_part,
+    compare_page,
+    entry_of,
+    index_page,
+    unread_entry,
+    with_way_back,
+)
 from ...show.picture import has_packages, picture_bytes
-from ...show.saving import small_picture
+from ...show.saving import page_bytes, small_picture
 from ...show.writers import PAGES, as_bytes
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
@@ -26,12 +40,56 @@ from ...util.text import harmless
 from . import decks as failures
 from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, analysed, opened, read_and_analysed, take
 from .parser import Verb, argument
-from .targets import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, folder_or, page_of, unread
+from .targets import folder_or
 from .terminal import Bar, ExitCode, Outcome, complain, end_progress, exit_code, say, show_progress
 
 _JSON = ".json"
 _USAGE = "--compare takes two decks, or two folders"
 _KINDS = {"changed": "changed", "same": "as before"}
+
+
+#: What the index takes the place of among the decks.
+INDEX = DeckFile("the index", Path("index"))
+WITHOUT_PICTURES = (
+    "without the packages matplotlib and pillow there are no still pictures, for browsers without "
+    "WebGL and in the index: pip install matplotlib pillow"
+)
+
+
+class DeckPage(NamedTuple):
+    """A page, and its place in the index."""
+
+    content: bytes
+    entry: Entry
+
+
+def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
+    """The page of a result, whose path beside the index is `place` but for its suffix.
+
+    Args:
+        result: The result.
+        place: The path.
+        indexed: Whether there is an index, which has a picture of each page.
+    """
+    with unwinding():
+        content = page_bytes(result, place if indexed else None)
+    with unwinding():
+        picture = small_picture(result) if indexed else None
+    return DeckPage(content, entry_of(result, place, f"{place}.html", picture))
+
+
+def broken_page_of(
+    error: Exception, name: str, place: str, *, indexed: bool = True
+) -> DeckPage | None:
+    """The page of a deck with errors; None where its file could not be read."""
+    if isinstance(error, ProblemsError):
+        codes = {item.code for item in error.diagnostics}
+        if codes & failures.NOT_READ:
+            return None
+    made = broken_page(error, name)
+    if indexed:
+        made = with_way_back(made, place)
+    return DeckPage(as_bytes(made), broken_entry(error, place, f"{place}.html", name))
 
 
 COMPARE = (
@@ -341,7 +399,8 @@ class _CliReportWork:
         if self.index is None:
             return
         entries = [
-            self.entries.get(deck.path, unread(deck.relative.as_posix())) for deck in self.decks
+            self.entries.get(deck.path, unread_entry(deck.relative.as_posix()))
+            for deck in self.decks
         ]
         with unwinding():
             write_together({self.index: as_bytes(index_page(entries))})

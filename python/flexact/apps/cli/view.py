@@ -17,7 +17,8 @@ from ...util.outputs import plan_file
 from ...util.text import harmless
 from .decks import ACCURACY_AND_BEYOND, DECISION, foreseen, read_and_analysed, take
 from .parser import Verb, argument
-from .targets import DECK, NO_BROWSER, broken_page_of, file, one_deck
+from .report import broken_page_of
+from .targets import DECK, NO_BROWSER, file, one_deck
 from .terminal import Bar, ExitCode, Outcome, say
 
 
