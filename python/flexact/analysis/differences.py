@@ -70,6 +70,13 @@ def statements_in(source: Source) -> tuple[Statement, ...]:
     )
 
 
+def _meant(word: str) -> str:
+    """A number as it is read, of which long ones keep their digits; other words in capitals."""
+    if _NUMBER.match(word) and len(word) < 17:
+        return repr(float(re.sub("[dD]", "e", word)) + 0.0)
+    return word.upper()
+
+
 def differences(
     before: tuple[Statement, ...], after: tuple[Statement, ...]
 ) -> tuple[Different, ...]:

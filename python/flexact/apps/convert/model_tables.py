@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Of a model's points: the table of nodes and what is said of each."""
+"""From a model to tables: its points and what is said of them, its elements in sets."""
 
 from __future__ import annotations
 
