@@ -11,11 +11,13 @@ import contextlib
 import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from ..model.data import ModelData
 from ..util.errors import BatchError
 from ..util.outputs import OutputError, write_together
+
+if TYPE_CHECKING:
+    from ..model.data import ModelData
 
 #: Suffixes of pictures: of those that stand still, of videos, of all that move, and of both.
 STILLS = (".png", ".svg", ".pdf")
