@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Make python/flexact/report/three.min.js: the parts of three.js that the page uses,
+# Make python/flexact/show/page/three.min.js: the parts of three.js that the page uses,
 # as one script that sets the global THREE. Needs node, npm and a package registry;
 # the result is kept in the repository, so that nobody else needs them.
 set -eu
 three=0.187.0
 esbuild=0.28.2
-target=$(cd "$(dirname "$0")/.." && pwd)/python/flexact/report/three.min.js
+target=$(cd "$(dirname "$0")/.." && pwd)/python/flexact/show/page/three.min.js
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

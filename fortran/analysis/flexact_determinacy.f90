@@ -43,13 +43,14 @@ contains
       type(problem_t), intent(out) :: problem
       type(result_t), intent(out) :: result
       type(rank_rule_t) :: rule
+      integer :: method
 
       call options%progress%report(stage_assembling)
       call make_problem(model, options%only_plain_values, problem)
       rule = rank_rule_of(problem%scaling, options%tolerance)
-      result%method = options%method
-      if (options%method == method_auto) result%method = choice(problem)
-      call prepare(problem, result)
+      method = options%method
+      if (method == method_auto) method = choice(problem)
+      call prepare(problem, method, result)
       if (options%only_plain_values) then
          call no_proof(problem%components%count, result%proof)
       else
@@ -86,8 +87,7 @@ contains
          if (result%proof%total() < result%decision%rank) call count_unseen(result%proof%total(), result)
       end if
       if (operations(problem) > merge(feasible, soon_judged, is_wanted) .or. .not. (is_wanted .or. is_unseen(result))) return
-      complete%method = method_svd
-      call prepare(problem, complete)
+      call prepare(problem, method_svd, complete)
       complete%proof = result%proof
       call analyse_dense(model, problem, options, rule, result%proof, complete)
       if (.not. allocated(complete%error)) result = complete
@@ -140,13 +140,11 @@ contains
    end function is_unseen
 
    !> A result with nothing in it but the method.
-   pure subroutine prepare(problem, result)
+   pure subroutine prepare(problem, method, result)
       type(problem_t), intent(in) :: problem
-      type(result_t), intent(inout) :: result
-      integer :: method
+      integer, intent(in) :: method
+      type(result_t), intent(out) :: result
 
-      method = result%method
-      result = result_t()
       result%method = method
       call new_sparse_basis(result%motions)
       call new_sparse_basis(result%stresses)

@@ -113,7 +113,7 @@ contains
          at = findloc(self%item%severity /= severity_error, .true., dim=1, back=.true.)
       end if
       self%kept = max(self%kept, at)
-      self%item(at) = diagnostic_t(severity, code, place, message=message, label=label, help=help)
+      self%item(at) = diagnostic_t(severity, code, place, span_t(), message, label, help)
       if (present(other)) self%item(at)%other = other
       if (present(words)) self%item(at)%words = words
    end subroutine add

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where a caller on another thread watches what is at work.
+!> Where a caller on another thread watches what is at work, and may stop it: each access is to
+!> memory, not to what the compiler knows to stand there.
 module flexact_progress
    use flexact_kinds, only: wp
    implicit none
@@ -32,7 +33,8 @@ contains
       class(progress_t), intent(in) :: self
       integer, intent(in) :: stage
 
-      if (associated(self%stage)) self%stage(:2) = [stage, 0]
+      call write_to(self, 1, stage)
+      call write_to(self, 2, 0)
    end subroutine report
 
    !> done: the part of the stage that is done, from 0 to 1.
@@ -40,13 +42,26 @@ contains
       class(progress_t), intent(in) :: self
       real(wp), intent(in) :: done
 
-      if (associated(self%stage)) self%stage(2) = nint(100*done)
+      call write_to(self, 2, nint(100*done))
    end subroutine advance
 
-   pure recursive logical function is_stopped(self)
+   recursive logical function is_stopped(self)
       class(progress_t), intent(in) :: self
+      integer, pointer, volatile :: stop
 
       is_stopped = .false.
-      if (associated(self%stage)) is_stopped = self%stage(3) /= 0
+      if (.not. associated(self%stage)) return
+      stop => self%stage(3)
+      is_stopped = stop /= 0
    end function is_stopped
+
+   recursive subroutine write_to(self, place, number)
+      class(progress_t), intent(in) :: self
+      integer, intent(in) :: place, number
+      integer, pointer, volatile :: there
+
+      if (.not. associated(self%stage)) return
+      there => self%stage(place)
+      there = number
+   end subroutine write_to
 end module flexact_progress

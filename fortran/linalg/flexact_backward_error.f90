@@ -15,11 +15,10 @@
 !> they leave out.
 module flexact_backward_error
    use flexact_kinds, only: wp
-   use flexact_skyline, only: skyline_t
    use flexact_sparse, only: operator_t
    implicit none
    private
-   public :: error_of_gram, error_of_skyline, unit, extra, rounds
+   public :: error_of_gram, unit, extra, rounds
 
    real(wp), parameter :: unit = 0.5_wp*epsilon(1.0_wp)
    !> Roundings of an entry beside those of its products: a division as a product
@@ -66,30 +65,4 @@ contains
       end do
       bound = bound + growth(extra)*(1 + largest)
    end function error_of_gram
-
-   !> enough: no better bound than this is sought.
-   pure real(wp) function error_of_skyline(l, enough) result(bound)
-      type(skyline_t), intent(in) :: l
-      real(wp), intent(in) :: enough
-      real(wp) :: w(l%n), x(l%n), y(l%n), z(l%n)
-      integer :: i, round
-
-      w = growth([(i - l%first(i) + 1 + extra, i=1, l%n)])
-      x = w
-      bound = huge(bound)
-      do round = 1, rounds
-         y = 0.0_wp
-         do i = 1, l%n
-            associate (row => l%value(l%base(i) + l%first(i):l%base(i) + i))
-               y(l%first(i):i) = y(l%first(i):i) + abs(row)*x(i)
-            end associate
-         end do
-         do i = 1, l%n
-            z(i) = w(i)*dot_product(abs(l%value(l%base(i) + l%first(i):l%base(i) + i)), y(l%first(i):i))
-         end do
-         bound = min(bound, maxval(z/x))
-         if (bound <= enough) exit
-         x = z
-      end do
-   end function error_of_skyline
 end module flexact_backward_error

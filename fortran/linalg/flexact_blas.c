@@ -163,7 +163,10 @@ static void after_fork(void) { pthread_mutex_unlock(&lock); }
  * under a limit it waits for the first call, which looks for room before. */
 static void in_child(void)
 {
+    static const pthread_cond_t nobody_waits = PTHREAD_COND_INITIALIZER;
     active = alone = buffered = 0;
+    /* Those who wait for it are left behind, too: it would wait for them. */
+    ended = nobody_waits;
     if (has_threads() && !is_limited() && openblas_get_parallel() != openmp) set_threads();
     pthread_mutex_unlock(&lock);
 }

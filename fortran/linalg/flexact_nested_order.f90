@@ -1,7 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A fill-reducing order of the columns of A'A, found on groups of columns that
-!> share their rows: a graph several times smaller.
+!> Orders in which the columns of A'A are eliminated: along a band where it is narrow, else one
+!> that keeps the fill low, found on groups of columns that share their rows: a graph several
+!> times smaller.
 module flexact_nested_order
+   use flexact_components, only: breadth_first_order
    use flexact_dissection, only: dissection_order
    use flexact_error, only: error_t, fail, error_memory
    use flexact_gram, only: gram_t, group_graph
@@ -10,14 +12,61 @@ module flexact_nested_order
    use flexact_sparse, only: sparse_t, operator_t
    implicit none
    private
-   public :: nested_order, own_order
+   public :: elimination_order, envelope, nested_order, own_order
 
    !> Cuts of what is flat have about the root of the number of vertices, and there our own order is
    !> as good as that of METIS, and found in a third of the time; where they have this many times as
    !> much, as in lattices in space, METIS finds better ones: see methods.md.
    real(wp), parameter :: broad = 3.0_wp
 
+   !> Entries of the envelope a column up to which columns are taken along the band: no order then
+   !> costs less to find and to work with, tried from 5 to 40 entries.
+   real(wp), parameter :: narrow = 40.0_wp
+
 contains
+
+   !> group (columns) ascends; the order counts from 0.
+   subroutine elimination_order(a, group, order, error)
+      type(operator_t), intent(in) :: a
+      integer, intent(in) :: group(:)
+      integer, allocatable, intent(out) :: order(:)
+      type(error_t), allocatable, intent(out) :: error
+
+      allocate (order(size(group)))
+      call breadth_first_order(a, order)
+      if (envelope(a%by_row, order) <= narrow*size(order)) then
+         order = order - 1
+      else
+         call nested_order(a, group, order, error)
+      end if
+   end subroutine elimination_order
+
+   !> Entries of A'A in an order, from the first of each row to its diagonal, all between included.
+   pure real(wp) function envelope(by_row, order) result(entries)
+      type(sparse_t), intent(in) :: by_row
+      integer, intent(in) :: order(:)
+      integer :: place_of(size(order)), first(size(order)), i, a, leftmost
+
+      do i = 1, size(order)
+         place_of(order(i)) = i
+         first(i) = i
+      end do
+      do i = 1, by_row%columns
+         associate (column => by_row%place(by_row%start(i):by_row%start(i + 1) - 1))
+            leftmost = size(order)
+            do a = 1, size(column)
+               leftmost = min(leftmost, place_of(column(a)))
+            end do
+            do a = 1, size(column)
+               first(place_of(column(a))) = min(first(place_of(column(a))), leftmost)
+            end do
+         end associate
+      end do
+      entries = 0.0_wp
+      do i = 1, size(order)
+         entries = entries + (i - first(i) + 1)
+      end do
+   end function envelope
 
    !> group (columns) ascends; the order counts from 0.
    subroutine nested_order(a, group, order, error)
@@ -26,16 +75,18 @@ contains
       integer, allocatable, intent(out) :: order(:)
       type(error_t), allocatable, intent(out) :: error
       type(gram_t) :: graph
-      integer, allocatable :: of_groups(:), first(:)
-      integer :: groups, widest, i, j, g, info, status
+      integer, allocatable :: of_groups(:), other(:), first(:)
+      integer :: groups, widest, i, j, g, info
 
       groups = group(size(group))
       call group_graph(a, group, groups, graph)
-      allocate (of_groups(groups), order(size(group)), first(groups + 1), stat=info)
+      allocate (of_groups(groups), other(groups), order(size(group)), first(groups + 1), stat=info)
       if (info == 0) call own_order(groups, graph%start, graph%place, of_groups, widest, info)
       if (info == 0 .and. metis_is_there() /= 0) then
          ! Where METIS gives up, our own order stays.
-         if (widest > broad*sqrt(real(groups, wp))) status = metis_order(groups, graph%start, graph%place, of_groups)
+         if (widest > broad*sqrt(real(groups, wp))) then
+            if (metis_order(groups, graph%start, graph%place, other) == 0) of_groups = other
+         end if
       end if
       if (info /= 0) then
          call fail(error_memory, error)

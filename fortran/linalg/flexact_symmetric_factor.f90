@@ -98,8 +98,8 @@ contains
       integer, intent(inout) :: next(:)
       real(wp), intent(inout) :: row(:)
       type(symmetric_factor_t), intent(inout) :: factor
-      real(wp) :: entry, pivot
-      integer :: j, at, p, i
+      real(wp) :: entry
+      integer :: j, at, p
 
       do at = pattern%left_start(k), pattern%left_start(k + 1) - 1
          j = pattern%left_column(at)
@@ -112,10 +112,8 @@ contains
          row(k) = row(k) - factor%value(next(j))*entry
          next(j) = next(j) + 1
       end do
-      i = k
-      pivot = row(i)
-      row(i) = 0.0_wp
-      factor%pivot(k) = pivot
+      factor%pivot(k) = row(k)
+      row(k) = 0.0_wp
    end subroutine eliminate_row
 
    !> Add 1 to a pivot that is zero but for rounding: see above.

@@ -88,12 +88,12 @@ contains
       call make_pinned(a, group, request%memory, request%progress, pinned, error)
       if (is_kind(error, error_not_definite)) then
          call seek_pins(a, pinned, error)
-         if (.not. allocated(error)) call assure(a, pinned, error)
+         if (.not. allocated(error)) call assure(pinned, error)
       end if
       if (.not. (is_kind(error, error_not_definite) .or. is_kind(error, error_not_found))) return
       ! What the low end is then is not shown by two routes.
       low%confirmed = .false.
-      call shift_and_mark(a, pinned, error)
+      call shift_and_mark(pinned, error)
    end subroutine factorise_low_end
 
    !> Columns of several units are made equally long first.
@@ -235,7 +235,7 @@ contains
       if (allocated(start%applied)) deallocate (start%applied)
       is_other = [(all(pin /= pinned%pin(k)), k=1, size(pinned%pin))]
       low = count(values <= low_end*pinned%least)
-      call repin(a, vectors(:, :low), pack(pinned%pin, is_other), pinned, error)
+      call repin(vectors(:, :low), pack(pinned%pin, is_other), pinned, error)
    end subroutine unpin
 
    !> Find the vectors of many pins where they live; `pin` lists the other pins.

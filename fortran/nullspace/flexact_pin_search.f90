@@ -36,7 +36,7 @@ contains
       real(wp), allocatable :: vectors(:, :), values(:)
       integer :: width, low
 
-      call shift(a, pinned, error)
+      call shift(pinned, error)
       if (allocated(error)) return
       width = min(least_wide, pinned%n)
       do
@@ -50,13 +50,12 @@ contains
             return
          end if
       end do
-      call repin(a, vectors(:, :low), [integer ::], pinned, error)
+      call repin(vectors(:, :low), [integer ::], pinned, error)
    end subroutine seek_pins
 
    !> Pin one large entry of each of these vectors (columns, k), beside `others`,
    !> and columns at which the factorisation fails even so.
-   subroutine repin(a, vectors, others, pinned, error)
-      type(operator_t), intent(in) :: a
+   subroutine repin(vectors, others, pinned, error)
       real(wp), intent(in) :: vectors(:, :)
       integer, intent(in) :: others(:)
       type(pinned_t), intent(inout) :: pinned
@@ -72,7 +71,7 @@ contains
       call eliminate(left, entry)
       is_pinned(pack(entry, entry > 0)) = .true.
       do attempt = 1, most_rounds
-         call pin(a, is_pinned, pinned, error)
+         call pin(is_pinned, pinned, error)
          if (.not. is_kind(error, error_not_definite)) return
          is_pinned(pinned%failed) = .true.
       end do

@@ -10,18 +10,15 @@
 !> BIT 46, 2006; `flexact_backward_error`): what is shown holds up to the root of
 !> t**2 - d. Where d is large, t is raised; theory.md (30), (31) and (34).
 module flexact_pinned
-   use flexact_backward_error, only: error_of_gram, error_of_skyline
+   use flexact_backward_error, only: error_of_gram
    use flexact_blas, only: blas_threads
-   use flexact_components, only: breadth_first_order
    use flexact_error, only: error_t, fail, is_kind, error_memory, error_not_definite
-   use flexact_factor, only: factor_t, analyse, factorise_matrix => factorise, get_pivots, error_of_factor, &
-                             solve_with => solve, release_factor => release
+   use flexact_factor, only: factor_t, analyse, factorise, get_pivots, error_of_factor, solve, release_factor => release
    use flexact_gram, only: gram_t, make_gram
    use flexact_kinds, only: wp
-   use flexact_nested_order, only: nested_order
+   use flexact_nested_order, only: elimination_order
    use flexact_pin_groups, only: pin_groups
    use flexact_progress, only: progress_t, stage_ordering, stage_factorising
-   use flexact_skyline, only: skyline_t, skyline_size, fill_skyline, factorise, solve
    use flexact_sparse, only: sparse_t, operator_t
    implicit none
    private
@@ -41,9 +38,6 @@ module flexact_pinned
    !> one too many does no harm: so a thousand times that where nothing is shown anyway.
    real(wp), parameter :: small_pivot = 10.0_wp
    real(wp), parameter :: doubtful_pivot = 1000*small_pivot
-   !> Entries a column up to which the skyline is taken: on banded matrices it takes
-   !> half the time of CHOLMOD, tried from 5 to 120 entries, and no order is sought.
-   real(wp), parameter :: narrow = 40.0_wp
    !> Thresholds for pivots that are tried after the first, each a hundred times larger.
    integer, parameter :: most_attempts = 2
 
@@ -61,14 +55,10 @@ module flexact_pinned
       real(wp) :: bytes = 0.0_wp
       !> The column at which the last factorisation failed.
       integer :: failed = 0
-      logical :: is_narrow = .false.
       !> Whether it is A'A + t**2 I that is factorised, and no columns are pinned.
       logical :: is_shifted = .false.
-      !> Place of each column in the skyline.
-      integer, allocatable :: place_of(:)
       !> Where A stands for A diag(1/scale), its columns made equally long.
       real(wp), allocatable :: scale(:)
-      type(skyline_t) :: skyline
       type(gram_t) :: gram
       type(factor_t) :: factor
       type(progress_t) :: progress
@@ -85,39 +75,22 @@ contains
       type(progress_t), intent(in) :: progress
       type(pinned_t), intent(out) :: pinned
       type(error_t), allocatable, intent(out) :: error
-      integer :: order(a%by_column%columns), first(a%by_column%columns), i
-      real(wp) :: entries, largest
+      real(wp) :: largest
 
       pinned%n = a%by_column%columns
       pinned%progress = progress
       largest = largest_diagonal(a%by_column)
       pinned%error_of_gram = error_of_gram(a, largest, little*least_square*largest)
       pinned%least = sqrt(max(least_square*largest, raised*pinned%error_of_gram))
-      call breadth_first_order(a, order)
-      allocate (pinned%place_of(pinned%n))
-      do i = 1, pinned%n
-         pinned%place_of(order(i)) = i
-      end do
-      call skyline_size(a%by_row, pinned%place_of, first, entries)
-      pinned%is_narrow = entries <= narrow*pinned%n
-      if (pinned%is_narrow) then
-         call fill_skyline(a%by_row, pinned%place_of, first, pinned%least**2, pinned%skyline)
-         allocate (pinned%pin(pinned%n))
-         call factorise(pinned%skyline, small_pivot*pinned%least**2, pinned%pin, pinned%pins)
-         pinned%pin = order(pinned%pin(:pinned%pins))
-         call set_bound(pinned)
-      else
-         call analyse_pattern(a, group, memory, progress, pinned, error)
-         if (allocated(error)) return
-         call progress%report(stage_factorising)
-         call choose_pins(a, group, pinned, error)
-      end if
-      if (.not. allocated(error)) call assure(a, pinned, error)
+      call analyse_pattern(a, group, memory, progress, pinned, error)
+      if (allocated(error)) return
+      call progress%report(stage_factorising)
+      call choose_pins(a, group, pinned, error)
+      if (.not. allocated(error)) call assure(pinned, error)
    end subroutine make_pinned
 
    !> Raise t where the rounding is not well below.
-   subroutine assure(a, pinned, error)
-      type(operator_t), intent(in) :: a
+   subroutine assure(pinned, error)
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       logical :: is_pinned(pinned%n)
@@ -128,18 +101,14 @@ contains
       pinned%least = sqrt(raised*rounding)
       is_pinned = .false.
       is_pinned(pinned%pin) = .true.
-      call pin(a, is_pinned, pinned, error)
+      call pin(is_pinned, pinned, error)
    end subroutine assure
 
    !> What the factorisation, which ran to its end, shows.
    subroutine set_bound(pinned)
       type(pinned_t), intent(inout) :: pinned
 
-      if (pinned%is_narrow) then
-         pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline, enough*pinned%least**2 - pinned%error_of_gram)
-      else
-         pinned%rounding = pinned%error_of_gram + error_of_factor(pinned%factor, enough*pinned%least**2 - pinned%error_of_gram)
-      end if
+      pinned%rounding = pinned%error_of_gram + error_of_factor(pinned%factor, enough*pinned%least**2 - pinned%error_of_gram)
       pinned%bound = 0.0_wp
       if (pinned%rounding < pinned%least**2) pinned%bound = sqrt(pinned%least**2 - pinned%rounding)
    end subroutine set_bound
@@ -169,7 +138,7 @@ contains
       call progress%report(stage_ordering)
       call make_gram(a, memory, pinned%gram, pinned%bytes)
       if (allocated(pinned%gram%value)) then
-         call nested_order(a, group, order, error)
+         call elimination_order(a, group, order, error)
          if (allocated(error)) return
          call analyse(pinned%gram%start, pinned%gram%place, order, blas_threads(), pinned%factor, error)
          if (allocated(error)) return
@@ -192,13 +161,13 @@ contains
       integer :: attempt
 
       call pin_groups(a%by_column, group, small_pivot*pinned%least**2, is_pinned)
-      call pin(a, is_pinned, pinned, error)
+      call pin(is_pinned, pinned, error)
       if (.not. is_kind(error, error_not_definite)) return
-      call factorise_with(a, merge(1.0_wp, 0.0_wp, is_pinned) + pinned%least**2, pinned, error)
+      call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) + pinned%least**2, pinned, error)
       if (allocated(error)) return
       call get_pivots(pinned%factor, pivot)
       do attempt = 0, most_attempts
-         call pin(a, is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*pinned%least**2, pinned, error)
+         call pin(is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*pinned%least**2, pinned, error)
          if (.not. is_kind(error, error_not_definite)) return
          is_pinned(pinned%failed) = .true.
       end do
@@ -207,12 +176,11 @@ contains
    !> Factorise A'A + t**2 I, which runs to its end whatever A is: its inverse
    !> brings forth the null space, and pivots vanish at columns that depend on
    !> those before them.
-   subroutine shift(a, pinned, error)
-      type(operator_t), intent(in) :: a
+   subroutine shift(pinned, error)
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
 
-      call factorise_with(a, spread(pinned%least**2, 1, pinned%n), pinned, error)
+      call factorise_with(spread(pinned%least**2, 1, pinned%n), pinned, error)
       pinned%pin = [integer ::]
       pinned%pins = 0
       pinned%bound = 0.0_wp
@@ -220,103 +188,57 @@ contains
    end subroutine shift
 
    !> The same, and mark the columns with small pivots as if they were pinned.
-   subroutine shift_and_mark(a, pinned, error)
-      type(operator_t), intent(in) :: a
+   subroutine shift_and_mark(pinned, error)
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       real(wp) :: pivot(pinned%n)
       integer :: i
 
-      call shift(a, pinned, error)
+      call shift(pinned, error)
       if (allocated(error)) return
-      if (pinned%is_narrow) then
-         associate (matrix => pinned%skyline)
-            pivot = matrix%value(matrix%base(pinned%place_of) + pinned%place_of)**2
-         end associate
-      else
-         call get_pivots(pinned%factor, pivot)
-      end if
+      call get_pivots(pinned%factor, pivot)
       pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot*pinned%least**2)
       pinned%pins = size(pinned%pin)
    end subroutine shift_and_mark
 
    !> Factorise with these pins.
-   subroutine pin(a, is_pinned, pinned, error)
-      type(operator_t), intent(in) :: a
+   subroutine pin(is_pinned, pinned, error)
       logical, intent(in) :: is_pinned(:)
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       integer :: i
 
       pinned%is_shifted = .false.
-      call factorise_with(a, merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2, pinned, error)
+      call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2, pinned, error)
       pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
       pinned%pins = size(pinned%pin)
       if (.not. allocated(error)) call set_bound(pinned)
    end subroutine pin
 
    !> Factorise A'A with this added to its diagonal.
-   subroutine factorise_with(a, added, pinned, error)
-      type(operator_t), intent(in) :: a
+   subroutine factorise_with(added, pinned, error)
       real(wp), intent(in) :: added(:)
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       real(wp) :: kept(size(added))
 
-      if (pinned%is_narrow) then
-         call factorise_narrow(a%by_row, added, pinned, error)
-         return
-      end if
       associate (gram => pinned%gram)
          kept = gram%value(gram%diagonal)
          gram%value(gram%diagonal) = kept + added
-         call factorise_matrix(pinned%factor, gram%value, pinned%progress, pinned%failed, error)
+         call factorise(pinned%factor, gram%value, pinned%progress, pinned%failed, error)
          gram%value(gram%diagonal) = kept
       end associate
    end subroutine factorise_with
-
-   subroutine factorise_narrow(by_row, added, pinned, error)
-      type(sparse_t), intent(in) :: by_row
-      real(wp), intent(in) :: added(:)
-      type(pinned_t), intent(inout) :: pinned
-      type(error_t), allocatable, intent(out) :: error
-      integer :: failed(pinned%n), first(pinned%n), fails, i, place
-
-      first = pinned%skyline%first
-      call fill_skyline(by_row, pinned%place_of, first, 0.0_wp, pinned%skyline)
-      do i = 1, pinned%n
-         place = pinned%place_of(i)
-         associate (diagonal => pinned%skyline%value(pinned%skyline%base(place) + place))
-            diagonal = diagonal + added(i)
-         end associate
-      end do
-      call factorise(pinned%skyline, tiny(1.0_wp), failed, fails)
-      if (fails == 0) return
-      pinned%failed = findloc(pinned%place_of, failed(1), 1)
-      call fail(error_not_definite, error)
-   end subroutine factorise_narrow
 
    !> x = inverse(F) x, column by column.
    subroutine apply_inverse(pinned, x, error)
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(inout), contiguous :: x(:, :)
       type(error_t), allocatable, intent(out) :: error
-      real(wp) :: y(size(x, 1), size(x, 2))
-      integer :: i
 
       if (size(x) == 0) return
       if (allocated(pinned%scale)) call divide(pinned%scale, x)
-      if (pinned%is_narrow) then
-         do i = 1, pinned%n
-            y(pinned%place_of(i), :) = x(i, :)
-         end do
-         call solve(pinned%skyline, y)
-         do i = 1, pinned%n
-            x(i, :) = y(pinned%place_of(i), :)
-         end do
-      else
-         call solve_with(pinned%factor, x, error)
-      end if
+      call solve(pinned%factor, x, error)
       if (allocated(pinned%scale)) call divide(pinned%scale, x)
    end subroutine apply_inverse
 

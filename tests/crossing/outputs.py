@@ -31,7 +31,7 @@ from flexact.costs.cost import COSTS
 from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
-from flexact.show.writers import PAGES, PICTURES, STILLS
+from flexact.show.writers import PAGES, PICTURES, STILLS, TABLES
 from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.

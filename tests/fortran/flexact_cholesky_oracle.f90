@@ -2,6 +2,7 @@
 !> What the Cholesky factor of a symmetric matrix must be, found densely and column by column,
 !> and what it is, read off its panels.
 module flexact_cholesky_oracle
+   use flexact_backward_error, only: unit, extra, rounds
    use flexact_cholesky, only: cholesky_t, analyse
    use flexact_error, only: error_t, is_kind, error_not_definite
    use flexact_kinds, only: wp, qp
@@ -10,7 +11,7 @@ module flexact_cholesky_oracle
    implicit none
    private
    public :: lower_t, lower_of, analyse_for, factorise_by, entries_of, fill_of, permuted, failing, failing_t, &
-             largest_residual, nested_grid
+             largest_residual, nested_grid, bound_of_full
 
    !> A lower triangle column by column, the diagonal first; indices count from 0.
    type :: lower_t
@@ -182,6 +183,22 @@ contains
          end do
       end do
    end function largest_residual
+
+   !> The bound of flexact_backward_error for a factor without zeros.
+   pure real(wp) function bound_of_full(l) result(bound)
+      real(wp), intent(in) :: l(:, :)
+      real(wp) :: w(size(l, 1)), x(size(l, 1)), z(size(l, 1))
+      integer :: i, round
+
+      w = [((i + extra)*unit/(1 - (i + extra)*unit), i=1, size(w))]
+      x = w
+      bound = huge(bound)
+      do round = 1, rounds
+         z = w*matmul(abs(l), matmul(transpose(abs(l)), x))
+         bound = min(bound, maxval(z/x))
+         x = z
+      end do
+   end function bound_of_full
 
    !> Nested dissection of a square of n x n places, from 0: halves by a line of places, which
    !> comes last.

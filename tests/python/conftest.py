@@ -2,8 +2,10 @@
 """Fixtures that several tests share."""
 
 import os
+import random
 import signal
 import sys
+from collections import defaultdict
 from pathlib import Path
 
 import pytest
@@ -30,6 +32,31 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--renew-wording", action="store_true", help="write the texts that tests compare with"
     )
+    parser.addoption(
+        "--sample",
+        action="store_true",
+        help="of a grid of cases always the same few, and nothing that is marked as nightly",
+    )
+
+
+#: Of a test with more cases than this, `make test` takes so many.
+FEW = 20
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """With --sample leave out what `make test-all` asks, which a nightly job runs."""
+    if not config.getoption("--sample"):
+        return
+    grids: dict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        grids[item.nodeid.partition("[")[0]].append(item)
+    kept = set()
+    for name, cases in grids.items():
+        cases = [case for case in cases if not case.get_closest_marker("nightly")]
+        # The seed is the name, so that workers agree and a run is like the last.
+        kept.update(random.Random(name).sample(cases, min(FEW, len(cases))))
+    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+    items[:] = [item for item in items if item in kept]
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -11,9 +11,7 @@ from pathlib import Path
 import pytest
 from small_decks import write
 
-from flexact.util import machine as control_groups
-from flexact.util import machine as engine_processors
-from flexact.util import machine as memory
+from flexact.util import machine
 
 MB = 2.0**20
 V2 = "29 23 0:26 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw,nsdelegate\n"
@@ -40,9 +38,9 @@ def test_docker_with_a_namespace_of_its_own(tmp_path: Path) -> None:
     """As Docker and Kubernetes start containers today: the own group is the root."""
     root = system(tmp_path, "0::/\n", V2)
     group(root, "sys/fs/cgroup", memory_max=int(512 * MB), memory_current=int(200 * MB))
-    assert control_groups.memory_left(root) == 312 * MB
+    assert machine.memory_left_of_group(root) == 312 * MB
     group(root, "sys/fs/cgroup", cpu_max="150000 100000")
-    assert control_groups.processors(root) == 1.5
+    assert machine.processors_of_group(root) == 1.5
 
 
 def test_docker_whose_groups_are_those_of_the_host(tmp_path: Path) -> None:
@@ -55,12 +53,12 @@ def test_docker_whose_groups_are_those_of_the_host(tmp_path: Path) -> None:
     folder = root / "sys/fs/cgroup/memory"
     write(folder / "memory.limit_in_bytes", "1000\n")
     write(folder / "memory.usage_in_bytes", "400\n")
-    assert control_groups.memory_left(root) == 600
+    assert machine.memory_left_of_group(root) == 600
     write(root / "sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us", "50000\n")
     write(root / "sys/fs/cgroup/cpu,cpuacct/cpu.cfs_period_us", "100000\n")
-    assert control_groups.processors(root) == 0.5
+    assert machine.processors_of_group(root) == 0.5
     write(root / "sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us", "-1\n")
-    assert control_groups.processors(root) == math.inf
+    assert machine.processors_of_group(root) == math.inf
 
 
 def test_groups_round_it_that_cannot_be_seen(tmp_path: Path) -> None:
@@ -72,19 +70,19 @@ def test_groups_round_it_that_cannot_be_seen(tmp_path: Path) -> None:
     write(
         folder / "memory.stat", "cache 1\nhierarchical_memory_limit 700\ntotal_inactive_file 50\n"
     )
-    assert control_groups.memory_left(root) == 650
+    assert machine.memory_left_of_group(root) == 650
 
 
 def test_where_it_is_throttled_it_has_its_end(tmp_path: Path) -> None:
     root = system(tmp_path, "0::/user.slice/run.scope\n", V2)
     here = "sys/fs/cgroup/user.slice/run.scope"
     group(root, here, memory_max="max", memory_high=900, memory_current=100)
-    assert control_groups.memory_left(root) == 800
+    assert machine.memory_left_of_group(root) == 800
     group(root, "sys/fs/cgroup/user.slice", memory_max=500, memory_current=200)
-    assert control_groups.memory_left(root) == 300
+    assert machine.memory_left_of_group(root) == 300
     # Swap is no room for an analysis.
     group(root, here, memory_swap_max="max")
-    assert control_groups.memory_left(root) == 300
+    assert machine.memory_left_of_group(root) == 300
 
 
 def test_both_versions_side_by_side(tmp_path: Path) -> None:
@@ -96,15 +94,15 @@ def test_both_versions_side_by_side(tmp_path: Path) -> None:
     root = system(tmp_path, "5:memory:/job_7\n0::/job_7\n", mounts)
     write(root / "sys/fs/cgroup/memory/job_7/memory.limit_in_bytes", "2000\n")
     write(root / "sys/fs/cgroup/memory/job_7/memory.usage_in_bytes", "500\n")
-    assert control_groups.memory_left(root) == 1500
+    assert machine.memory_left_of_group(root) == 1500
     group(root, "sys/fs/cgroup/unified/job_7", cpu_max="max 100000")
-    assert control_groups.processors(root) == math.inf
+    assert machine.processors_of_group(root) == math.inf
 
 
 def test_mounted_elsewhere_under_a_name_with_a_blank(tmp_path: Path) -> None:
     root = system(tmp_path, "0::/\n", "30 20 0:20 / /my\\040groups rw - cgroup2 none rw\n")
     group(root, "my groups", memory_max=64, memory_current=4)
-    assert control_groups.memory_left(root) == 60
+    assert machine.memory_left_of_group(root) == 60
 
 
 @pytest.mark.parametrize("cgroup", [None, "0::/../../elsewhere\n", "nonsense\n"])
@@ -112,18 +110,18 @@ def test_a_sandbox_that_hides_its_path(tmp_path: Path, cgroup: str | None) -> No
     root = system(tmp_path, cgroup)
     group(root, "sys/fs/cgroup", memory_max=1000)
     # How much is used is not told either.
-    assert control_groups.memory_left(root) == 1000 or cgroup == "nonsense\n"
+    assert machine.memory_left_of_group(root) == 1000 or cgroup == "nonsense\n"
 
 
 def test_nothing_is_bounded(tmp_path: Path) -> None:
-    assert control_groups.memory_left(tmp_path) == math.inf
-    assert control_groups.processors(tmp_path) == math.inf
+    assert machine.memory_left_of_group(tmp_path) == math.inf
+    assert machine.processors_of_group(tmp_path) == math.inf
     group(tmp_path, "sys/fs/cgroup", memory_max="nan", memory_current="x", cpu_max="1 2 3")
-    assert control_groups.memory_left(tmp_path) == math.inf
+    assert machine.memory_left_of_group(tmp_path) == math.inf
     group(tmp_path, "sys/fs/cgroup", cpu_max="100000 0")
-    assert control_groups.processors(tmp_path) == math.inf
+    assert machine.processors_of_group(tmp_path) == math.inf
     write(tmp_path / "sys/fs/cgroup/memory.max", "")
-    assert control_groups.memory_left(tmp_path) == math.inf
+    assert machine.memory_left_of_group(tmp_path) == math.inf
 
 
 def test_lxcfs_tells_the_container_in_place_of_the_machine(
@@ -131,8 +129,8 @@ def test_lxcfs_tells_the_container_in_place_of_the_machine(
 ) -> None:
     """It writes a /proc/meminfo of the container's bound; the groups say the same or nothing."""
     root = system(tmp_path, "0::/.lxc\n", "", proc__meminfo="MemTotal: 4 kB\nMemAvailable: 3 kB\n")
-    assert memory._of_machine(root) == 3 * 1024.0
-    assert memory._of_groups(root) == math.inf
+    assert machine._of_machine(root) == 3 * 1024.0
+    assert machine._of_groups(root) == math.inf
 
 
 @pytest.mark.parametrize(
@@ -143,19 +141,19 @@ def test_lxcfs_tells_the_container_in_place_of_the_machine(
 def test_processors_of_a_container(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, quota: str, of_machine: int, expected: int
 ) -> None:
-    monkeypatch.setattr(engine_processors, "_given", lambda: of_machine)
+    monkeypatch.setattr(machine, "_given", lambda: of_machine)
     monkeypatch.setattr("sys.platform", "linux")
     group(system(tmp_path, "0::/\n"), "sys/fs/cgroup", cpu_max=quota)
-    assert engine_processors.processors(tmp_path) == expected
+    assert machine.processors(tmp_path) == expected
 
 
 def test_processors_that_are_set(monkeypatch: pytest.MonkeyPatch) -> None:
     """From Python 3.13 on PYTHON_CPU_COUNT counts, and is asked for in another way."""
     monkeypatch.setattr(os, "process_cpu_count", lambda: 3, raising=False)
-    assert engine_processors._given() == 3
+    assert machine._given() == 3
     monkeypatch.delattr(os, "process_cpu_count", raising=False)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 5}, raising=False)
-    assert engine_processors._given() == 2
+    assert machine._given() == 2
     monkeypatch.delattr(os, "sched_getaffinity", raising=False)
     monkeypatch.setattr(os, "cpu_count", lambda: None)
-    assert engine_processors._given() == 1
+    assert machine._given() == 1

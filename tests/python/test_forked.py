@@ -67,4 +67,4 @@ def test_no_module_takes_the_one_that_has_a_lock() -> None:
                 taken += [str(path) for name in node.names if name.name == "cached_property"]
             if isinstance(node, ast.Attribute) and node.attr == "cached_property":
                 taken.append(str(path))
-    assert taken == [str(PACKAGE / "base" / "cached.py")]
+    assert taken == [str(PACKAGE / "util" / "records.py")]

@@ -24,7 +24,7 @@ from flexact.show.page import Entry, broken_page, content, index_page, page
 from flexact.show.page import modes as modes_data
 from flexact.show.page.assets import SCRIPTS, asset, json_for_script, script
 
-PAGE = ROOT / "python" / "flexact" / "page"
+PAGE = ROOT / "python" / "flexact" / "show" / "page"
 CLAMPED = ROOT / "input_decks" / "paper" / "folded_sheet_clamped.dat"
 
 
@@ -330,7 +330,7 @@ def test_a_failed_analysis_has_a_page_that_says_why() -> None:
 
 
 def test_what_does_not_fit_is_left_out_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("drawing_data", "modes_data", "viewer_data", "tracks"):
+    for module in ("drawing", "modes", "viewer"):
         monkeypatch.setattr(import_module(f"flexact.show.page.{module}"), "MOST_MEMBERS", 7)
     analysis = flexact.analyse(twelve_trusses())
     text = page(analysis)

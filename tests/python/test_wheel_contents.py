@@ -49,7 +49,7 @@ def wheel_of(
         for name, text in texts.items():
             archive.writestr(home + "licenses/" + name, text)
         archive.writestr("flexact/core/_core.cpython-311-x86_64-linux-gnu.so", core)
-        archive.writestr("flexact/page/three.min.js", bytes(weight))
+        archive.writestr("flexact/show/page/three.min.js", bytes(weight))
         for name in (*BUNDLED, *more):
             archive.writestr("flexact.libs/" + name, b"")
     return wheel

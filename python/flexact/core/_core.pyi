@@ -20,6 +20,7 @@ def read_deck(
     value: _Floats,
     /,
 ) -> tuple[_Ints, _Ints, _Ints, _Bytes]: ...
+def find_tokens(text: _Bytes, lines: _Ints, words: _Ints, /) -> None: ...
 def check_model(
     text: _Bytes,
     nodes: _Ints,

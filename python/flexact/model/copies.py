@@ -86,6 +86,8 @@ def pattern(
     turned = 360.0 / size if degrees is None else angle(degrees)
     centre = _place(draft, at)
     chosen = _chosen(draft, parts)
+    # Of several mistakes that in the names is said before those in the moves.
+    _renamer(names, 2)
     if size == 1:
         moves = []
     elif step is None:
@@ -184,7 +186,7 @@ def _copies(
     # Within which points are joined [m]; None where none are.
     tolerance: float | None = None
     if join is True:
-        tolerance = ROUNDING * max(source.size(), target.size())
+        tolerance = ROUNDING * max(source.size, target.size)
     elif join is not False:
         tolerance = numbers_of_size(join, (1,), "join is True, False or a distance", "m")[0]
     copying = _Copying(source, *chosen, target, tolerance)

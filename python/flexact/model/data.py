@@ -36,22 +36,33 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
         yield from _long(data, _lengths(data))
     if data.properties is None or data.given_appearance is None:
         return
-    area, thickness = _sections(data)
+    looks = data.appearance
+    b, h = looks.dimensions.T
+    round_ = looks.cross_section == CrossSection.CIRC
+    solid = round_ | (looks.cross_section == CrossSection.RECT)
+    area = np.where(solid, np.where(round_, math.pi / 4.0, 1.0) * b * h, 0.0)
     stiff = np.nan_to_num(data.properties.stiffness[:, 0])
     mass = np.nan_to_num(data.properties.mass[:, 0])
     # Of a rigid link the mass is that of all of it.
     per_length = member_table()[data.arrays.element_kind] == Member.BEAM
     known = np.where(area > 0.0, area, math.inf)
     yield from _outside(
-        *(data, stiff / known, _MODULI, "unlikely-modulus", "an E of {} Pa", _MODULUS_UNITS),
+        *(data, stiff / known, _MODULI, "unlikely-modulus", "an E of {:.4g} Pa", _MODULUS_UNITS),
         "E is in Pa, and EA of ESTIFF in N",
     )
     yield from _outside(
         *(data, np.where(per_length, mass, 0.0) / known, _DENSITIES),
-        *("unlikely-density", "a density of {} kg/m3", _DENSITY_UNITS),
+        *("unlikely-density", "a density of {:.4g} kg/m3", _DENSITY_UNITS),
         "densities are in kg/m3, and EM of a beam in kg/m",
     )
-    yield from _thick(data, _lengths(data), np.where(stiff > 0.0, thickness, 0.0))
+    length, thickness = _lengths(data), np.where(solid & (stiff > 0.0), np.minimum(b, h), 0.0)
+    found = (length > 0.0) & (thickness > length)
+    if found.any():
+        size = float(thickness[found][0])
+        yield _warning(
+            *("thick-section", f"{_named(data, found)} {_is(found)} thicker than long"),
+            f"its section is {size:.4g} m thick: sections are in metres",
+        )
 
 
 def _lengths(data: ModelData) -> FloatArray:
@@ -63,16 +74,6 @@ def _lengths(data: ModelData) -> FloatArray:
     with np.errstate(over="ignore"):
         made = np.linalg.norm(places[:, q] - places[:, p], axis=0)
     return np.where(there, made, 0.0)
-
-
-def _sections(data: ModelData) -> tuple[FloatArray, FloatArray]:
-    """(elements,) area [m2] and smaller size [m] of solid sections, 0 where none is known."""
-    looks = data.appearance
-    b, h = looks.dimensions.T
-    round_ = looks.cross_section == CrossSection.CIRC
-    solid = round_ | (looks.cross_section == CrossSection.RECT)
-    area = np.where(round_, math.pi / 4.0, 1.0) * b * h
-    return np.where(solid, area, 0.0), np.where(solid, np.minimum(b, h), 0.0)
 
 
 def _long(data: ModelData, length: FloatArray) -> Iterator[Diagnostic]:
@@ -102,29 +103,18 @@ def _outside(
     """Values, 0 where none is known, that are not between two."""
     low, high = between
     found = (value > 0.0) & ~((value >= low) & (value <= high))
-    if not found.any():
-        return
-    one = float(value[found][0])
-    meant = next((unit for factor, unit in units if low <= one * factor <= high), "")
-    yield _warning(
-        *(code, f"{_named(data, found)} {'have' if found.sum() > 1 else 'has'} "),
-        f"{one:.4g} is a usual number in {meant}: {plain}" if meant else plain,
-        words.format(f"{one:.4g}"),
-    )
-
-
-def _thick(data: ModelData, length: FloatArray, thickness: FloatArray) -> Iterator[Diagnostic]:
-    found = (length > 0.0) & (thickness > length)
     if found.any():
-        size = float(thickness[found][0])
+        one = float(value[found][0])
+        meant = next((unit for factor, unit in units if low <= one * factor <= high), "")
+        has = "have" if found.sum() > 1 else "has"
         yield _warning(
-            *("thick-section", f"{_named(data, found)} {_is(found)} thicker than long"),
-            f"its section is {size:.4g} m thick: sections are in metres",
+            *(code, f"{_named(data, found)} {has} {words.format(one)}"),
+            f"{one:.4g} is a usual number in {meant}: {plain}" if meant else plain,
         )
 
 
-def _warning(code: str, message: str, help_: str, more: str = "") -> Diagnostic:
-    return Diagnostic(Severity.WARNING, code, message + more, help=help_)
+def _warning(code: str, message: str, hint: str) -> Diagnostic:
+    return Diagnostic(Severity.WARNING, code, message, help=hint)
 
 
 def _is(found: BoolArray) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from bisect import insort
 from collections.abc import Iterable
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..core.elements import Class, Member, NodeKind, coordinate_name, is_position, member_table
@@ -14,7 +15,7 @@ from ..deck.diagnostics import Source
 from ..deck.rendering import ModelError, model_error
 from ..util.text import in_short
 from .attributes import NUMBERS
-from .names import one_line, part_name
+from .names import grouped, one_line, part_name
 from .places import ROUNDING, Places, RigidComponents
 
 Colour = tuple[float, float, float]
@@ -25,6 +26,11 @@ NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 
 #: Of the numbers of nodes and elements.
 LARGEST = 2**31 - 1
+#: What a draft finds by names, numbers and places, made when it is asked for.
+_TABLES = (
+    *("parts_by_name", "points_by_name", "index_by_number"),
+    *("_at_place", "size", "_components"),
+)
 _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
@@ -84,14 +90,7 @@ class Draft:
         self.began_as: Source | None = None
         self.last_node = 0
         self.last_element = 0
-        # Tables of what was looked for, made when they are needed.
-        self._index_of: dict[int, int] | None = None
-        self._of_part: dict[str, list[int]] | None = None
-        self._of_name: dict[str, list[int]] | None = None
-        self._of_place: dict[Numbers, list[int]] | None = None
-        self._size: float | None = None
         self._places: tuple[float, Places] | None = None
-        self._components: RigidComponents | None = None
 
     # Nodes and elements -----------------------------------------------------
 
@@ -104,10 +103,11 @@ class Draft:
         self.node_kind[number] = kind
         self.node_value[number] = value
         if is_position(kind):
-            if self._of_place is not None:
-                self._of_place.setdefault(value, []).append(number)
-            if self._size is not None:
-                self._size = max(self._size, *map(abs, value[:3]))
+            known = vars(self)
+            if "_at_place" in known:
+                self._at_place.setdefault(value, []).append(number)
+            if "size" in known:
+                self.size = max(self.size, *map(abs, value[:3]))
             if self._places is not None:
                 self._places[1].add(number)
         return number
@@ -179,8 +179,8 @@ class Draft:
         if number > LARGEST:
             raise model_error("number-too-large", "the model has no element number left")
         self.last_element = number
-        if self._index_of is not None:
-            self._index_of[number] = len(self.kinds)
+        if "index_by_number" in vars(self):
+            self.index_by_number[number] = len(self.kinds)
         self.numbers.append(number)
         self.kinds.append(kind)
         self.slots.append(slots)
@@ -268,10 +268,12 @@ class Draft:
             return False
         return all(value in (Class.NONE, Class.FIXED) for value in self.classes[index])
 
+    @cached_property
+    def _components(self) -> RigidComponents:
+        return RigidComponents()
+
     def rigid_components(self) -> RigidComponents:
         """Points by the rigid links between them; elements that are new are added."""
-        if self._components is None:
-            self._components = RigidComponents()
         made = self._components
         for index in range(made.seen, len(self.kinds)):
             if self.is_rigid(index):
@@ -298,8 +300,8 @@ class Draft:
         classes = list(self.classes[index])
         classes[number - 1] = value
         self.classes[index] = tuple(classes)
-        if self._components is not None and index < self._components.seen:
-            self._components = None
+        if index < self._components.seen:
+            del self._components
 
     def declare(self, index: int, numbers: Iterable[int]) -> None:
         """Make deformations (from 1) of an element independent, whatever was said of them."""
@@ -325,9 +327,11 @@ class Draft:
 
     def changed_names_or_places(self) -> None:
         """Forget what was found by names, numbers and places; it is found anew when asked for."""
-        self._index_of = self._of_part = self._of_name = self._of_place = None
-        self._size = self._places = self._components = None
+        for table in _TABLES:
+            vars(self).pop(table, None)
+        self._places = None
 
+    @cached_property
     def size(self) -> float:
         """The largest coordinate [m]."""
         return max(
@@ -346,39 +350,33 @@ class Draft:
         Where there are none at exactly this place, those within 1e-9 of the model's size; the
         table of them is made anew when the model has doubled.
         """
-        if self._of_place is None:
-            self._of_place = {}
-            for number, kind in self.node_kind.items():
-                if is_position(kind):
-                    self._of_place.setdefault(self.node_value[number], []).append(number)
-        if found := self._of_place.get(value):
+        found = self._at_place.get(value, [])
+        if found or not self.size:
             return found
-        if self._size is None:
-            self._size = self.size()
-        if not self._size:
-            return []
-        if self._places is None or self._size > 2.0 * self._places[0]:
-            places = Places(self.node_kind, self.node_value, ROUNDING * self._size)
-            self._places = self._size, places
-        return self._places[1].near(value[:3], ROUNDING * self._size)
+        if self._places is None or self.size > 2.0 * self._places[0]:
+            places = Places(self.node_kind, self.node_value, ROUNDING * self.size)
+            self._places = self.size, places
+        return self._places[1].near(value[:3], ROUNDING * self.size)
 
-    @property
+    @cached_property
+    def _at_place(self) -> dict[Numbers, list[int]]:
+        positions = (number for number, kind in self.node_kind.items() if is_position(kind))
+        return grouped((self.node_value[number], number) for number in positions)
+
+    @cached_property
     def parts_by_name(self) -> dict[str, list[int]]:
         """Indices of elements by the name of their part, ascending."""
-        if self._of_part is None:
-            self._of_part = {}
-            for index in sorted(self.names):
-                self._of_part.setdefault(part_name(self.names[index]), []).append(index)
-        return self._of_part
+        return grouped((part_name(self.names[index]), index) for index in sorted(self.names))
 
-    @property
+    @cached_property
     def points_by_name(self) -> dict[str, list[int]]:
         """Numbers of position nodes by their names."""
-        if self._of_name is None:
-            self._of_name = {}
-            for number, name in self.node_names.items():
-                self._of_name.setdefault(name, []).append(number)
-        return self._of_name
+        return grouped((name, number) for number, name in self.node_names.items())
+
+    @cached_property
+    def index_by_number(self) -> dict[int, int]:
+        """Index of each element by its number."""
+        return {number: i for i, number in enumerate(self.numbers)}
 
     def shares(self, indices: list[int]) -> bool:
         """Whether elements of one part's name are those of several parts.
@@ -393,12 +391,12 @@ class Draft:
     def name_node(self, number: int, name: str) -> None:
         """Name a node, or with an empty name take its name away."""
         if number in self.node_names:
-            self._of_name = None
+            vars(self).pop("points_by_name", None)
             del self.node_names[number]
         if name := one_line(name):
             self.node_names[number] = name
-            if self._of_name is not None:
-                self._of_name.setdefault(name, []).append(number)
+            if "points_by_name" in vars(self):
+                self.points_by_name.setdefault(name, []).append(number)
 
     def name_element(self, index: int, name: str) -> None:
         """Name an element, or with an empty name take its name away."""
@@ -406,21 +404,13 @@ class Draft:
         made = one_line(name)
         if made:
             self.names[index] = made
-        if self._of_part is not None:
-            if old is not None:
-                before = self._of_part[part_name(old)]
-                before.remove(index)
-                if not before:
-                    del self._of_part[part_name(old)]
-            if made:
-                insort(self._of_part.setdefault(part_name(made), []), index)
-
-    @property
-    def index_by_number(self) -> dict[int, int]:
-        """Index of each element by its number."""
-        if self._index_of is None:
-            self._index_of = {n: i for i, n in enumerate(self.numbers)}
-        return self._index_of
+        known = vars(self).get("parts_by_name")
+        if known is not None and old is not None:
+            known[part_name(old)].remove(index)
+            if not known[part_name(old)]:
+                del known[part_name(old)]
+        if known is not None and made:
+            insort(known.setdefault(part_name(made), []), index)
 
     def index_of(self, number: int) -> int:
         """Index of the element with this number.

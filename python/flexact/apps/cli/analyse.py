@@ -14,6 +14,7 @@ from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
 from ...deck.rendering import DeckError
 from ...model.reading import read_deck
+from ...show.writers import TABLES
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.loading import load
@@ -25,7 +26,6 @@ from .decks import (
     ACCURACY_AND_BEYOND,
     DECISION,
     DECKS,
-    TABLES,
     is_table,
     read_and_analysed,
     report_problems,

@@ -24,6 +24,7 @@ from ...deck.diagnostics import Diagnostic, Problems, Severity
 from ...deck.rendering import DeckError, render_problems
 from ...model.data import ModelData
 from ...model.reading import read_deck
+from ...show.writers import TABLES
 from ...util import machine as memory
 from ...util.decks import SUFFIX, DeckFile, FolderError
 from ...util.errors import BatchError, FlexactError
@@ -470,8 +471,6 @@ def _in_common(names: Sequence[str]) -> tuple[str, str]:
     return folder, suffixes.pop() if len(suffixes) == 1 else ""
 
 
-#: Suffixes of -o that mean the table itself.
-TABLES = (".csv", ".jsonl", ".parquet")
 _TOLD = ("verdict", "under", "over", "freedoms", "margin", "certainty")
 
 

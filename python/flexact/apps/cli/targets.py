@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ...show.writers import PAGES, PICTURES, PLAYING, TABLES
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
@@ -22,12 +23,10 @@ DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
 _FILE = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,6}")
 #: What writes files of such suffixes, to be named where a folder was wanted.
 _MAKERS = {
-    **dict.fromkeys((".html", ".htm"), "a page is made by flexact report"),
-    **dict.fromkeys(
-        (".png", ".svg", ".gif", ".pdf", ".mp4", ".webm"), "a picture is made by flexact picture"
-    ),
-    **dict.fromkeys((".csv", ".jsonl", ".parquet"), "a table is made by flexact batch"),
-    **dict.fromkeys((".vtu", ".vtp", ".vtk", ".xdmf", ".pvd"), "a mesh is made by flexact export"),
+    **dict.fromkeys(PAGES, "a page is made by flexact report"),
+    **dict.fromkeys(PICTURES, "a picture is made by flexact picture"),
+    **dict.fromkeys(TABLES, "a table is made by flexact batch"),
+    **dict.fromkeys((".vtu", ".vtp", ".vtk", ".xdmf", PLAYING), "a mesh is made by flexact export"),
     ".json": "for JSON on standard output say --json of flexact analyse",
     SUFFIX: "a deck is made by flexact advise --apply, declare or convert",
 }

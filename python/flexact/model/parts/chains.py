@@ -44,6 +44,12 @@ class Chain(NamedTuple):
     classes: tuple[tuple[int, ...], ...]
 
     @property
+    def ends(self) -> tuple[int, int, int, int]:
+        """Indices of the nodes p, op, q, oq of the one beam that the row may be."""
+        p, q = self.positions[0], self.positions[-1]
+        return p, self.orientations[0], q, self.orientations[-1]
+
+    @property
     def condensed_classes(self) -> tuple[int, ...] | None:
         """(6,) classes of the one beam that the row is; None where it is not declared as one.
 
@@ -117,13 +123,12 @@ def chains_of(
     in the same way about the same axes, and lie nearly in line; those with different names do
     not belong together. `frames` gives those of the elements, (elements, 3, 3).
     """
-    neighbours = _Neighbours(arrays, names, frames)
-    return tuple(row for row in neighbours.rows() if _has_ends(row) and _is_stretched(arrays, row))
-
-
-def _has_ends(row: Chain) -> bool:
-    """Whether its ends turn apart: no beam has one node at both ends."""
-    return row.orientations[0] != row.orientations[-1]
+    return tuple(
+        row
+        for row in _Neighbours(arrays, names, frames).rows()
+        # Its ends turn apart: no beam has one node at both ends.
+        if row.orientations[0] != row.orientations[-1] and _is_stretched(arrays, row)
+    )
 
 
 def _is_stretched(arrays: ModelArrays, row: Chain) -> bool:
@@ -228,7 +233,7 @@ class _Neighbours:
         if a.element_kind[i] != a.element_kind[j]:
             return False
         # In the sense of the row: i ends where j begins.
-        first, second = self.classes(i, at_i == 0), self.classes(j, at_j == 1)
+        first, second = self._classes(i, at_i == 0), self._classes(j, at_j == 1)
         inner = ((3, 2), (5, 4)) if a.deformation_class[3, i] else ((2, 1),)
         if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
             return False
@@ -249,7 +254,7 @@ class _Neighbours:
         across = self.frames()[[i, j], :, 1]
         return bool(abs(across[0] @ across[1]) > _IN_ROW)
 
-    def classes(self, element: int, turned: bool) -> tuple[int, ...]:
+    def _classes(self, element: int, turned: bool) -> tuple[int, ...]:
         """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""
         own: list[int] = self.arrays.deformation_class[:, element].tolist()
         if not turned:
@@ -277,17 +282,16 @@ class _Neighbours:
 
     def _followed(self, start: int) -> list[tuple[int, bool]]:
         """Beams of the row of one of them, each with whether it is turned; a ring once."""
-        back: list[tuple[int, bool]] = []
+        back = [(start, False)]
         here = (start, 0)
         while here in self.next_of:
             beam, end = self.next_of[here]
             if beam == start:
                 # A ring has no ends: it is cut at its first beam.
-                return [(start, False), *((b, t) for b, t in reversed(back))]
+                return [back[0], *back[:0:-1]]
             back.append((beam, end == 0))
             here = (beam, 1 - end)
-        made = [(start, False)]
-        made[:0] = list(reversed(back))
+        made = back[::-1]
         here = (start, 1)
         while here in self.next_of:
             beam, end = self.next_of[here]
@@ -296,21 +300,15 @@ class _Neighbours:
         return made
 
     def _row(self, beams: list[tuple[int, bool]]) -> Chain:
-        nodes: IntArray = self.arrays.element_node
         first, turned = beams[0]
-        start = 2 if turned else 0
-        positions = [int(nodes[start, first]) - 1]
-        orientations = [int(nodes[start + 1, first]) - 1]
-        for beam, against in beams:
-            end = 0 if against else 2
-            positions.append(int(nodes[end, beam]) - 1)
-            orientations.append(int(nodes[end + 1, beam]) - 1)
+        nodes, slots = self.arrays.element_node, [(2 if turned else 0, first)]
+        slots += [(0 if against else 2, beam) for beam, against in beams]
         return Chain(
             tuple(beam for beam, _ in beams),
             tuple(against for _, against in beams),
-            tuple(positions),
-            tuple(orientations),
-            tuple(self.classes(beam, against) for beam, against in beams),
+            tuple(int(nodes[slot, beam]) - 1 for slot, beam in slots),
+            tuple(int(nodes[slot + 1, beam]) - 1 for slot, beam in slots),
+            tuple(self._classes(beam, against) for beam, against in beams),
         )
 
 

@@ -8,7 +8,6 @@ the ends, whatever the number of beams and wherever their inner nodes are.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -192,13 +191,7 @@ def _inner_nodes(arrays: ModelArrays, chain: Chain) -> InnerNodes:
     inner = place[1:-1] - place[0]
     share = inner @ chord / (chord @ chord)
     return InnerNodes(
-        np.array(
-            [
-                *(chain.positions[0], chain.orientations[0]),
-                *(chain.positions[-1], chain.orientations[-1]),
-            ],
-            np.int32,
-        ),
+        np.array(chain.ends, np.int32),
         np.array(chain.positions[1:-1], np.int32),
         np.array(chain.orientations[1:-1], np.int32),
         share,
@@ -229,7 +222,7 @@ def condensed(data: ModelData) -> Condensed:
         first = chain.elements[0]
         left_nodes[[*chain.positions[1:-1], *chain.orientations[1:-1]]] = False
         left_elements[list(chain.elements[1:])] = False
-        element_node[:, first] = _ends(chain)
+        element_node[:, first] = np.array(chain.ends) + 1
         classes[:, first] = chain.condensed_classes or ()
         vector[:, first] = _vector_of(data, chain)
         names[first] = next((part_name(n) for e in chain.elements if (n := names[e])), "")
@@ -247,6 +240,10 @@ def condensed(data: ModelData) -> Condensed:
         element_vector=vector[:, elements],
         deformation_class=classes[:, elements],
     )
+    looks = data.given_appearance
+    if looks is not None:
+        fields = looks.__dataclass_fields__
+        looks = Appearance(**{name: getattr(looks, name)[elements] for name in fields})
     return Condensed(
         data,
         replace(
@@ -255,7 +252,7 @@ def condensed(data: ModelData) -> Condensed:
             element_names=tuple(names[i] for i in elements.tolist()),
             found=data.problems,
             node_names=tuple(data.node_names[i] for i in nodes.tolist()),
-            given_appearance=_some(data.given_appearance, elements),
+            given_appearance=looks,
             properties=None,
             loads=None,
         ),
@@ -263,15 +260,6 @@ def condensed(data: ModelData) -> Condensed:
         nodes,
         elements,
     )
-
-
-def _ends(chain: Chain) -> Sequence[int]:
-    """Nodes of the one beam by slot, counted from 1."""
-    ends = [
-        *(chain.positions[0], chain.orientations[0]),
-        *(chain.positions[-1], chain.orientations[-1]),
-    ]
-    return [node + 1 for node in ends]
 
 
 def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
@@ -300,10 +288,3 @@ def _is_along(vector: FloatArray, data: ModelData, chain: Chain) -> bool:
     unit = vector / np.abs(vector).max()
     across = np.cross(unit, chord / np.abs(chord).max())
     return bool(np.abs(across).max() < _ALONG)
-
-
-def _some(appearance: Appearance | None, elements: IntArray) -> Appearance | None:
-    if appearance is None:
-        return None
-    names = appearance.__dataclass_fields__
-    return Appearance(**{name: getattr(appearance, name)[elements] for name in names})

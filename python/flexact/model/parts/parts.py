@@ -17,8 +17,7 @@ from ...util.groups import groups_of
 from ...util.records import cached_property
 from ...util.text import harmless, in_short
 from ..data import ModelData
-from ..names import own_number, part_name
-from .chains import Chain
+from ..names import grouped, own_number, part_name
 from .forms import Form, all_held, forms_of, is_member
 
 
@@ -53,9 +52,7 @@ def bodies_of(arrays: ModelArrays) -> tuple[Body, ...]:
     group = groups_of(
         len(place), ((place[op], place[oq]) for _, op, _, oq in slots if oq >= 0)
     ).tolist()
-    members: dict[int, list[int]] = {}
-    for k, (_, op, _, _) in enumerate(slots):
-        members.setdefault(group[place[op]], []).append(k)
+    members = grouped((group[place[op]], k) for k, (_, op, _, _) in enumerate(slots))
     made = []
     for mine in members.values():
         ends = [slots[k] for k in mine]
@@ -130,7 +127,7 @@ class Parts:
     def __init__(self, data: ModelData) -> None:
         """Keep the model, as it was given."""
         self.data = data
-        self._known: dict[tuple[str, int], Part] = {}
+        self._known: dict[int, Part] = {}
         self._at: dict[int, tuple[Part, ...]] = {}
 
     def __len__(self) -> int:
@@ -180,35 +177,39 @@ class Parts:
 
     def of_element(self, index: int) -> Part:
         """The part that an element, by its index, belongs to."""
-        chain = self._chain_of.get(index)
+        if index not in self._known:
+            part = self._part_with(index)
+            self._known.update(dict.fromkeys(part.elements, part))
+        return self._known[index]
+
+    def _part_with(self, index: int) -> Part:
+        chain, body = self._chain_of.get(index), self._body_of_element.get(index)
         if chain is not None:
-            return self._part("chain", chain, self._of_chain)
-        body = self._body_of_element.get(index)
+            row = self.data.chains[chain]
+            kind = _KIND_OF_FORM[Form(int(self.form[row.elements[0]]))]
+            return self._made(kind, row.elements, (row.positions[0], row.positions[-1]))
         if body is not None:
-            return self._part("body", body, self._of_body)
-        return self._part("element", index, self._alone)
+            return self._made(PartKind.BODY, self.bodies[body].elements, ())
+        arrays = self.data.arrays
+        nodes = (arrays.element_node[[0, 2], index] - 1).tolist()
+        if is_member(arrays.element_kind[[index]], Member.HINGE)[0]:
+            return self._made(PartKind.HINGE, (index,), tuple(n for n in nodes[:1] if n >= 0))
+        return self._made(_KIND_OF_FORM[Form(int(self.form[index]))], (index,), tuple(nodes))
 
     def of_body(self, body: int) -> Part:
         """The part that a body, by its index, is."""
-        return self._part("body", body, self._of_body)
+        return self.of_element(self.bodies[body].elements[0])
 
     @cached_property
     def elements_by_name(self) -> dict[str, list[int]]:
         """Indices of elements by the name of their part, ascending."""
-        made: dict[str, list[int]] = {}
-        for index, name in enumerate(self.data.element_names):
-            if name:
-                made.setdefault(part_name(name), []).append(index)
-        return made
+        names = enumerate(self.data.element_names)
+        return grouped((part_name(name), index) for index, name in names if name)
 
     @cached_property
     def points_by_name(self) -> dict[str, list[int]]:
         """Indices of position nodes by their names, ascending."""
-        made: dict[str, list[int]] = {}
-        for index, name in enumerate(self.data.node_names):
-            if name:
-                made.setdefault(name, []).append(index)
-        return made
+        return grouped((name, index) for index, name in enumerate(self.data.node_names) if name)
 
     def named(self, name: str) -> Part:
         """The part of a name.
@@ -240,27 +241,6 @@ class Parts:
     @cached_property
     def _forms(self) -> tuple[np.ndarray, np.ndarray]:
         return forms_of(self.data.arrays)
-
-    def _part(self, kind: str, key: int, make: object) -> Part:
-        if (kind, key) not in self._known:
-            self._known[kind, key] = make(key)  # type: ignore[operator]
-        return self._known[kind, key]
-
-    def _of_chain(self, chain: int) -> Part:
-        row: Chain = self.data.chains[chain]
-        kind = _KIND_OF_FORM[Form(int(self.form[row.elements[0]]))]
-        ends = (row.positions[0], row.positions[-1])
-        return self._made(kind, row.elements, ends)
-
-    def _of_body(self, body: int) -> Part:
-        return self._made(PartKind.BODY, self.bodies[body].elements, ())
-
-    def _alone(self, index: int) -> Part:
-        arrays = self.data.arrays
-        nodes = (arrays.element_node[[0, 2], index] - 1).tolist()
-        if is_member(arrays.element_kind[[index]], Member.HINGE)[0]:
-            return self._made(PartKind.HINGE, (index,), tuple(n for n in nodes[:1] if n >= 0))
-        return self._made(_KIND_OF_FORM[Form(int(self.form[index]))], (index,), tuple(nodes))
 
     def _made(self, kind: PartKind, elements: tuple[int, ...], ends: tuple[int, ...]) -> Part:
         number = int(self.data.arrays.element_number[min(elements)])
@@ -310,15 +290,17 @@ class Parts:
     def at(self, position: int) -> tuple[Part, ...]:
         """The parts that end at or belong to a position node, by name."""
         if position not in self._at:
-            found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
-            order = sorted(found, key=lambda part: (natural(part.name), part.elements))
-            self._at[position] = tuple(order)
+            self._at[position] = self._sorted(self.elements_at(position))
         return self._at[position]
 
     def turning(self, orientation: int) -> tuple[Part, ...]:
         """The parts that turn with an orientation node, by name."""
         used = np.any(self.data.arrays.element_node[[1, 3]] == orientation + 1, axis=0)
-        found = dict.fromkeys(self.of_element(i) for i in np.flatnonzero(used).tolist())
+        return self._sorted(np.flatnonzero(used).tolist())
+
+    def _sorted(self, elements: list[int]) -> tuple[Part, ...]:
+        """The parts of some elements, by name."""
+        found = dict.fromkeys(self.of_element(i) for i in elements)
         return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
 
     def elements_at(self, position: int) -> list[int]:
@@ -348,9 +330,7 @@ class Parts:
     @cached_property
     def orientations_at(self) -> dict[int, tuple[int, ...]]:
         """The orientation nodes that stand at each position node, ascending."""
-        made: dict[int, list[int]] = {}
-        for node, place in sorted(self.position_of.items()):
-            made.setdefault(place, []).append(node)
+        made = grouped((place, node) for node, place in sorted(self.position_of.items()))
         return {place: tuple(nodes) for place, nodes in made.items()}
 
     def is_shared(self, node: int) -> bool:
@@ -387,19 +367,12 @@ def natural(name: str) -> tuple[tuple[bool, int, str, str], ...]:
     )
 
 
-class Surplus(NamedTuple):
-    """Released deformations of one beam of a divided sheet that are inside it."""
+def surplus_of(data: ModelData) -> tuple[tuple[int, tuple[int, ...]], ...]:
+    """Released deformations (from 1) of beams of divided sheets, by index, that are inside these.
 
-    element: int
-    """Index of the beam."""
-    deformations: tuple[int, ...]
-    """From 1."""
-
-
-def surplus_of(data: ModelData) -> tuple[Surplus, ...]:
-    """What is to be declared independent, by element."""
-    found = (Surplus(*each) for chain in data.chains for each in chain.surplus)
-    return tuple(sorted(found))
+    They are to be declared independent.
+    """
+    return tuple(sorted(each for chain in data.chains for each in chain.surplus))
 
 
 def declared(data: ModelData) -> ModelData:
