@@ -251,11 +251,16 @@ def curve(table: Rows, x: str | None, y: str | None, crossings: Crossings) -> An
     figure = figure_of(len(quantities))
     panels = figure.subplots(len(quantities), 1, sharex=True, squeeze=False)[:, 0]
     along = np.arange(len(table), dtype=float) if x is None else table[x].astype(float)
-    places = [_place(each, x) for each in crossings if _is_on(each, x)]
+    if x is None:
+        places = [each.rows[0] + each.share for each in crossings]
+    else:
+        values = [each.parameters.get(x) for each in crossings]
+        places = [float(value) for value in values if isinstance(value, (int, float))]
     for axes, quantity in zip(panels, quantities, strict=True):
         _draw(axes, table, along, quantity, _lines(table, x), places)
         label(axes, "" if axes is not panels[-1] else x or "variant", quantity.words)
-    _tell(panels[0], places)
+    for place in places if len(places) <= _MOST_TOLD else ():
+        _note(panels[0], place, f"{place:.6g}", color=SINGULAR_COLOUR)
     add_legend(panels[0], table, has_singular=bool(places), marks=True)
     return figure
 
@@ -285,14 +290,6 @@ def _lines(table: Rows, x: str | None) -> list[list[int]]:
         return []
 
 
-def _is_on(each: Crossing, x: str | None) -> bool:
-    return x is None or isinstance(each.parameters.get(x), (int, float))
-
-
-def _place(each: Crossing, x: str | None) -> float:
-    return each.rows[0] + each.share if x is None else float(each.parameters[x] or 0.0)
-
-
 def _draw(
     axes: Any,
     table: Rows,
@@ -308,7 +305,8 @@ def _draw(
         axes.set_yscale("log")
         above = values[values > _ZERO * np.nanmax(values, initial=0.0)]
         zeros = bool((values <= 0.0).any()) or (quantity.falls and bool(places))
-        floor = _floor(above, zeros)
+        # The lower edge of the axis: a decade below the least, where zero is reached.
+        floor = float(above.min() / (10.0 if zeros else 1.5)) if above.size else 0.1
         values = np.maximum(values, floor)
     for rows in lines:
         xs, ys = along[list(rows)], values[list(rows)]
@@ -335,28 +333,10 @@ def _draw(
     axes.set_axisbelow(True)
 
 
-def _floor(above: FloatArray, reaches_zero: bool) -> float:
-    """The lower edge of a logarithmic axis: a decade below the least, where zero is reached."""
-    if not above.size:
-        return 0.1
-    return float(above.min() / (10.0 if reaches_zero else 1.5))
-
-
-def _tell(axes: Any, places: Sequence[float]) -> None:
-    """The values of few singular places, above them."""
-    if len(places) > _MOST_TOLD:
-        return
-    for place in places:
-        axes.annotate(
-            f"{place:.6g}",
-            (place, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 3),
-            textcoords="offset points",
-            ha="center",
-            fontsize=9,
-            color=SINGULAR_COLOUR,
-        )
+def _note(axes: Any, place: float, words: str, **look: Any) -> None:
+    """Words above a place."""
+    where = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+    axes.annotate(words, (place, 1.0), xytext=(0, 3), ha="center", fontsize=9, **where, **look)
 
 
 _BINS = 48
@@ -401,19 +381,14 @@ def _draw_of_histogram(
         axes.hist([part for _, part in found], edges, stacked=True, color=colours, zorder=2)
     for place, words in lines:
         if np.isfinite(place) and place >= low:
-            _mark(axes, place, words)
+            axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, ls="--", zorder=4)
+            _note(axes, place, words)
         elif np.isfinite(place):
             axes.set_title(f"{words}: {place:.2g}", fontsize=9, loc="left")
     beyond = int((~there & ~table.has_error).sum())
     if beyond:
         axes.set_title(f"{beyond} without limit", fontsize=9, loc="right")
     axes.grid(True, axis="y", color="#e5e7eb", lw=0.7, zorder=0)
-
-
-def _mark(axes: Any, place: float, words: str) -> None:
-    axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, ls="--", zorder=4)
-    where = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
-    axes.annotate(words, (place, 1.0), xytext=(0, 3), ha="center", fontsize=9, **where)
 
 
 #: A map is of cells where so large a part of them is there.

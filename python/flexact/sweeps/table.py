@@ -305,11 +305,14 @@ def in_short(table: Table) -> str:
 
 def described(table: Table) -> str:
     """See `Table.describe`."""
-    lines = [f"{_counted(len(table), 'variant')}{_of_parameters(table)}."]
+    of = ", ".join(f"{name} ({_values(table[name])})" for name in table.parameter_names)
+    lines = [f"{_counted(len(table), 'variant')}{' of ' * bool(of)}{of}."]
     for words, count in counts_of(table):
         lines.append(f"{_capital(words)}: {share_in_words(count, len(table))}.")
     lines += _smallest(table)
-    lines += _first_error(table)
+    if (wrong := np.flatnonzero(table.has_error)).size:
+        first = int(wrong[0])
+        lines.append(f"First error, {row_in_words(table, first)}: {table.error[first]}")
     return "\n".join(
         textwrap.fill(harmless(line), _WIDTH, subsequent_indent="  ", break_long_words=False)
         for line in lines
@@ -334,23 +337,15 @@ def row_in_words(table: Table, row: int) -> str:
 def html_of(table: Table) -> str:
     """The words, and the first rows."""
     heads = "".join(f"<th>{escape(harmless(name))}</th>" for name in table.columns)
-    rows = "".join(_row(table[k]) for k in range(min(len(table), _MOST_ROWS)))
+    first = (table[k].values() for k in range(min(len(table), _MOST_ROWS)))
+    cells = ("".join(f"<td>{escape(harmless(_value(v)))}</td>" for v in row) for row in first)
+    rows = "".join(f"<tr>{each}</tr>" for each in cells)
     left = len(table) - _MOST_ROWS
     more = f"<p>and {_counted(left, 'further row')}</p>" if left > 0 else ""
     return (
         f"<div><pre>{escape(described(table))}</pre><table><thead><tr>{heads}</tr></thead>"
         f"<tbody>{rows}</tbody></table>{more}</div>"
     )
-
-
-def _row(row: dict[str, Any]) -> str:
-    cells = (f"<td>{escape(harmless(_value(value)))}</td>" for value in row.values())
-    return f"<tr>{''.join(cells)}</tr>"
-
-
-def _of_parameters(table: Table) -> str:
-    told = [f"{name} ({_values(table[name])})" for name in table.parameter_names]
-    return f" of {', '.join(told)}" if told else ""
 
 
 def _values(column: np.ndarray) -> str:
@@ -396,14 +391,6 @@ def _smallest(table: Table) -> list[str]:
                 told = "none, in exact alignment only"
             made.append(f"Smallest {words}: {told}, at {row_in_words(table, row)}.")
     return made
-
-
-def _first_error(table: Table) -> list[str]:
-    rows = np.flatnonzero(table.has_error)
-    if not rows.size:
-        return []
-    first = int(rows[0])
-    return [f"First error, {row_in_words(table, first)}: {table.error[first]}"]
 
 
 def _counted(count: int, what: str) -> str:

@@ -15,14 +15,13 @@ from enum import IntEnum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TextIO
 
-from ...core.calls import STAGES
-from ...model.data import ModelData
 from ...util.errors import reason_of
 from ...util.loading import load
 from ...util.text import USUAL, columns, harmless, refitted, spelled
 
 if TYPE_CHECKING:
     from ...core.progress import Progress
+    from ...model.data import ModelData
 
 
 class ExitCode(IntEnum):
@@ -389,8 +388,6 @@ LARGE_MODEL = 20_000
 
 _WIDTH, _ROWS = 80, 24
 
-_STAGES = ("reading", *STAGES, "writing")
-
 
 class Bar:
     """A bar on stderr; it says nothing unless a deck is large and somebody watches."""
@@ -425,7 +422,8 @@ class Bar:
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None:
                 self._bar = _drawn(text)
-            self._bar.n = max(self._bar.n, (_STAGES.index(stage) + done) / len(_STAGES))
+            stages = ("reading", *load("flexact.core.calls").STAGES, "writing")
+            self._bar.n = max(self._bar.n, (stages.index(stage) + done) / len(stages))
             self._bar.set_description_str(text)
 
     def show_work(self, what: str, done: float) -> None:
