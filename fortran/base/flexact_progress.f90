@@ -47,12 +47,12 @@ contains
 
    recursive logical function is_stopped(self)
       class(progress_t), intent(in) :: self
-      integer, pointer, volatile :: stop
+      integer, pointer, volatile :: there
 
       is_stopped = .false.
       if (.not. associated(self%stage)) return
-      stop => self%stage(3)
-      is_stopped = stop /= 0
+      there => self%stage(3)
+      is_stopped = there /= 0
    end function is_stopped
 
    recursive subroutine write_to(self, place, number)
