@@ -42,24 +42,35 @@ subroutine describe_names(n, enumeration, names, first, count)
    call give_names(enumeration, names, first, count)
 end subroutine describe_names
 
-! Read a deck; name, choice, value and sizes are as give_deck says.
-subroutine read_deck(n, text, most_nodes, most_elements, most_values, nodes, places, elements, vectors, &
-                     words, value, sizes, diag_count, diag_number, diag_text)
+! Read a deck. What it holds is given where there is room for it, how many nodes and elements it
+! has in any case; so is whether it is planar and has more digits than its numbers hold, and whether
+! it says how elements are drawn, their stiffness or mass, and loads, of which the other arrays are.
+subroutine read_deck(n, text, most_nodes, most_elements, valued_nodes, valued_elements, nodes, places, elements, vectors, &
+                     element_name, node_name, cross_section, drawn, dimensions, colour, edge_colour, opacity, &
+                     stiffness, mass, node_mass, force, increment, node_count, element_count, is_planar, has_long_numbers, &
+                     has_appearance, has_properties, has_loads, gravity, diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_deck, only: read_text => read_deck
    use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: diagnostics_t
-   use flexact_deck_exchange, only: give_deck
+   use flexact_deck_exchange, only: give_sizes, give_model, give_appearance, give_properties, give_loads
    use flexact_exchange, only: to_text, give_diagnostics
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, most_nodes, most_elements, most_values
+   integer(c_int), intent(in) :: n, most_nodes, most_elements, valued_nodes, valued_elements
    integer(c_signed_char), intent(in) :: text(n)
    integer(c_int), intent(inout) :: nodes(5, most_nodes), elements(12, most_elements)
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
-   integer(c_int), intent(inout) :: words(2, 2*most_elements + most_nodes)
-   real(c_double), intent(inout) :: value(12, most_values)
-   integer(c_int), intent(out) :: sizes(8), diag_count(4), diag_number(8, 100)
+   integer(c_int), intent(inout) :: element_name(2, most_elements), node_name(2, most_nodes)
+   integer(c_int), intent(inout) :: cross_section(valued_elements), drawn(valued_elements)
+   real(c_double), intent(inout) :: dimensions(2, valued_elements), colour(3, valued_elements)
+   real(c_double), intent(inout) :: edge_colour(3, valued_elements), opacity(valued_elements)
+   real(c_double), intent(inout) :: stiffness(6, valued_elements), mass(5, valued_elements), node_mass(6, valued_nodes)
+   real(c_double), intent(inout) :: force(3, valued_nodes), increment(3, valued_nodes)
+   integer(c_int), intent(out) :: node_count, element_count, is_planar, has_long_numbers
+   integer(c_int), intent(out) :: has_appearance, has_properties, has_loads
+   real(c_double), intent(out) :: gravity(3)
+   integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
    type(deck_model_t) :: deck
@@ -69,8 +80,22 @@ subroutine read_deck(n, text, most_nodes, most_elements, most_values, nodes, pla
    call to_text(text, letters)
    call read_text(letters, deck, unused, diagnostics)
    call give_diagnostics(letters, diagnostics, diag_count, diag_number, diag_text)
-   sizes = [0, 0, 0, unused, 0, 0, 0, 0]
-   if (.not. diagnostics%has_errors()) call give_deck(deck, nodes, places, elements, vectors, words, value, sizes)
+   node_count = 0
+   element_count = 0
+   is_planar = 0
+   has_long_numbers = 0
+   has_appearance = 0
+   has_properties = 0
+   has_loads = 0
+   gravity = 0
+   if (diagnostics%has_errors()) return
+   call give_sizes(deck, node_count, element_count, is_planar, has_long_numbers, has_appearance, has_properties, has_loads)
+   if (node_count <= most_nodes .and. element_count <= most_elements) &
+      call give_model(deck, nodes, places, elements, vectors, element_name, node_name)
+   if (node_count > valued_nodes .or. element_count > valued_elements) return
+   call give_appearance(deck, cross_section, drawn, dimensions, colour, edge_colour, opacity)
+   call give_properties(deck, stiffness, mass, node_mass)
+   call give_loads(deck, force, increment, gravity)
 end subroutine read_deck
 
 ! The lines of a deck and their words, as read_tokens says; of both there is room for all.

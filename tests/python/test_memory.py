@@ -216,8 +216,8 @@ def status(name):
 text = np.fromfile(sys.argv[1], np.int8)
 room, reading = calls._most_in(text)
 made, before = room.made(), status("VmSize")
-sizes, *_ = _core.read_deck(text, *made)
-assert all(np.less_equal(sizes[:2], room[:2])), (sizes, room)
+nodes, elements, *_ = _core.read_deck(text, *made)
+assert nodes <= room.nodes and elements <= room.elements, (nodes, elements, room)
 assert status("VmPeak") - before < reading, (status("VmPeak") - before, reading)
 """
     stated, behind = (

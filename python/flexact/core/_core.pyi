@@ -16,10 +16,21 @@ def read_deck(
     places: _Floats,
     elements: _Ints,
     vectors: _Floats,
-    words: _Ints,
-    value: _Floats,
+    element_name: _Ints,
+    node_name: _Ints,
+    cross_section: _Ints,
+    drawn: _Ints,
+    dimensions: _Floats,
+    colour: _Floats,
+    edge_colour: _Floats,
+    opacity: _Floats,
+    stiffness: _Floats,
+    mass: _Floats,
+    node_mass: _Floats,
+    force: _Floats,
+    increment: _Floats,
     /,
-) -> tuple[_Ints, _Ints, _Ints, _Bytes]: ...
+) -> tuple[int, int, int, int, int, int, int, _Floats, _Ints, _Ints, _Bytes]: ...
 def find_tokens(text: _Bytes, lines: _Ints, words: _Ints, /) -> None: ...
 def check_model(
     text: _Bytes,

@@ -156,33 +156,32 @@ def read_deck(text: bytes) -> RawDeck:
     room, reading = _most_in(data)
     left = address_space()
     _require_room(reading, left)
-    most, of_node = room, _OF_END[room.values > 0]
+    most, of_node = room, _OF_END[room.is_valued]
     if reading + room.bytes > left:
         # Then it is read to know the room that it takes, and once more into that.
-        room = _Room(1, 1, 1)
+        room = _Room(1, 1, False)
     made = room.made()
-    sizes, counts, number, words = _core.read_deck(data, *made)
-    nodes, elements, planar, _, drawn, long, given, loaded = sizes.tolist()
-    needed = _Room(nodes, elements, (drawn or given or loaded) * (2 * elements + nodes + 1))
+    found = _core.read_deck(data, *made)
+    nodes, elements, planar, long, drawn, given, loaded = found[:7]
+    needed = _Room(nodes, elements, (drawn or given or loaded) == 1)
     if any(np.greater(needed, room)):
         # What the first reading took serves the second, whether the system has it back or not.
         _require_room(reading - of_node * (most.nodes - nodes) + needed.bytes, left)
         made = needed.made()
-        sizes, counts, number, words = _core.read_deck(data, *made)
-    model, names, value = PackedModel(*made[:4]), made[4], made[5]
-    both, behind = np.s_[elements : 2 * elements], np.s_[2 * elements : 2 * elements + nodes]
-    last = 2 * elements + nodes
+        found = _core.read_deck(data, *made)
+    element_name, node_name, *look, stiffness, mass, node_mass, force, increment = made[4:]
+    section, drawings, sizes, colour, edges, opacity = (each[..., :elements] for each in look)
     return RawDeck(
-        unpacked(model, nodes, elements),
-        names[:, :elements],
-        names[:, elements : elements + nodes],
+        unpacked(PackedModel(*made[:4]), nodes, elements),
+        element_name[:, :elements],
+        node_name[:, :nodes],
         planar == 1,
-        RawDiagnostics(counts, number, words),
-        RawAppearance(names[:, elements + nodes : both.stop + nodes], value[:9, :elements])
-        if drawn
+        RawDiagnostics(*found[8:]),
+        RawAppearance(section, drawings, sizes, colour, edges, opacity) if drawn else None,
+        RawProperties(stiffness[:, :elements], mass[:, :elements], node_mass[:, :nodes])
+        if given
         else None,
-        RawProperties(value[:6, both], value[6:11, both], value[:6, behind]) if given else None,
-        RawLoads(value[6:9, behind], value[9:, behind], value[6:9, last]) if loaded else None,
+        RawLoads(force[:, :nodes], increment[:, :nodes], found[7]) if loaded else None,
         long == 1,
     )
 
@@ -209,19 +208,25 @@ class _Room(NamedTuple):
 
     nodes: int
     elements: int
-    values: int
-    """Of stiffness, mass, loads and pictures."""
+    is_valued: bool
+    """Whether there is room for stiffness, mass, loads and pictures."""
 
     @property
     def bytes(self) -> int:
         """What it takes."""
-        return 60 * self.nodes + 88 * self.elements + 96 * self.values
+        return (60 + 96 * self.is_valued) * self.nodes + (80 + 168 * self.is_valued) * self.elements
 
     def made(self) -> tuple[NDArray[Any], ...]:
-        """The arrays; the core wants none of them without a column."""
-        nodes, elements, values = (max(1, each) for each in self)
-        words = np.empty((2, 2 * elements + nodes), np.int32, order="F")
-        return *room_for(nodes, elements), words, np.empty((12, values), order="F")
+        """The arrays, as the core takes them; it wants none without a column."""
+        nodes, elements = max(1, self.nodes), max(1, self.elements)
+        of_node, of_element = (n if self.is_valued else 1 for n in (nodes, elements))
+        names = (np.empty((2, n), np.int32, order="F") for n in (elements, nodes))
+        drawn = (np.empty(of_element, np.int32) for _ in range(2))
+        look = (np.empty((n, of_element), order="F") for n in (2, 3, 3))
+        heavy = (np.empty((n, of_element), order="F") for n in (6, 5))
+        loaded = (np.empty((n, of_node), order="F") for n in (6, 3, 3))
+        opacity = np.empty(of_element)
+        return *room_for(nodes, elements), *names, *drawn, *look, opacity, *heavy, *loaded
 
 
 def _most_in(text: NDArray[np.int8]) -> tuple[_Room, int]:
@@ -244,7 +249,7 @@ def _most_in(text: NDArray[np.int8]) -> tuple[_Room, int]:
     ends = int(2 * np.count_nonzero(of_two) + 4 * np.count_nonzero(of_four))
     reading = _OF_BYTE * text.size + _OF_LINE * first.size
     reading += _OF_ELEMENT[valued] * elements + _OF_END[valued] * ends
-    return _Room(ends, elements, valued * (2 * elements + ends + 1)), reading
+    return _Room(ends, elements, valued), reading
 
 
 def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnostics:

@@ -65,10 +65,18 @@ class RawDiagnostics(NamedTuple):
 class RawAppearance(NamedTuple):
     """How elements are drawn, as a deck says."""
 
-    choice: IntArray
-    """(2, ne) cross-section, a `CrossSection`; 1 where drawn."""
-    value: FloatArray
-    """(9, ne) sizes along local y and z [m], colour, colour of edges, opacity; NaN not given."""
+    cross_section: IntArray
+    """(ne,) a `CrossSection`."""
+    drawn: IntArray
+    """(ne,) 1 where drawn."""
+    dimensions: FloatArray
+    """(2, ne) along local y and z [m]; NaN not given, also below."""
+    colour: FloatArray
+    """(3, ne)."""
+    edge_colour: FloatArray
+    """(3, ne)."""
+    opacity: FloatArray
+    """(ne,)."""
 
 
 class RawProperties(NamedTuple):

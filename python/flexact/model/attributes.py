@@ -64,9 +64,9 @@ class Appearance(Frozen):
     @classmethod
     def of(cls, raw: RawAppearance) -> Appearance:
         """What a deck says; copies, since what was read lies in larger arrays."""
-        choice, value = raw
-        sizes, colour, edge_colour = (value[part].T.copy() for part in np.s_[0:2, 2:5, 5:8])
-        return cls(choice[0].copy(), sizes, colour, edge_colour, value[8].copy(), choice[1] == 1)
+        sizes, colour, edge_colour = (each.T.copy() for each in raw[2:5])
+        section, opacity = raw.cross_section.copy(), raw.opacity.copy()
+        return cls(section, sizes, colour, edge_colour, opacity, raw.drawn == 1)
 
 
 @dataclass(frozen=True, eq=False)
