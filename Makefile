@@ -18,7 +18,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
 # Tests that compare words with files.
 WORDED := wording advice_wording broken_decks appearance docs docs_sessions element_table gallery keywords
 
-.PHONY: demo test check core-test lint wording gallery vscode attack attack-steps fuzz crossing bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
+.PHONY: demo test test-all check core-test lint wording gallery vscode attack attack-steps fuzz crossing bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -30,7 +30,14 @@ demo: .venv/ready-to-run
 	@ls results
 
 test: .venv/ready-to-test core-test
+	$(PYTEST) --sample
+
+# All cases of all tests, random decks and mechanisms, and a part of the crossing: an hour, for a nightly job.
+test-all: .venv/ready-to-test core-test
 	$(PYTEST)
+	$(BIN)/python tests/attack/run_steps.py --count 100
+	$(BIN)/python tests/attack/run.py --count 2000 --quiet
+	$(BIN)/python tests/crossing/run.py --minutes 15
 
 # Under a minute: lint of Python, the core, and the quick part of the tests.
 check: .venv/ready-to-test core-test

@@ -14,7 +14,7 @@ from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..model.data import ModelData
 from ..util.quantities import without_units
 from ..util.records import Frozen
-from ..util.rotations import about, turned
+from ..util.rotations import matrix_of, turned
 from ..util.text import in_short
 from .errors import ElasticError, require_within
 from .points import Points
@@ -112,7 +112,7 @@ class Imperfection(Frozen):
                 old = value[:3, node]
                 new = old + self.value * direction
                 if self.is_turn:
-                    turn = about(direction, self.value)
+                    turn = matrix_of(self.value * direction)
                     new = self.centre + turn @ (old - self.centre)
                 made[:3, node][there] = new[there]
         return made

@@ -47,13 +47,6 @@ def screw_matrix(rotation: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + versine * skew + third * (skew @ skew))
 
 
-def about(axis: FloatArray, angle: float) -> FloatArray:
-    """(3, 3) rotation about a unit vector (3,) by an angle [rad]."""
-    cross = np.cross(np.eye(3), axis)
-    made: FloatArray = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
-    return made
-
-
 def vector_of(matrix: FloatArray) -> FloatArray:
     """Rotation vectors (..., 3) [rad] of matrices (..., 3, 3), angles below pi."""
     return vector_of_euler(euler_of(matrix))

@@ -41,7 +41,7 @@ from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
 from ...util.records import cached_property
-from ...util.rotations import about as rotation_about
+from ...util.rotations import matrix_of
 from ..step import After, Purpose, Step, tried
 from .cause import CauseKind, Causes, Relation
 from .gradients import Gradients, node_key
@@ -195,7 +195,7 @@ def change_of(
     arrays, length = result.given.arrays, result.characteristic_length
     elements = [index for part in limb.parts for index in part.elements]
     found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist())
-    matrix = rotation_about(direction, angle)
+    matrix = matrix_of(angle * direction)
     places = arrays.node_value[:3].T
     after = places.copy()
     made = []

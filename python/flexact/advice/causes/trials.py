@@ -18,7 +18,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...util.records import Frozen, cached_property
-from ...util.rotations import about as rotation_about
+from ...util.rotations import matrix_of
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
 from .gradients import Geometry, rank_at
@@ -63,7 +63,7 @@ def _operations(
     in_plane = [axis for axis in axes if abs(float(axis[2])) <= _SAME]
     for fold in (_FOLDS[0], 0, *_FOLDS[1:]):
         for axis in axes if fold or not planar else in_plane:
-            matrix = rotation_about(axis, 2.0 * np.pi / fold) if fold else _reflection(axis)
+            matrix = matrix_of(2.0 * np.pi / fold * axis) if fold else _reflection(axis)
             image = _image(places @ matrix.T, places, size)
             if image is None or image == tuple(range(len(places))):
                 continue
@@ -105,7 +105,7 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
 def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
     """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
     is_turn = one.kind is RelationKind.ROTATION
-    matrix = rotation_about(one.direction, 2.0 * np.pi / one.fold)
+    matrix = matrix_of(2.0 * np.pi / one.fold * one.direction)
     matrix = matrix if is_turn else _reflection(one.direction)
     own = np.searchsorted(result.condensed.nodes, one.nodes)
     now = result.given.arrays.node_value[:3, list(one.nodes)].T - one.point
