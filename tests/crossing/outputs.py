@@ -202,7 +202,7 @@ def _edit(deck: Path, folder: Path) -> str:
     opinion = opinion_on(opened)
     if opinion is not None and opinion.result is not None:
         told += [opinion.words, opinion.remarks]
-        advice = advice_on(opinion, flexact.Analysis.advice)
+        advice = advice_on(opinion)
         told += [] if advice is None else [(step.pieces, step.outcome) for step in advice.steps]
     return "\n".join(map(str, told))
 

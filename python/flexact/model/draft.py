@@ -6,13 +6,13 @@ from __future__ import annotations
 import math
 from bisect import insort
 from collections.abc import Iterable
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..core.elements import Class, Member, NodeKind, coordinate_name, is_position, member_table
 from ..core.raw import ElementKind
 from ..deck.diagnostics import Source
 from ..deck.rendering import ModelError, model_error
+from ..util.records import cached_property
 from ..util.text import in_short
 from .attributes import NUMBERS
 from .names import grouped, one_line, part_name
