@@ -5,8 +5,8 @@
 ! other named kinds into single precision without a word. "threadsafe" drops the interpreter
 ! lock: a call is a function of its arguments. A model crosses as flexact_exchange packs it.
 
-! One row of the element table: keyword and synonym; slots, frame, vector, 1 if p
-! and q must be apart, member, roles and duals of the deformations. count: rows.
+! One row of the element table: keyword, synonym, what it is, numbers of ESTIFF and of EM; slots,
+! frame, vector, 1 if p and q must be apart, member, roles and duals of the deformations. count: rows.
 subroutine describe_element(kind, words, numbers, count)
    use iso_c_binding
    use flexact_element_table, only: element_kinds
@@ -14,13 +14,16 @@ subroutine describe_element(kind, words, numbers, count)
    use flexact_roles, only: dual_of
    implicit none
    integer(c_int), intent(in) :: kind
-   integer(c_signed_char), intent(out) :: words(8, 2)
+   integer(c_signed_char), intent(out) :: words(224, 5)
    integer(c_int), intent(out) :: numbers(20), count
 
    count = size(element_kinds)
    associate (row => element_kinds(min(max(kind, 1), count)))
       call from_text(row%keyword, words(:, 1))
       call from_text(row%synonym, words(:, 2))
+      call from_text(row%says, words(:, 3))
+      call from_text(row%stiffness, words(:, 4))
+      call from_text(row%mass, words(:, 5))
       numbers = [row%slot_kind, row%frame, row%vector, merge(1, 0, row%needs_length), row%member, row%role, dual_of(row%role)]
    end associate
 end subroutine describe_element
@@ -94,6 +97,22 @@ subroutine read_deck(n, text, most_nodes, most_elements, valued_nodes, valued_el
    call give_properties(deck, stiffness, mass, node_mass)
    call give_loads(deck, force, increment, gravity)
 end subroutine read_deck
+
+! The lines of a deck and their words, as read_tokens says; of both there is room for all.
+subroutine find_tokens(n, text, line_count, word_count, lines, words)
+   use iso_c_binding
+   use flexact_exchange, only: to_text
+   use flexact_tokens, only: read_tokens
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: n, line_count, word_count
+   integer(c_signed_char), intent(in) :: text(n)
+   integer(c_int), intent(inout) :: lines(7, line_count), words(5, word_count)
+   character(len=:), allocatable :: letters
+
+   call to_text(text, letters)
+   call read_tokens(letters, lines, words)
+end subroutine find_tokens
 
 ! Check a model that was made without a deck. name: where in the text the names of the
 ! elements stand, then those of the nodes.

@@ -6,11 +6,11 @@ module flexact_deck_properties
    use flexact_deck_model, only: deck_model_t, take_node, take_element
    use flexact_deck_numbers, only: meaning_t, take_numbers
    use flexact_diagnostics, only: span_t
-   use flexact_element_table, only: element_kinds, member_hinge
+   use flexact_element_table, only: element_kinds, listed_numbers, member_hinge
    use flexact_keywords, only: keywords, role_property
    use flexact_kinds, only: wp
    use flexact_operands, only: operands_t, operands_of
-   use flexact_properties, only: make_properties, stiffness_meant, mass_meant, node_mass_meant
+   use flexact_properties, only: make_properties, node_mass_meant
    use flexact_slots, only: node_orientation
    use flexact_statement, only: statement_t
    implicit none
@@ -86,7 +86,7 @@ contains
       type(meaning_t) :: meaning
 
       meaning%what = 'a stiffness of '//trim(element_kinds(kind)%keyword)
-      meaning%numbers = stiffness_meant(kind)
+      meaning%numbers = listed_numbers(element_kinds(kind)%stiffness)
       meaning%not_negative = .true.
       select case (trim(element_kinds(kind)%keyword))
       case ('BEAM')
@@ -112,7 +112,7 @@ contains
       character(len=:), allocatable :: keyword
 
       meaning%what = 'a mass of '//trim(element_kinds(kind)%keyword)
-      meaning%numbers = mass_meant(kind)
+      meaning%numbers = listed_numbers(element_kinds(kind)%mass)
       ! Jyz may be.
       meaning%not_negative = [.true., .true., .true., .true., .false., .false.]
       keyword = trim(element_kinds(kind)%keyword)

@@ -12,7 +12,7 @@ module flexact_keywords
    public :: why_uncovered, instead_of_uncovered
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
    public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture, &
-             role_property, role_load
+             role_property, role_load, role_ending
 
    integer, parameter :: block_kinematics = 1
    integer, parameter :: block_dynamics = 2
@@ -24,7 +24,7 @@ module flexact_keywords
    !> What a statement does: makes an element; gives a node its value; gives a
    !> coordinate or a deformation its class; is read for its form alone; is
    !> known, and outside what Flexact covers; is not known at all; says how
-   !> elements are drawn; gives a stiffness or a mass; or gives a load.
+   !> elements are drawn; gives a stiffness or a mass; gives a load; or ends a block.
    integer, parameter :: role_element = 1
    integer, parameter :: role_value = 2
    integer, parameter :: role_coordinate = 3
@@ -35,6 +35,7 @@ module flexact_keywords
    integer, parameter :: role_picture = 8
    integer, parameter :: role_property = 9
    integer, parameter :: role_load = 10
+   integer, parameter :: role_ending = 11
 
    type :: keyword_t
       character(len=13) :: name

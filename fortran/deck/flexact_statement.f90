@@ -6,11 +6,11 @@ module flexact_statement
    use flexact_element_table, only: find_element_kind, beam_with_warping
    use flexact_keywords, only: keywords, find_keyword, nearest_keyword, why_uncovered, instead_of_uncovered, &
                                block_kinematics, block_dynamics, block_closed, block_inout, block_picture, &
-                               role_element, role_uncovered, role_unknown, role_picture
+                               role_element, role_uncovered, role_unknown, role_picture, role_ending
    use flexact_lexer, only: line_t, next_line, next_word, upper_case
    implicit none
    private
-   public :: statement_t, read_statements, find_unreadable, has_warping
+   public :: statement_t, reader_t, read_statements, read_line, find_unreadable, has_warping
 
    !> One statement: its keyword's place and role, where its operands may
    !> stand, and the comment behind it.
@@ -52,22 +52,14 @@ contains
       type(reader_t) :: reader
       type(statement_t) :: statement
       type(line_t) :: line
-      type(span_t) :: word
-      integer :: position, start
-      logical :: meaningful
+      integer :: position
 
       allocate (statements(64))
       count = 0
       position = 1
       do while (position <= len(text))
-         call next_line(text, position, reader%block == block_picture, line)
-         start = line%body%first
-         call next_word(text, start, line%body%last, word)
-         if (word%first == 0) cycle
-         statement = statement_t(reader%block, 0, 0, word, line%body%last, line%comment)
-         call classify(text, reader, statement, meaningful, diagnostics)
-         if (.not. meaningful) cycle
-         reader%block_is_empty = .false.
+         call read_line(text, position, reader, line, statement, diagnostics)
+         if (statement%role == 0 .or. statement%role == role_ending) cycle
          if (count == size(statements)) then
             allocate (larger(2*count))
             larger(:count) = statements
@@ -77,6 +69,27 @@ contains
          statements(count) = statement
       end do
    end subroutine read_statements
+
+   !> Take the line that starts at `position`, what it says, and move `position` behind it. Role 0:
+   !> the line has no words, or says nothing that is read.
+   subroutine read_line(text, position, reader, line, statement, diagnostics)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: position
+      type(reader_t), intent(inout) :: reader
+      type(line_t), intent(out) :: line
+      type(statement_t), intent(out) :: statement
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(span_t) :: word
+      integer :: start
+
+      call next_line(text, position, reader%block == block_picture, line)
+      start = line%body%first
+      call next_word(text, start, line%body%last, word)
+      statement = statement_t(reader%block, 0, 0, word, line%body%last, line%comment)
+      if (word%first == 0) return
+      call classify(text, reader, statement, diagnostics)
+      if (statement%role /= 0 .and. statement%role /= role_ending) reader%block_is_empty = .false.
+   end subroutine read_line
 
    !> Whether the statement that starts here is one of a beam with warping.
    pure logical function has_warping(text, first)
@@ -107,17 +120,15 @@ contains
    end function find_unreadable
 
    !> Fill in what the keyword is; move from block to block where it says so.
-   subroutine classify(text, reader, statement, meaningful, diagnostics)
+   subroutine classify(text, reader, statement, diagnostics)
       character(len=*), intent(in) :: text
       type(reader_t), intent(inout) :: reader
       type(statement_t), intent(inout) :: statement
-      logical, intent(out) :: meaningful
       type(diagnostics_t), intent(inout) :: diagnostics
 
       associate (key => statement%keyword)
          call look_up(text(key%first:key%last), reader)
       end associate
-      meaningful = .false.
       if (reader%word == 'END' .or. reader%word == 'HALT') then
          call change_block(reader, statement, diagnostics)
          return
@@ -154,7 +165,6 @@ contains
                                    instead_of_uncovered(trim(reader%word)))
          end if
       end if
-      meaningful = statement%role /= 0
    end subroutine classify
 
    !> Look the word up, unless it is the last one again.
@@ -186,9 +196,10 @@ contains
 
    subroutine change_block(reader, statement, diagnostics)
       type(reader_t), intent(inout) :: reader
-      type(statement_t), intent(in) :: statement
+      type(statement_t), intent(inout) :: statement
       type(diagnostics_t), intent(inout) :: diagnostics
 
+      statement%role = role_ending
       if (reader%block == block_picture) return
       if (reader%word == 'END') then
          reader%block = merge(block_dynamics, block_closed, reader%block == block_kinematics)

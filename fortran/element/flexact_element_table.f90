@@ -10,7 +10,7 @@ module flexact_element_table
                             axes, slots, most_deformations, has_axis
    implicit none
    private
-   public :: element_kind_t, element_kinds, find_element_kind, deformations_of, coordinates_of, beam_with_warping
+   public :: element_kind_t, element_kinds, find_element_kind, deformations_of, coordinates_of, listed_numbers, beam_with_warping
    public :: frame_none, frame_along, frame_about, frame_planar, frame_names
    public :: vector_none, vector_optional, vector_required, vector_names
    public :: member_bar, member_beam, member_link, member_hinge, member_names
@@ -50,6 +50,12 @@ module flexact_element_table
       integer :: member
       !> Role of each deformation, 0 beyond the last.
       integer :: role(most_deformations)
+      !> What it is, in Markdown.
+      character(len=96) :: says
+      !> What the numbers of ESTIFF and of EM mean, each with its unit in brackets and a comma
+      !> between two; blank where they have no meaning.
+      character(len=224) :: stiffness
+      character(len=96) :: mass
    end type element_kind_t
 
    !> A beam with a warping node behind each orientation, which decks may state.
@@ -69,17 +75,43 @@ module flexact_element_table
    integer, parameter :: offset_2d(6) = [role_offset_x, role_offset_y, 0, 0, 0, 0]
    integer, parameter :: turn_2d(6) = [role_angle, 0, 0, 0, 0, 0]
 
+   character(len=*), parameter :: axial = 'EA (N)'
+   character(len=*), parameter :: bending = 'EA (N), G It (N m^2), E Iy (N m^2), E Iz (N m^2), '// &
+                                  'shear E Iy/(G A k) (m^2), shear E Iz/(G A k) (m^2)'
+   character(len=*), parameter :: bending_2d = 'EA (N), EI (N m^2), shear EI/(G A k) (m^2)'
+   character(len=*), parameter :: turning_2d = 'stiffness about its axis (N m/rad)'
+   character(len=*), parameter :: turning = turning_2d//', stiffness of its first tilt (N m/rad), '// &
+                                  'stiffness of its second tilt (N m/rad)'
+   character(len=*), parameter :: moving = 'stiffness along x (N/m), stiffness along y (N/m), stiffness along z (N/m), '//turning
+   character(len=*), parameter :: line_mass = 'mass per length (kg/m)'
+   character(len=*), parameter :: body_mass = line_mass//', Jxx (kg m), Jyy (kg m), Jzz (kg m), Jyz (kg m)'
+   character(len=*), parameter :: body_mass_2d = line_mass//', moment of inertia (kg m)'
+
    type(element_kind_t), parameter :: element_kinds(*) = [ &
-                                      element_kind_t('TRUSS', '', [x3, 0, x3, 0], along, no, .true., bar, stretch), &
-                                      element_kind_t('BEAM', 'BEAMNL', [x3, r3, x3, r3], along, may, .true., beam, bend), &
-                                      element_kind_t('RBEAM', '', [x3, r3, x3, 0], along, may, .true., link, offset), &
-                                      element_kind_t('PINBODY', '', [x3, r3, x3, 0], along, no, .false., link, offset), &
-                                      element_kind_t('HINGE', '', [0, r3, 0, r3], about, must, .false., hinge, turn), &
-                                      element_kind_t('PLTRUSS', '', [x2, 0, x2, 0], plane, no, .true., bar, stretch), &
-                                      element_kind_t('PLBEAM', 'PLBEAMNL', [x2, r1, x2, r1], plane, no, .true., beam, bend_2d), &
-                                      element_kind_t('PLRBEAM', '', [x2, r1, x2, 0], plane, no, .true., link, offset_2d), &
-                                      element_kind_t('PLHINGE', 'PLTOR', [0, r1, 0, r1], none, no, .false., hinge, turn_2d), &
-                                      element_kind_t('BEARING', '', [x3, r3, x3, r3], about, must, .false., hinge, move)]
+                                      element_kind_t('TRUSS', '', [x3, 0, x3, 0], along, no, .true., bar, stretch, &
+                                                     'a bar, which only a normal force strains', axial, line_mass), &
+                                      element_kind_t('BEAM', 'BEAMNL', [x3, r3, x3, r3], along, may, .true., beam, bend, &
+                                                     'a flexible beam in space: a wire, a sheet, '// &
+                                                     'or what is rigid where nothing is released', &
+                                                     bending, body_mass), &
+                                      element_kind_t('RBEAM', '', [x3, r3, x3, 0], along, may, .true., link, offset, &
+                                                     'a rigid arm: it holds q to the body that turns with p', '', body_mass), &
+                                      element_kind_t('PINBODY', '', [x3, r3, x3, 0], along, no, .false., link, offset, &
+                                                     'a point of a rigid body, which turns with p; q may be where p is', &
+                                                     '', body_mass), &
+                                      element_kind_t('HINGE', '', [0, r3, 0, r3], about, must, .false., hinge, turn, &
+                                                     'a hinge between two orientations', turning, ''), &
+                                      element_kind_t('PLTRUSS', '', [x2, 0, x2, 0], plane, no, .true., bar, stretch, &
+                                                     'a bar in the xy plane', axial, line_mass), &
+                                      element_kind_t('PLBEAM', 'PLBEAMNL', [x2, r1, x2, r1], plane, no, .true., beam, bend_2d, &
+                                                     'a flexible beam in the xy plane', bending_2d, body_mass_2d), &
+                                      element_kind_t('PLRBEAM', '', [x2, r1, x2, 0], plane, no, .true., link, offset_2d, &
+                                                     'a rigid arm in the xy plane', '', body_mass_2d), &
+                                      element_kind_t('PLHINGE', 'PLTOR', [0, r1, 0, r1], none, no, .false., hinge, turn_2d, &
+                                                     'a hinge in the xy plane', turning_2d, ''), &
+                                      element_kind_t('BEARING', '', [x3, r3, x3, r3], about, must, .false., hinge, move, &
+                                                     'a bearing: how a body moves against another, in the frame of an axis', &
+                                                     moving, '')]
 
 contains
 
@@ -100,6 +132,15 @@ contains
       integer, intent(in) :: kind
       deformations = count(element_kinds(kind)%role /= 0)
    end function deformations_of
+
+   !> How many numbers a column of the table lists.
+   pure integer function listed_numbers(meanings) result(numbers)
+      character(len=*), intent(in) :: meanings
+      integer :: i
+
+      numbers = 0
+      if (meanings /= '') numbers = 1 + count([(meanings(i:i) == ',', i=1, len(meanings))])
+   end function listed_numbers
 
    !> Whether an element of this kind has each of the coordinates x, y, z of the
    !> position of p, rotation of p, position of q, rotation of q.

@@ -3,14 +3,13 @@
 !> exactly constrained does not depend on them.
 module flexact_properties
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use flexact_element_table, only: element_kinds, deformations_of, member_bar, member_beam, member_link, member_hinge
    use flexact_kinds, only: wp
-   use flexact_slots, only: is_position, node_angle, node_planar_position
+   use flexact_slots, only: is_position, node_angle
    implicit none
    private
    public :: properties_t, make_properties
    public :: stiffness_numbers, mass_numbers, node_mass_numbers
-   public :: stiffness_meant, mass_meant, node_mass_meant
+   public :: node_mass_meant
 
    !> How many numbers each has at most.
    integer, parameter :: stiffness_numbers = 6
@@ -40,36 +39,6 @@ contains
       allocate (properties%mass(mass_numbers, elements), source=not_given)
       allocate (properties%node_mass(node_mass_numbers, nodes), source=not_given)
    end function make_properties
-
-   !> How many numbers of ESTIFF mean something for an element of this kind: EA of a bar;
-   !> EA, EI and the shear of a planar beam; one a deformation of a joint; none of a link.
-   pure integer function stiffness_meant(kind) result(numbers)
-      integer, intent(in) :: kind
-
-      select case (element_kinds(kind)%member)
-      case (member_bar)
-         numbers = 1
-      case (member_beam, member_hinge)
-         numbers = deformations_of(kind)
-      case default
-         numbers = 0
-      end select
-   end function stiffness_meant
-
-   !> How many numbers of EM do: mass of a bar, of beams and links moments of inertia
-   !> besides, one in the plane; none of a joint.
-   pure integer function mass_meant(kind) result(numbers)
-      integer, intent(in) :: kind
-
-      select case (element_kinds(kind)%member)
-      case (member_bar)
-         numbers = 1
-      case (member_beam, member_link)
-         numbers = merge(2, mass_numbers, element_kinds(kind)%slot_kind(1) == node_planar_position)
-      case default
-         numbers = 0
-      end select
-   end function mass_meant
 
    !> How many numbers of XM do at a node of this kind.
    pure integer function node_mass_meant(kind) result(numbers)

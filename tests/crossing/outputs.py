@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import flexact
 from flexact.apps.cli.analyse import FORMS, LOGS
 from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.decks import TABLES
 from flexact.apps.cli.main import main
-from flexact.apps.cli.summary import TABLES
 from flexact.apps.convert.text import JSON, YAML
 from flexact.apps.editor.completion import complete_at
 from flexact.apps.editor.deck import Deck
@@ -31,7 +31,7 @@ from flexact.costs.cost import COSTS
 from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
-from flexact.show.writers import PAGES, PICTURES, STILLS
+from flexact.show.writers import PAGES, PICTURES, STILLS, TABLES
 from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.

@@ -62,9 +62,8 @@ def ask_everything(document: Document, positions: list[Position]) -> None:
         require_within(document, problem.range)
         for remark in problem.remarks:
             require_within(document, remark.range)
-        for mend in mends_of(deck, problem):
-            for edit in mend.edits:
-                require_within(document, edit.range)
+        for _, edit in mends_of(deck, problem):
+            require_within(document, edit.range)
     for one in flat(outline_of(deck)):
         assert one.name
         require_within(document, one.range)
@@ -72,8 +71,8 @@ def ask_everything(document: Document, positions: list[Position]) -> None:
         assert one.range.start <= one.own.start <= one.own.end <= one.range.end
         for inner in one.inner:
             assert one.range.start <= inner.range.start <= inner.range.end <= one.range.end
-    for fold in folds_of(deck):
-        assert 0 <= fold.first < fold.last < len(document.lines)
+    for first, last, _ in folds_of(deck):
+        assert 0 <= first < last < len(document.lines)
     for position in positions:
         ask_at(deck, position)
 
@@ -82,8 +81,9 @@ def ask_at(deck: Deck, position: Position) -> None:
     document = deck.document
     found = hover_at(deck, position)
     if found is not None:
-        require_within(document, found.range)
-        assert found.text and "None" not in found.text
+        text, where = found
+        require_within(document, where)
+        assert text and "None" not in text
     offers = complete_at(deck, position)
     require_within(document, offers.range)
     assert offers.range.holds(document.clamped(position))
@@ -92,9 +92,10 @@ def ask_at(deck: Deck, position: Position) -> None:
     for range_ in (*definition_at(deck, position), *every):
         require_within(document, range_)
     if place is not None:
-        assert place.range in every
+        (kind, _), where = place
+        assert where in every
         try:
-            edits = rename_at(deck, position, str(deck.index.free(place.key[0])))
+            edits = rename_at(deck, position, str(deck.index.free(kind)))
         except RenameError:
             return
         assert [edit.range for edit in edits] == every

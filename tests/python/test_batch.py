@@ -16,7 +16,7 @@ from small_decks import BROKEN, DECKS, VERDICTS, files_in, write
 from test_cli_process import process_environment
 
 import flexact
-from flexact.apps.cli.batch_run import BatchBar
+from flexact.apps.cli.batch import BatchBar
 from flexact.apps.cli.main import main
 from flexact.sweeps.batch import deck_row
 from flexact.sweeps.columns import row_of
@@ -112,7 +112,7 @@ def test_a_deck_that_kills_its_worker_costs_one_row(
             os.kill(os.getpid(), signal.SIGKILL)
         return deck_row(raw, name, *asked)
 
-    monkeypatch.setattr("flexact.apps.cli.batch_run.deck_row", die)
+    monkeypatch.setattr("flexact.apps.cli.batch.deck_row", die)
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j2"]) == 0
     errors = [row["error"] for row in rows_of(tmp_path / "t.csv")]
     assert [bool(error) for error in errors] == [False, False, True, False]
@@ -289,7 +289,7 @@ def test_a_terminal_shows_how_far_it_is(decks: Path, tmp_path: Path) -> None:
 def test_a_log_has_a_line_now_and_then(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("flexact.apps.cli.batch_run._LINE", 0.0)
+    monkeypatch.setattr("flexact.apps.cli.batch._LINE", 0.0)
     with BatchBar(total=50, before=40) as bar:
         bar.count(has_error=False)
         bar.count(has_error=True)

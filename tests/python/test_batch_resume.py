@@ -190,7 +190,7 @@ def interrupted(decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
     arguments = ["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.apps.cli.batch_run.write_table", refuse)
+        patch.setattr("flexact.apps.cli.batch.write_table", refuse)
         assert main(arguments) == 2
     assert len(journaled(tmp_path / "t.csv.journal")) == 5
     return arguments
@@ -198,7 +198,7 @@ def interrupted(decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 def analysed(monkeypatch: pytest.MonkeyPatch, arguments: Sequence[str]) -> list[str]:
     """The decks that a run analyses."""
-    from flexact.apps.cli import batch_run as batch_work
+    from flexact.apps.cli import batch as batch_work
 
     names: list[str] = []
     row = batch_work.deck_row
@@ -246,7 +246,7 @@ def test_files_that_are_not_there_any_more_are_made_again(
         raise OutputError("no space")
 
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.apps.cli.batch_run.write_table", refuse)
+        patch.setattr("flexact.apps.cli.batch.write_table", refuse)
         assert main(arguments) == 2
     (folder / "over.log").unlink()
     (folder / "both.vtu").write_bytes(b"half")
@@ -300,7 +300,7 @@ def test_where_nothing_is_done_nothing_is_left(
     def interrupt(*_: object) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr("flexact.apps.cli.batch_run.deck_row", interrupt)
+    monkeypatch.setattr("flexact.apps.cli.batch.deck_row", interrupt)
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]) == 130
     assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []
 

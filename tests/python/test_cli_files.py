@@ -71,7 +71,7 @@ def test_a_mesh_that_cannot_be_written_does_not_cost_the_verdict(
     def fail(*_: object) -> bytes:
         raise OutputError("no mesh of this")
 
-    monkeypatch.setattr("flexact.apps.cli.deck_files.mesh_bytes", fail)
+    monkeypatch.setattr("flexact.apps.cli.export.mesh_bytes", fail)
     out = tmp_path / "out"
     arguments = ["analyse", "--json", str(decks), "-o", str(out)]
     assert main([*arguments, "--expect", "exact"]) == 2

@@ -9,10 +9,9 @@ from editor_fuzz import ask_everything, mutated, some_positions
 from reference_decks import NAMES, text_of
 
 import flexact
-from flexact.advice.advice import advice_of
 from flexact.apps.editor.actions import edits_between, edits_of, mends_of, remedies_at
 from flexact.apps.editor.completion import complete_at
-from flexact.apps.editor.deck import WARPING, Deck
+from flexact.apps.editor.deck import WARPING, Deck, keys_in
 from flexact.apps.editor.document import Document, Edit, Position
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import (
@@ -55,7 +54,7 @@ def deck(text: str = GUIDE) -> Deck:
 
 def said(text: str, line: int, character: int) -> str:
     found = hover_at(deck(text), Position(line, character))
-    return found.text if found is not None else ""
+    return found[0] if found is not None else ""
 
 
 def applied(document: Document, edits: list[Edit] | tuple[Edit, ...]) -> str:
@@ -71,33 +70,25 @@ def test_statements_are_those_that_the_core_reads(name: str) -> None:
     text = text_of(name)
     model = flexact.read_text(text)
     index, arrays = deck(text).index, model.data.arrays
-    assert sorted(n for kind, n in index.made if kind == "element") == sorted(
-        arrays.element_number.tolist()
-    )
+    assert sorted(index.made["element"]) == sorted(arrays.element_number.tolist())
     for i, number in enumerate(arrays.element_number.tolist()):
         kind = index.kind_of_element(number)
         assert kind is element_kinds()[arrays.element_kind[i] - 1]
         made = index.element(number)
         assert made is not None
-        named = {ref.number for ref in made.says.facts.references if ref.kind == "node"}
+        named = {number for (what, number), _ in keys_in(made) if what == "node"}
         nodes = arrays.element_node[:, i]
         numbers = set(arrays.node_number[nodes[nodes > 0] - 1].tolist())
         assert {n for n in named if index.kinds[n] != WARPING} == numbers
     kinds = {n: int(k) for n, k in zip(arrays.node_number, arrays.node_kind, strict=True)}
     assert {n: k for n, k in index.kinds.items() if k != WARPING} == kinds
-    for line in range(len(index.facts)):
-        says = index.at(line).says
-        number = says.number(1)
-        if (
-            says.facts.is_statement
-            and says.name == "X"
-            and number in model.data.node_index
-            and kinds[number] <= 2
-        ):
-            values = [float(w.text.replace("d", "e").replace("D", "e")) for w in says.words[2:]]
+    last = {index.tokens[line].number_of(1): line for line in index.tokens.lines_of("X").tolist()}
+    for number, line in last.items():
+        if number in model.data.node_index and kinds[number] <= 2:
+            words = index.tokens[line].words[2:]
+            values = [float(w.text.replace("d", "e").replace("D", "e")) for w in words]
             mine = arrays.node_value[: len(values), model.data.node_index[number]]
-            if index.made["node", number][-1][0] == line:
-                np.testing.assert_array_equal(mine, values)
+            np.testing.assert_array_equal(mine, values)
 
 
 def test_a_keyword_says_what_it_means_and_takes() -> None:
@@ -229,9 +220,9 @@ def test_blocks_fold() -> None:
 def test_the_help_of_a_problem_is_a_mend(text: str, title: str, mended: str | None) -> None:
     mine = deck(text)
     problem = next(one for one in problems_of(mine) if mends_of(mine, one))
-    (mend,) = mends_of(mine, problem)
-    assert mend.title == title
-    made = applied(mine.document, mend.edits)
+    ((said, edit),) = mends_of(mine, problem)
+    assert said == title
+    made = applied(mine.document, [edit])
     assert made == (mended or text.replace("HALT", "END\r\nHALT"))
     assert problem.code not in {one.code for one in problems_of(deck(made))}
 
@@ -241,12 +232,12 @@ def test_of_two_classes_either_goes() -> None:
     mine = deck(text)
     problem = next(one for one in problems_of(mine) if one.code == "class-conflict")
     mends = mends_of(mine, problem)
-    assert {one.title for one in mends} == {
+    assert {title for title, _ in mends} == {
         "take 2 out of FIX in line 11",
         "take DYNX 3 2 out, line 14",
     }
-    for mend in mends:
-        assert problems_of(deck(applied(mine.document, mend.edits))) == []
+    for _, edit in mends:
+        assert problems_of(deck(applied(mine.document, [edit]))) == []
 
 
 @pytest.mark.parametrize("ending", ["\n", "\r\n", "\r"])
@@ -257,7 +248,7 @@ def test_a_step_of_the_advice_edits_the_deck(ending: str, start: str) -> None:
     mine = deck(text)
     opinion = opinion_on(mine)
     assert opinion is not None and opinion.words.startswith("over-constrained by 1; ")
-    advice = advice_on(opinion, advice_of)
+    advice = advice_on(opinion)
     assert advice is not None
     first = remedies_at(mine, advice, 0, 0)
     assert first and first[0].makes_exact
@@ -279,7 +270,7 @@ def test_a_verdict_is_for_sound_decks() -> None:
     assert opinion_on(deck("TRUSS 1 1\n")) is None
     exact = opinion_on(deck(GUIDE.replace("RLSE 1  2 5 6", "RLSE 1  2 3 5 6")))
     assert exact is not None and exact.words.startswith("exactly constrained; ")
-    assert advice_on(exact, advice_of) is None
+    assert advice_on(exact) is None
     loose = opinion_on(deck("TRUSS 1 1 2\nX 2 1 0 0\nFIX 1\n"))
     assert loose is not None and loose.words.startswith("under-constrained by 2")
     assert loose.remarks[0].text.startswith("motion 1: ")
@@ -297,8 +288,8 @@ def test_edits_make_one_text_of_another() -> None:
 
 
 def test_blocks_are_told_apart() -> None:
-    statements = deck("END % x\nHALT\nX 1 2\nend\nOUTX 1\nHALT\nOUTX 1\nVisualization\nend\n")
-    found = [statements.statements.at(line).says.block for line in range(9)]
+    tokens = deck("END % x\nHALT\nX 1 2\nend\nOUTX 1\nHALT\nOUTX 1\nVisualization\nend\n").tokens
+    found = [tokens[line].block for line in range(9)]
     assert found == [
         *(Block.KINEMATICS, Block.DYNAMICS, Block.DYNAMICS, Block.DYNAMICS, Block.CLOSED),
         *(Block.CLOSED, Block.IN_OUT, Block.PICTURE, Block.PICTURE),

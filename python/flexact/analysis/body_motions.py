@@ -80,19 +80,48 @@ class BodyMotion(NamedTuple):
         return f"{', '.join(self.names)}{together} {self.screw}"
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Moving(Frozen):
-    """What moves in a motion; each answer is found when it is asked for.
+class _Item(NamedTuple):
+    """A body or a joint, and how it moves."""
 
-    Attributes:
-        outcome: The analysis.
-        displacement: (nodes as given, 3) [m].
-        rotation: (nodes as given, 3) [rad].
-    """
+    screw: Screw
+    body: Part | None
+    joint: Joint | None
 
-    outcome: Decomposition
-    displacement: FloatArray
-    rotation: FloatArray
+
+def _is_of_points(group: Sequence[_Item]) -> bool:
+    """Whether none of a group is a body or has an orientation."""
+    return all(item.joint is not None and item.joint.orientation is None for item in group)
+
+
+class Moves:
+    """What motions have in common: the velocities of all nodes, and what bodies and joints do."""
+
+    analysis: Decomposition
+
+    if TYPE_CHECKING:
+        # A property here would be the default of a field of this name.
+        @property
+        def analysed(self) -> Velocities:
+            """The velocities of the nodes of the model as it was analysed."""
+
+    @property
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one that was analysed."""
+        return self.analysis.condensed
+
+    @property
+    def displacement(self) -> FloatArray:
+        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
+        return self._at_nodes[0]
+
+    @property
+    def rotation(self) -> FloatArray:
+        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
+        return self._at_nodes[1]
+
+    @cached_property
+    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
+        return self.analysed.at_all_nodes(self.condensed)
 
     @cached_property
     def bodies(self) -> tuple[BodyMotion, ...]:
@@ -121,12 +150,12 @@ class Moving(Frozen):
         joint = self._joint(body)
         if joint is not None:
             return self._of_joint(joint)
-        bodies = self.outcome.carriers.bodies
+        bodies = self.analysis.carriers.bodies
         if isinstance(body, int) and not isinstance(body, bool):
             if not 0 <= body < len(bodies):
                 raise model_error("no-such-part", f"there is no body {body} of {len(bodies)}")
             return self._of_body(body)
-        part = part_of(self.outcome.parts, body)
+        part = part_of(self.analysis.parts, body)
         if part.kind is not PartKind.BODY:
             raise model_error(
                 "no-body",
@@ -144,15 +173,13 @@ class Moving(Frozen):
         Raises:
             ModelError: there is no such point.
         """
-        position = position_of(self.outcome.parts, point)
+        parts = self.analysis.parts
+        position = position_of(parts, point)
         orientation = getattr(point, "orientation", None)
+        own = [node for node, place in parts.position_of.items() if place == position]
+        node = own[0] if len(own) == 1 else None
         if orientation is not None:
-            node = self.outcome.given.node_index.get(orientation)
-        else:
-            own = [
-                node for node, place in self.outcome.parts.position_of.items() if place == position
-            ]
-            node = own[0] if len(own) == 1 else None
+            node = self.analysis.given.node_index.get(orientation)
         return NodeMotion(
             self.displacement[position], None if node is None else self.rotation[node]
         )
@@ -170,11 +197,11 @@ class Moving(Frozen):
     @cached_property
     def ends(self) -> tuple[BodyMotion, ...]:
         """Of a motion in which nothing moves but ends of flexures, how each of them turns."""
-        carriers = self.outcome.carriers
+        carriers = self.analysis.carriers
         own = {node for node, _ in carriers.own_ends}
         if not own.issuperset(self.nodes):
             return ()
-        joints = [carriers.joint(self.outcome.parts.place_of(node), node) for node in self.nodes]
+        joints = [carriers.joint(self.analysis.parts.place_of(node), node) for node in self.nodes]
         return tuple(BodyMotion((), (joint,), self._of_joint(joint)) for joint in joints)
 
     @cached_property
@@ -182,17 +209,17 @@ class Moving(Frozen):
         """The sheets and wires inside of which something moves, by name."""
         return tuple(
             inside.part
-            for inside in self.outcome.carriers.insides
+            for inside in self.analysis.carriers.insides
             if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
         )
 
     def _joint(self, target: object) -> Joint | None:
         """The joint of a name, or at the point of a handle; None where there is not just one."""
-        joints = self.outcome.carriers.joints
+        joints = self.analysis.carriers.joints
         if isinstance(target, str):
             found = [joint for joint in joints if joint.name == target]
         elif hasattr(target, "position"):
-            position = position_of(self.outcome.parts, target)
+            position = position_of(self.analysis.parts, target)
             found = [joint for joint in joints if joint.position == position]
         else:
             return None
@@ -202,24 +229,28 @@ class Moving(Frozen):
 
     @property
     def _length(self) -> float:
-        return self.outcome.characteristic_length
+        return self.analysis.characteristic_length
 
     @cached_property
     def _size(self) -> FloatArray:
         """(nodes,) how much each node moves, rotations as lengths."""
         moved, turned = (np.linalg.norm(v, axis=1) for v in (self.displacement, self.rotation))
-        made: FloatArray = moved + self._length * turned
-        return made
+        return np.asarray(moved + self._length * turned)
 
     @cached_property
     def _rest(self) -> float:
-        return self.outcome.rounding * float(self._size.max(initial=0.0))
+        return self.analysis.rounding * float(self._size.max(initial=0.0))
 
     @cached_property
     def _items(self) -> tuple[_Item, ...]:
-        carriers = self.outcome.carriers
-        order = sorted(range(len(carriers.bodies)), key=self._key_of_body)
-        made = [_Item(self._of_body(k), carriers.bodies[k], None) for k in order]
+        carriers = self.analysis.carriers
+        made = [_Item(self._of_body(k), body, None) for k, body in enumerate(carriers.bodies)]
+        made.sort(
+            key=lambda item: (
+                natural(item.body.name if item.body is not None else ""),
+                np.round(item.screw.centre / self._length, 9).tolist(),
+            )
+        )
         joints = [_Item(self._of_joint(joint), None, joint) for joint in carriers.joints]
         joints.sort(key=lambda item: item.joint is not None and item.joint.orientation is None)
         return (*made, *joints)
@@ -231,7 +262,11 @@ class Moving(Frozen):
         screw = self._fitted(items) if len(points) > 1 else None
         if screw is None:
             return groups
-        joined = [item._replace(screw=self._moved(screw, item)) for item in items]
+        # The screw as it is seen from each of them.
+        joined = [
+            item._replace(screw=self._screw(screw.rotation, item.screw.velocity, item.screw.centre))
+            for item in items
+        ]
         return [*(group for group in groups if not _is_of_points(group)), joined]
 
     def _fitted(self, items: Sequence[_Item]) -> Screw | None:
@@ -240,10 +275,10 @@ class Moving(Frozen):
         moved = np.array([item.screw.velocity for item in items])
         centre, mean = places.mean(axis=0), moved.mean(axis=0)
         arms = (places - centre) / self._length
-        axes = (2,) if self.outcome.given.planar else (0, 1, 2)
+        axes = (2,) if self.analysis.given.planar else (0, 1, 2)
         matrix = np.stack([np.cross(np.eye(3)[axis], arms).ravel() for axis in axes], axis=1)
         turns, _, rank, _ = np.linalg.lstsq(
-            matrix, (moved - mean).ravel(), rcond=self.outcome.rounding
+            matrix, (moved - mean).ravel(), rcond=self.analysis.rounding
         )
         off = np.abs(matrix @ turns - (moved - mean).ravel()).max()
         if rank < len(axes) or off > 10.0 * self._rest:
@@ -252,19 +287,10 @@ class Moving(Frozen):
         rotation[list(axes)] = turns / self._length
         return self._screw(rotation, mean, centre)
 
-    def _moved(self, screw: Screw, item: _Item) -> Screw:
-        """A screw as it is seen from a point."""
-        return self._screw(screw.rotation, item.screw.velocity, item.screw.centre)
-
-    def _key_of_body(self, body: int) -> tuple[object, ...]:
-        part = self.outcome.carriers.bodies[body]
-        name = natural(part.name)
-        return name, tuple(np.round(self._of_body(body).centre / self._length, 9).tolist())
-
     def _of_body(self, body: int) -> Screw:
         """Of the mean velocity, which is that of the mean of its points."""
-        nodes = self.outcome.parts.bodies[body]
-        places = self.outcome.given.arrays.node_value[:3, list(nodes.positions)]
+        nodes = self.analysis.parts.bodies[body]
+        places = self.analysis.given.arrays.node_value[:3, list(nodes.positions)]
         return self._screw(
             self.rotation[list(nodes.orientations)].mean(axis=0),
             self.displacement[list(nodes.positions)].mean(axis=0),
@@ -272,7 +298,7 @@ class Moving(Frozen):
         )
 
     def _of_joint(self, joint: Joint) -> Screw:
-        place = self.outcome.carriers.place_of(joint)
+        place = self.analysis.carriers.place_of(joint)
         none = np.zeros(3)
         return self._screw(
             none if joint.orientation is None else self.rotation[joint.orientation],
@@ -284,7 +310,7 @@ class Moving(Frozen):
         return screw_of(
             *(rotation, velocity, centre, self._length),
             rest=self._rest,
-            rounding=self.outcome.rounding,
+            rounding=self.analysis.rounding,
         )
 
     def _grouped(self, items: list[_Item]) -> list[list[_Item]]:
@@ -323,84 +349,3 @@ class Moving(Frozen):
             np.mean([screw.at(centre) for screw in screws], axis=0),
             centre,
         )
-
-
-class _Item(NamedTuple):
-    """A body or a joint, and how it moves."""
-
-    screw: Screw
-    body: Part | None
-    joint: Joint | None
-
-
-def _is_of_points(group: Sequence[_Item]) -> bool:
-    """Whether none of a group is a body or has an orientation."""
-    return all(item.joint is not None and item.joint.orientation is None for item in group)
-
-
-class Moves:
-    """What motions have in common: the velocities of all nodes, and of what they are made of."""
-
-    analysis: Decomposition
-
-    if TYPE_CHECKING:
-        # A property here would be the default of a field of this name.
-        @property
-        def analysed(self) -> Velocities:
-            """The velocities of the nodes of the model as it was analysed."""
-
-    @property
-    def condensed(self) -> Condensed:
-        """The model at whose nodes it is a motion, and the one that was analysed."""
-        return self.analysis.condensed
-
-    @property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
-        return self._at_nodes[0]
-
-    @property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
-        return self._at_nodes[1]
-
-    @cached_property
-    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
-        return self.analysed.at_all_nodes(self.condensed)
-
-    @cached_property
-    def _moving(self) -> Moving:
-        return Moving(self.analysis, self.displacement, self.rotation)
-
-    @property
-    def bodies(self) -> tuple[BodyMotion, ...]:
-        """Bodies and joints that move, those that move as one together; bodies first, by name."""
-        return self._moving.bodies
-
-    def of(self, body: object) -> Screw:
-        """The screw of a body; see `flexact.analysis.body_motions.Moving.of`."""
-        return self._moving.of(body)
-
-    def at(self, point: object) -> NodeMotion:
-        """Displacement and rotation of a point; see `flexact.analysis.body_motions.Moving.at`."""
-        return self._moving.at(point)
-
-    @property
-    def is_internal(self) -> bool:
-        """Whether nothing moves but what is inside of sheets and wires."""
-        return self._moving.is_internal
-
-    @property
-    def nodes(self) -> tuple[int, ...]:
-        """Indices of the nodes that move, of the model as given."""
-        return self._moving.nodes
-
-    @property
-    def ends(self) -> tuple[BodyMotion, ...]:
-        """Of a motion in which nothing moves but ends of flexures, how each of them turns."""
-        return self._moving.ends
-
-    @property
-    def internal_to(self) -> tuple[Part, ...]:
-        """The sheets and wires inside of which something moves, by name."""
-        return self._moving.internal_to

@@ -126,8 +126,15 @@ def calls_of_change(result: Decomposition, change: Change, method: str) -> list[
         return []
     calls = list(dict.fromkeys(call for call in worded if call is not None))
     if calls and result.given.arrays.element_number.size <= MOST_TRIED:
+        # Rows of beams count as one, and what is held may be declared.
         wanted = Change(change.deformations).apply(result.given).data
-        if not _releases_the_same(made(result.given, calls), wanted):
+        found = made(result.given, calls)
+        releases = [
+            condensed(each).data.arrays.deformation_class == Class.DEPENDENT
+            for each in (found, wanted)
+            if each is not None
+        ]
+        if len(releases) < 2 or not np.array_equal(*releases):
             calls = [Call(method, place[:2]) for place in change.deformations]
     return calls + coordinates
 
@@ -142,14 +149,6 @@ def made(given: ModelData, calls: Iterable[Call]) -> ModelData | None:
     except ModelError:
         return None
     return model.data
-
-
-def _releases_the_same(a: ModelData | None, b: ModelData) -> bool:
-    """Whether two models release the same, rows of beams as one; what is held may be declared."""
-    if a is None:
-        return False
-    mine, others = (condensed(each).data.arrays.deformation_class for each in (a, b))
-    return np.array_equal(mine == Class.DEPENDENT, others == Class.DEPENDENT)
 
 
 def coordinate_call(result: Decomposition, method: str, node: int, name: str) -> Call:

@@ -35,6 +35,11 @@ class Joint(NamedTuple):
         return True
 
     @property
+    def nodes(self) -> tuple[int, ...]:
+        """Indices of its nodes, the position first."""
+        return tuple(node for node in self[:2] if node is not None)
+
+    @property
     def is_fold(self) -> bool:
         """Whether two sheets or wires meet there, and nothing else.
 
@@ -90,30 +95,30 @@ class Carriers:
     def between_ends(self) -> frozenset[int]:
         """The nodes that lie between the ends of flexures: those of insides and of folds."""
         folds = (joint for joint in self.joints if joint.is_fold)
-        nodes = (node for joint in folds for node in (joint.position, joint.orientation))
-        return self.inner.union(node for node in nodes if node is not None)
+        return self.inner.union(node for joint in folds for node in joint.nodes)
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """By name, then by place."""
-        arrays = self.data.arrays
-        taken = {node for body in self.parts.bodies for node in body.orientations} | self.inner
-        made = []
-        with_orientation = set()
-        for node in range(arrays.node_number.size):
-            if arrays.node_kind[node] <= NodeKind.POSITION:
-                continue
-            place = self.parts.place_of(node)
-            if place is not None and node not in taken:
-                with_orientation.add(place)
-            if node not in taken:
-                made.append(self.joint(place, node))
-        carried = {node for body in self.parts.bodies for node in body.positions}
-        known = taken | carried | with_orientation
-        for node in range(arrays.node_number.size):
-            if arrays.node_kind[node] <= NodeKind.POSITION and node not in known:
-                made.append(self.joint(node, None))
-        return tuple(sorted(made, key=self._key))
+        bodies = self.parts.bodies
+        taken = {node for body in bodies for node in body.orientations} | self.inner
+        turns = self.data.arrays.node_kind > NodeKind.POSITION
+        free = [node for node in np.flatnonzero(turns).tolist() if node not in taken]
+        made = [self.joint(self.parts.place_of(node), node) for node in free]
+        known = taken.union(node for body in bodies for node in body.positions)
+        known.update(joint.position for joint in made if joint.position is not None)
+        alone = (node for node in np.flatnonzero(~turns).tolist() if node not in known)
+        made += [self.joint(node, None) for node in alone]
+        # A length by which places are compared.
+        step = float(np.abs(self.data.arrays.node_value[:3, ~turns]).max(initial=0.0)) or 1.0
+
+        def key(joint: Joint) -> tuple[object, ...]:
+            place = self.place_of(joint)
+            rounded = () if place is None else tuple(np.round(place / step, 9).tolist())
+            here = next((part.name for part in joint.parts if part.is_named), "")
+            return natural(joint.name or here), rounded, joint.orientation or -1
+
+        return tuple(sorted(made, key=key))
 
     @cached_property
     def insides(self) -> tuple[Inside, ...]:
@@ -148,32 +153,13 @@ class Carriers:
         return made
 
     def place_of(self, joint: Joint) -> FloatArray | None:
-        """(3,) where a joint is [m]."""
-        return None if joint.position is None else self.place(joint.position)
-
-    def place(self, position: int) -> FloatArray:
-        """(3,) where a position node is [m]."""
-        value: FloatArray = self.data.arrays.node_value[:3, position]
-        return value
+        """(3,) where a joint is [m]; None where that is not known."""
+        if joint.position is None:
+            return None
+        return np.asarray(self.data.arrays.node_value[:3, joint.position])
 
     def joint(self, position: int | None, orientation: int | None) -> Joint:
         """What is at a position node and turns with an orientation node."""
         here = () if position is None else self.parts.at(position)
         name = "" if position is None else self.parts.name_of_point(position)
         return Joint(position, orientation, here, name)
-
-    def _key(self, joint: Joint) -> tuple[object, ...]:
-        place = self.place_of(joint)
-        rounded = () if place is None else tuple(np.round(place / self._step, 9).tolist())
-        here = next((part.name for part in joint.parts if part.is_named), "")
-        return natural(joint.name or here), rounded, joint.orientation or -1
-
-    @cached_property
-    def _step(self) -> float:
-        """A length by which places are compared."""
-        sizes = np.abs(self.data.arrays.node_value[:3, self._is_position])
-        return float(sizes.max(initial=0.0)) or 1.0
-
-    @cached_property
-    def _is_position(self) -> np.ndarray:
-        return np.asarray(self.data.arrays.node_kind <= NodeKind.POSITION)

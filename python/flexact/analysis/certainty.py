@@ -14,11 +14,12 @@ import numpy as np
 from .decomposition import Decomposition
 from .limits import CLEARLY, CUT_OFF, FADED, NEAR, REACH_OF_DIGITS, STORED
 from .margin import margin_of
-from .rank_evidence import Evidence
-from .verdict import Alternative, Certainty, Margin
+from .rank_evidence import Evidence, largest_remainder, powers_faded
+from .verdict import Alternative, Certainty
 
 #: So many are given.
 _MOST = 3
+_EPSILON = float(np.finfo(np.float64).eps)
 
 
 def alternatives_of(
@@ -33,7 +34,22 @@ def alternatives_of(
         higher: How many of the largest that count as zero may not be.
     """
     ranks = [rank for rank in _ranks(outcome, evidence, lower, higher) if rank != outcome.rank]
-    return tuple(_alternative(outcome, evidence, rank) for rank in dict.fromkeys(ranks))[:_MOST]
+    made = []
+    for rank in list(dict.fromkeys(ranks))[:_MOST]:
+        # Above, the numbers as they are say so, or nothing is known of how far they are from it.
+        sizes: list[float | None] = [0.0, 0.0]
+        if rank < outcome.rank:
+            pairs = evidence.pairs[: outcome.rank - rank]
+            needed = [margin_of(outcome, pair, pair.value) for pair in pairs]
+            sizes = [_largest([m.length for m in needed]), _largest([m.angle for m in needed])]
+        made.append(Alternative(outcome.columns - rank, outcome.rows - rank, *sizes))
+    return tuple(made)
+
+
+def _largest(sizes: list[float | None]) -> float | None:
+    """The size that brings all of some values to zero; None where one is not known."""
+    known = [size for size in sizes if size is not None]
+    return max(known) if known and len(known) == len(sizes) else None
 
 
 def _ranks(outcome: Decomposition, evidence: Evidence, lower: int, higher: int) -> Iterator[int]:
@@ -65,31 +81,6 @@ def _groups(ascending: list[float]) -> list[int]:
         for before, after in itertools.pairwise(ascending)
     ]
     return sorted(range(1, len(gaps) + 1), key=lambda k: -gaps[k - 1])
-
-
-def _alternative(outcome: Decomposition, evidence: Evidence, rank: int) -> Alternative:
-    counts = (outcome.columns - rank, outcome.rows - rank)
-    if rank > outcome.rank:
-        # The numbers as they are say so, or nothing is known of how far they are from it.
-        return Alternative(*counts, 0.0, 0.0)
-    needed = evidence.pairs[: outcome.rank - rank]
-    every = [margin_of(outcome, pair, pair.value) for pair in needed]
-    return Alternative(*counts, *_all_of(every))
-
-
-def _all_of(margins: list[Margin]) -> tuple[float | None, float | None]:
-    """A length and an angle by which each of some values is brought to zero."""
-    lengths = [margin.length for margin in margins]
-    angles = [margin.angle for margin in margins]
-    return _largest(lengths), _largest(angles)
-
-
-def _largest(sizes: list[float | None]) -> float | None:
-    known = [size for size in sizes if size is not None]
-    return max(known) if known and len(known) == len(sizes) else None
-
-
-_EPSILON = float(np.finfo(np.float64).eps)
 
 
 class DoubtKind(str, Enum):
@@ -182,8 +173,11 @@ def _doubts(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
         )
     if not is_proven:
         yield from _zeros_above_noise(outcome)
-        if raw.unjudged:
-            yield from _zeros_below_noise(outcome, evidence)
+        zero = outcome.gap.largest_zero
+        is_below = zero is not None and zero <= raw.noise
+        if raw.unjudged and is_below and outcome.under_constrained and outcome.over_constrained:
+            # Zeros that may be tiny, where nothing but the decomposition has seen them.
+            yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero or 0.0), 1)
 
 
 def _close_to_noise(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
@@ -228,33 +222,23 @@ def _zeros_above_noise(outcome: Decomposition) -> Iterator[Doubt]:
     yield Doubt(kind, zeros=max(1, rank - outcome.rank), size=zero)
 
 
-def _zeros_below_noise(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
-    """Zeros that may be tiny, where nothing but the decomposition has seen them."""
-    zero = outcome.gap.largest_zero
-    if zero is None or not zero <= outcome.raw.noise:
-        return
-    if outcome.under_constrained and outcome.over_constrained:
-        yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero), 1)
-
-
 def _perhaps_tiny(outcome: Decomposition, evidence: Evidence, zero: float) -> Iterator[Doubt]:
     """Reasons to take a zero for a tiny value, the plainest first."""
     zeros = min(outcome.under_constrained, outcome.over_constrained)
     largest = max(outcome.scaled_singular_values[:1].max(initial=0.0), 1.0)
     computed = _EPSILON * max(outcome.rows, outcome.columns) * largest
-    if zero > computed and zero > computed + _stored(evidence):
-        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, zeros=zeros, size=zero)
-    left = evidence.largest_remainder
-    if left and left.value > left.explained:
-        yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left.value, explained=left.explained)
-    if evidence.powers_faded >= FADED:
-        yield Doubt(DoubtKind.FADING, zeros=zeros, size=evidence.powers_faded)
-
-
-def _stored(evidence: Evidence) -> float:
-    """What storing the geometry may make of the zeros."""
+    # What storing the geometry may make of the zeros.
     lifts = (pair.lift_of_bits for group in evidence.zero_pairs for pair in group)
-    return STORED * len(evidence.zero_pairs) * max(lifts, default=0.0)
+    if zero > computed and zero > computed + STORED * len(evidence.zero_pairs) * max(
+        lifts, default=0.0
+    ):
+        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, zeros=zeros, size=zero)
+    left, explained = largest_remainder(outcome) or (0.0, 0.0)
+    if left > explained:
+        yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left, explained=explained)
+    powers = powers_faded(outcome)
+    if powers >= FADED:
+        yield Doubt(DoubtKind.FADING, zeros=zeros, size=powers)
 
 
 def _nonzeros_up_to(outcome: Decomposition, limit: float) -> int:

@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..deck.diagnostics import decode
+from ..deck.diagnostics import Source
 from ..deck.rendering import ProblemsError
+from ..deck.tokens import tokens_of
 from ..util.errors import FlexactError
 from ..util.matrices import span
 from ..util.text import harmless
@@ -56,16 +57,24 @@ class Different(NamedTuple):
     line: int
 
 
-def statements_in(raw: bytes) -> tuple[Statement, ...]:
+def statements_in(source: Source) -> tuple[Statement, ...]:
     """The statements of a deck."""
-    made = []
-    for number, line in enumerate(decode(raw).split("\n"), start=1):
-        written = "" if line.startswith("*") else re.split("[%#]", line, maxsplit=1)[0]
-        words = written.split()
-        if words:
-            meant = " ".join(map(_meant, words))
-            made.append(Statement(meant, harmless(" ".join(words)), number))
-    return tuple(made)
+    return tuple(
+        Statement(
+            " ".join(_meant(word.text) for word in line.words),
+            harmless(" ".join(word.text for word in line.words)),
+            line.number + 1,
+        )
+        for line in tokens_of(source)
+        if line.words
+    )
+
+
+def _meant(word: str) -> str:
+    """A number as it is read, of which long ones keep their digits; other words in capitals."""
+    if _NUMBER.match(word) and len(word) < 17:
+        return repr(float(re.sub("[dD]", "e", word)) + 0.0)
+    return word.upper()
 
 
 def differences(
@@ -80,14 +89,6 @@ def differences(
             made += [Different(False, each.written, each.line) for each in before[i:j]]
             made += [Different(True, each.written, each.line) for each in after[k:n]]
     return tuple(made)
-
-
-def _meant(word: str) -> str:
-    if not _NUMBER.match(word):
-        return word.upper()
-    # Long numbers keep their digits: a float holds seventeen.
-    value = float(re.sub("[dD]", "e", word))
-    return repr(value + 0.0) if len(word) < 17 else word.upper()
 
 
 #: How many parts of a mode its words name.
@@ -145,14 +146,7 @@ class Side:
 def side_of(result: Result) -> Side:
     """What is compared of a result."""
     length = result.characteristic_length
-    motions = zip(
-        result.motions[:MOST_MODES], json_modes.motions(result).dictionaries(), strict=False
-    )
-    stresses = zip(
-        result.self_stresses[:MOST_MODES],
-        json_modes.self_stresses(result).dictionaries(),
-        strict=False,
-    )
+    motions, stresses = json_modes.motions(result), json_modes.self_stresses(result)
     source = result.given.source
     return Side(
         verdict_word(result),
@@ -164,16 +158,24 @@ def side_of(result: Result) -> Side:
         margin_in_short(result),
         certainty_word(result),
         tuple(
-            Mode("; ".join(map(plain, motion_in_parts(motion, _PARTS)[:_PARTS])), vector)
-            for motion, made in motions
-            for vector in [_vector(made, "node", "coordinate", length)]
+            Mode(
+                "; ".join(map(plain, motion_in_parts(motion, _PARTS)[:_PARTS])),
+                _vector(made, "node", "coordinate", length),
+            )
+            for motion, made in zip(
+                result.motions[:MOST_MODES], motions.dictionaries(), strict=False
+            )
         ),
         tuple(
-            Mode("; ".join(map(plain, stress_in_parts(stress, _PARTS)[:_PARTS])), vector)
-            for stress, made in stresses
-            for vector in [_vector(made, "element", "deformation", 1.0 / length)]
+            Mode(
+                "; ".join(map(plain, stress_in_parts(stress, _PARTS)[:_PARTS])),
+                _vector(made, "element", "deformation", 1.0 / length),
+            )
+            for stress, made in zip(
+                result.self_stresses[:MOST_MODES], stresses.dictionaries(), strict=False
+            )
         ),
-        None if source is None else statements_in(source.text),
+        None if source is None else statements_in(source),
     )
 
 
@@ -186,7 +188,7 @@ def broken_side(error: Exception) -> Side:
             place = f"{first.line}:{first.column}: " if first.line else ""
             words = f"{place}{first.message}"
         if error.source is not None:
-            statements = statements_in(error.source.text)
+            statements = statements_in(error.source)
     broken = "cannot be analysed"
     return Side(broken, broken, {}, statements=statements, error=harmless(words))
 
@@ -299,14 +301,23 @@ def _largest(made: Mapping[str, Any], owner: str, component: str) -> Iterator[st
 def came_and_went(
     before: Sequence[Mode], after: Sequence[Mode]
 ) -> tuple[tuple[Mode, ...], tuple[Mode, ...]]:
-    """The modes that are new, and those that are no more."""
+    """The modes that are new, and those that are no more.
+
+    Of each side as many as are missing on the other, those of which the least lies in its space.
+    """
     labels = sorted({label for mode in (*before, *after) for label in mode.vector})
     place = {label: k for k, label in enumerate(labels)}
-    bases = [span(_matrix(modes, place), DEPENDENT_MODES) for modes in (before, after)]
+    sides = (before, after)
+    vectors = [_matrix(modes, place) for modes in sides]
+    bases = [span(each, DEPENDENT_MODES) for each in vectors]
     cosines = np.linalg.svd(bases[0].T @ bases[1], compute_uv=False)
     common = int(np.count_nonzero(cosines > SAME_DIRECTION))
-    went = _least(before, place, bases[1], bases[0].shape[1] - common)
-    came = _least(after, place, bases[0], bases[1].shape[1] - common)
+    went, came = (
+        tuple(sides[k][i] for i in sorted(rows[: max(bases[k].shape[1] - common, 0)].tolist()))
+        for k in (0, 1)
+        for reach in [np.linalg.norm(bases[1 - k].T @ vectors[k], axis=0)]
+        for rows in [np.argsort(np.round(reach, 9), kind="stable")]
+    )
     return came, went
 
 
@@ -318,15 +329,6 @@ def _matrix(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatAr
             made[place[label], k] = value
     length = np.linalg.norm(made, axis=0)
     return np.asarray(made / np.where(length > 0.0, length, 1.0))
-
-
-def _least(
-    modes: Sequence[Mode], place: dict[tuple[int, str], int], other: FloatArray, count: int
-) -> tuple[Mode, ...]:
-    """So many modes, those of which the least lies in the other space, in their order."""
-    reach = np.linalg.norm(other.T @ _matrix(modes, place), axis=0)
-    rows = np.argsort(np.round(reach, 9), kind="stable")[: max(count, 0)]
-    return tuple(modes[k] for k in sorted(rows.tolist()))
 
 
 _ARROW = " \N{RIGHTWARDS ARROW} "
@@ -371,11 +373,27 @@ class Change:
 
 def change_of(before: Side, after: Side) -> Change:
     """What changed."""
-    verdict, counts = list(_of_verdicts(before, after)), list(_of_counts(before, after))
-    numbers = list(_of_numbers(before, after))
+    verdict, counts, numbers = [], [], []
     came: tuple[str, ...] = ()
     went: tuple[str, ...] = ()
-    if not before.is_broken and not after.is_broken:
+    if before.verdict != after.verdict:
+        verdict.append(f"{before.words}{_ARROW}{after.words}")
+    if before.is_broken and after.is_broken:
+        if before.error != after.error:
+            counts.append(f"first error: {before.error}{_ARROW}{after.error}")
+    elif before.is_broken or after.is_broken:
+        now = " now" * after.is_broken
+        counts.append(f"first error{now}: {before.error or after.error}")
+    else:
+        counts += [
+            f"{name}: {count}{_ARROW}{after.numbers[name]}"
+            for name, count in before.numbers.items()
+            if count != after.numbers[name]
+        ]
+        if before.margin != after.margin:
+            numbers.append(f"{before.margin}{_ARROW}{after.margin}")
+        if before.certainty != after.certainty:
+            numbers.append(f"rank {before.certainty}{_ARROW}{after.certainty}")
         for what in ("motions", "self_stresses"):
             new, old = came_and_went(getattr(before, what), getattr(after, what))
             name = what.replace("_", "-").removesuffix("es" if what != "motions" else "s")
@@ -396,33 +414,6 @@ def change_of(before: Side, after: Side) -> Change:
         if found
     )
     return Change(gravity, (*verdict, *counts, *numbers), came, went, statements)
-
-
-def _of_verdicts(before: Side, after: Side) -> Iterator[str]:
-    if before.verdict != after.verdict:
-        yield f"{before.words}{_ARROW}{after.words}"
-
-
-def _of_counts(before: Side, after: Side) -> Iterator[str]:
-    if before.is_broken and after.is_broken:
-        if before.error != after.error:
-            yield f"first error: {before.error}{_ARROW}{after.error}"
-        return
-    if before.is_broken or after.is_broken:
-        yield f"first error{' now' * after.is_broken}: {before.error or after.error}"
-        return
-    for name, count in before.numbers.items():
-        if count != after.numbers[name]:
-            yield f"{name}: {count}{_ARROW}{after.numbers[name]}"
-
-
-def _of_numbers(before: Side, after: Side) -> Iterator[str]:
-    if before.is_broken or after.is_broken:
-        return
-    if before.margin != after.margin:
-        yield f"{before.margin}{_ARROW}{after.margin}"
-    if before.certainty != after.certainty:
-        yield f"rank {before.certainty}{_ARROW}{after.certainty}"
 
 
 def _named(name: str, modes: tuple[Mode, ...], every: tuple[Mode, ...]) -> tuple[str, ...]:

@@ -81,21 +81,16 @@ class Freedom(Frozen):
     @cached_property
     def label(self) -> str:
         """Such as "stage z" or "sheet 3 e6": its body, point or part, and which part of it."""
-        return f"{self._place} {self.part}"
-
-    @property
-    def _place(self) -> str:
-        outcome, (kind, number) = self.analysis, self.owner
-        parts = outcome.parts
-        if kind == "element":
-            return parts.of_element(int(outcome.condensed.elements[self.place[1]])).name
-        node = int(outcome.condensed.nodes[self.place[1]])
-        position = parts.place_of(node)
+        condensed, parts = self.analysis.condensed, self.analysis.parts
+        if not self.is_coordinate:
+            name = parts.of_element(int(condensed.elements[self.place[1]])).name
+            return f"{name} {self.part}"
+        node = int(condensed.nodes[self.place[1]])
+        position, body = parts.place_of(node), parts.body_at.get(node)
         name = "" if position is None else parts.name_of_point(position)
-        body = parts.body_at.get(node)
         if body is not None and not name:
-            return parts.of_body(body).name
-        return name or f"node {number}"
+            name = parts.of_body(body).name
+        return f"{name or f'node {self.owner[1]}'} {self.part}"
 
     @cached_property
     def motion(self) -> FreeMotion | None:

@@ -13,19 +13,16 @@ import numpy as np
 
 from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import Dual, coordinate_name, keywords_of
-from ..model.parts.parts import Part as MechanismPart
 from ..model.parts.parts import PartKind
 from ..util.loading import VERSION
-from .body_motions import BodyMotion
 from .calls import calls_of
-from .carriers import Joint
 from .decomposition import row_duals, row_factors
 from .deformation_words import deformation_word
 from .freedoms import Freedom
 from .limits import LEFT_OUT
 from .mode_words import moments_at_ends
 from .naming import freedom_in_words, node_name, part_in_words, plain, unit_of_coordinate
-from .part_stresses import Conflict, PartStress
+from .part_stresses import PartStress
 from .places import place_words
 from .result import Result
 from .screws import Screw, ScrewKind, Wrench
@@ -33,8 +30,8 @@ from .verdict import AnalysisError, Margin
 from .verdict_words import certainty_word, warnings_of
 from .ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 
-#: Of so many declared degrees of freedom, in models of so many elements, the motions are given:
-#: they take one further decomposition.
+#: Of so many declared degrees of freedom, in models of so many elements, the motions are given, as
+#: they take one further decomposition; of more elements the parts are not listed either.
 _MOST_FREEDOMS, _MOST_ELEMENTS = 64, 10_000
 #: Components of the motion of a degree of freedom.
 _PARTS = 6
@@ -145,14 +142,12 @@ def _one_advice(result: Result, about: str, item: Way) -> Entries:
             for keyword in item.keywords
             if not (item.step is Step.UNDECLARE and isinstance(item.parts[0], Coordinate))
         ],
-        "calls": _calls(result, item),
+        # What does it with the first part of a model that was made in Python.
+        "calls": []
+        if result.given.source is not None
+        else [*calls_of(result, item, item.parts[0])],
         "instead": item.instead,
     }
-
-
-def _calls(result: Result, item: Way) -> list[str]:
-    """What does it with the first part of a model that was made in Python."""
-    return [] if result.given.source is not None else [*calls_of(result, item, item.parts[0])]
 
 
 def _part(result: Result, part: Part) -> Entries:
@@ -163,9 +158,8 @@ def _part(result: Result, part: Part) -> Entries:
 
 def freedoms(result: Result) -> Iterator[Entries]:
     """The declared degrees of freedom, and how the mechanism moves in them."""
-    most = _MOST_FREEDOMS
-    if result.data.arrays.element_number.size > _MOST_ELEMENTS:
-        most = 0
+    is_large = result.data.arrays.element_number.size > _MOST_ELEMENTS
+    most = 0 if is_large else _MOST_FREEDOMS
     for count, freedom in enumerate(result.freedoms):
         yield _freedom(result, freedom, count < most)
 
@@ -198,14 +192,10 @@ def _freedom(result: Result, freedom: Freedom, is_sought: bool) -> Entries:
     return made
 
 
-#: With more elements than these the parts are not listed.
-_JSON_MECHANICS_MOST_ELEMENTS = 10_000
-
-
 def parts(result: Result) -> list[Entries] | None:
     """Sheets, wires, bars, bodies and hinges by their names; None of a large model."""
     arrays = result.given.arrays
-    if arrays.element_number.size > _JSON_MECHANICS_MOST_ELEMENTS:
+    if arrays.element_number.size > _MOST_ELEMENTS:
         return None
     return [
         {
@@ -254,7 +244,14 @@ def of_motion(result: Result, index: int) -> Entries:
         return {}
     motion = result.motions[index]
     return {
-        "bodies": [_moving(each) for each in motion.bodies],
+        "bodies": [
+            {
+                "bodies": [part.name for part in group.bodies],
+                "joints": [str(joint) for joint in group.joints],
+                **_screw(group.screw),
+            }
+            for group in motion.bodies
+        ],
         "internal_to": [part.name for part in motion.internal_to],
     }
 
@@ -266,15 +263,23 @@ def of_self_stress(result: Result, index: int) -> Entries:
     stress = result.self_stresses[index]
     return {
         "parts": [_stressed(result, index, each) for each in stress.parts],
-        "conflicts": [_conflict(each) for each in stress.conflicts],
-    }
-
-
-def _moving(group: BodyMotion) -> Entries:
-    return {
-        "bodies": [part.name for part in group.bodies],
-        "joints": [str(joint) for joint in group.joints],
-        **_screw(group.screw),
+        "conflicts": [
+            {
+                "on": str(conflict.on),
+                "over": None
+                if (over := conflict.over) is None
+                else {
+                    "kind": over.kind.value,
+                    "direction": over.direction.tolist(),
+                    "point": _vector(over.point, "m"),
+                },
+                "loads": [
+                    {"part": None if load.part is None else load.part.name, **_wrench(load.wrench)}
+                    for load in conflict.loads
+                ],
+            }
+            for conflict in stress.conflicts
+        ],
     }
 
 
@@ -284,57 +289,41 @@ def _screw(screw: Screw) -> Entries:
         "kind": screw.kind.value,
         "direction": screw.direction.tolist(),
         "point": _vector(screw.point, "m") if turns else None,
-        "pitch": {"value": screw.pitch, "unit": "m/rad"} if turns else None,
-        "magnitude": {"value": screw.magnitude, "unit": "rad" if turns else "m"},
+        "pitch": quantity(screw.pitch, "m/rad") if turns else None,
+        "magnitude": quantity(screw.magnitude, "rad" if turns else "m"),
     }
 
 
 def _stressed(result: Result, index: int, one: PartStress) -> Entries:
     moments: Entries = {}
+    ends = [
+        # In the order of the moments.
+        {"node": None, "words": ""}
+        if end.position is None
+        else {
+            "node": int(result.given.arrays.node_number[end.position]),
+            "words": place_words(result.parts, end.position, one.part),
+        }
+        for end in one.ends
+    ]
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
         moments = {
-            quantity: [{"value": value, "unit": "N m"} for value in values]
-            for quantity, values in moments_at_ends(result.self_stresses[index], one).items()
+            word: [quantity(value, "N m") for value in values]
+            for word, values in moments_at_ends(result.self_stresses[index], one).items()
         }
     return {
         "part": one.part.name,
-        "ends": [_end(result, one, end.position) for end in one.ends],
-        "normal_force": {"value": one.normal_force, "unit": "N"},
-        "twist_moment": {"value": one.twist_moment, "unit": "N m"},
+        "ends": ends,
+        "normal_force": quantity(one.normal_force, "N"),
+        "twist_moment": quantity(one.twist_moment, "N m"),
         "shear_force": _vector(one.shear_force, "N"),
         "moments": [_vector(moment, "N m") for moment in one.moments],
         **moments,
     }
 
 
-def _end(result: Result, one: PartStress, position: int | None) -> Entries:
-    """An end of a part, in the order of its moments."""
-    if position is None:
-        return {"node": None, "words": ""}
-    number = int(result.given.arrays.node_number[position])
-    return {"node": number, "words": place_words(result.parts, position, one.part)}
-
-
-def _conflict(conflict: Conflict) -> Entries:
-    over = conflict.over
-    return {
-        "on": _called(conflict.on),
-        "over": None
-        if over is None
-        else {
-            "kind": over.kind.value,
-            "direction": over.direction.tolist(),
-            "point": _vector(over.point, "m"),
-        },
-        "loads": [
-            {"part": None if load.part is None else load.part.name, **_wrench(load.wrench)}
-            for load in conflict.loads
-        ],
-    }
-
-
-def _called(on: MechanismPart | Joint) -> str:
-    return str(on)
+def _vector(vector: FloatArray, unit: str) -> Entries:
+    return {"value": vector.tolist(), "unit": unit}
 
 
 def _wrench(wrench: Wrench) -> Entries:
@@ -344,10 +333,6 @@ def _wrench(wrench: Wrench) -> Entries:
         "moment": _vector(wrench.moment, "N m"),
         "about": _vector(wrench.about, "m"),
     }
-
-
-def _vector(vector: FloatArray, unit: str) -> Entries:
-    return {"value": vector.tolist(), "unit": unit}
 
 
 #: How many components are handled at once.
@@ -496,7 +481,14 @@ def dictionary_of(analysis: Result) -> dict[str, Any]:
 
 def text_of(analysis: Result) -> str:
     """The same as one line of text, made without a dictionary for each component."""
-    return "".join(_pieces(analysis))
+    pieces = []
+    for name, value in _without_modes(analysis).items():
+        if name in _MODES:
+            text = "".join(_MODES[name](analysis).text())
+        else:
+            text = json.dumps(value, allow_nan=False)
+        pieces.append(f"{json.dumps(name)}: {text}")
+    return f"{{{', '.join(pieces)}}}"
 
 
 def header(name: str) -> dict[str, Any]:
@@ -506,39 +498,24 @@ def header(name: str) -> dict[str, Any]:
     return {"format": FORMAT, "deck": deck, "flexact": VERSION}
 
 
-def _pieces(analysis: Result) -> Iterator[str]:
-    before = "{"
-    for name, value in _without_modes(analysis).items():
-        yield f"{before}{json.dumps(name)}: "
-        if name in _MODES:
-            yield from _MODES[name](analysis).text()
-        else:
-            yield json.dumps(value, allow_nan=False)
-        before = ", "
-    yield "}"
-
-
 def _without_modes(analysis: Result) -> dict[str, Any]:
-    """The names and values in their order, with nothing for the modes."""
+    """The names and values in their order, with nothing for the modes.
+
+    The verdict on the machine, and how far it is from another; the rank of D(c), and how it was
+    decided; what is known of the rank, which is of the arithmetic; then what is in the machine.
+    """
+    rows, columns = analysis.raw.largest_component
+    proof, nearly = analysis.proof, analysis.nearly
+    counts = ("under_constrained", "over_constrained")
+    modes = [
+        {**({f"{name}_given": given} if given < count else {}), name: []}
+        for name, count, given in (
+            ("motions", analysis.under_constrained, len(analysis.motions)),
+            ("self_stresses", analysis.over_constrained, len(analysis.self_stresses)),
+        )
+    ]
     return {
         **header(analysis.name),
-        **_verdict(analysis),
-        **_decision(analysis),
-        **_certainty(analysis),
-        "parts": parts(analysis),
-        "taken_as_one": taken_as_one(analysis),
-        "internal_motions": internal_motions(analysis),
-        "freedoms": list(freedoms(analysis)),
-        **_given("motions", analysis.under_constrained, len(analysis.motions)),
-        **_given("self_stresses", analysis.over_constrained, len(analysis.self_stresses)),
-        "advice": list(advice(analysis)),
-        "warnings": [item.to_dict() for item in warnings_of(analysis)],
-    }
-
-
-def _verdict(analysis: Result) -> dict[str, Any]:
-    """The verdict on the machine, and how far it is from another."""
-    return {
         "verdict": analysis.verdict.value,
         "under_constrained": analysis.under_constrained,
         "over_constrained": analysis.over_constrained,
@@ -548,13 +525,6 @@ def _verdict(analysis: Result) -> dict[str, Any]:
         "degrees_of_freedom": analysis.degrees_of_freedom,
         "counts": {name: part._asdict() for name, part in analysis.counts._asdict().items()},
         "characteristic_length": quantity(analysis.characteristic_length, "m"),
-    }
-
-
-def _decision(analysis: Result) -> dict[str, Any]:
-    """The rank of D(c), and how it was decided."""
-    rows, columns = analysis.raw.largest_component
-    return {
         "rank": analysis.rank,
         "rows": analysis.rows,
         "columns": analysis.columns,
@@ -569,21 +539,16 @@ def _decision(analysis: Result) -> dict[str, Any]:
         "singular_values": analysis.singular_values.tolist(),
         "singular_values_given": analysis.singular_values_given,
         "condition_number": analysis.condition_number,
-    }
-
-
-def _certainty(analysis: Result) -> dict[str, Any]:
-    """What is known of the rank: of the arithmetic, not of the machine."""
-    proof, nearly = analysis.proof, analysis.nearly
-    counts = ("under_constrained", "over_constrained")
-    return {
         "certainty": certainty_word(analysis),
         "proof": proof._asdict() if proof else None,
         "nearly": None if nearly is None else dict(zip(counts, nearly, strict=False)),
         "alternatives": [item._asdict() for item in analysis.alternatives],
+        "parts": parts(analysis),
+        "taken_as_one": taken_as_one(analysis),
+        "internal_motions": internal_motions(analysis),
+        "freedoms": list(freedoms(analysis)),
+        **modes[0],
+        **modes[1],
+        "advice": list(advice(analysis)),
+        "warnings": [item.to_dict() for item in warnings_of(analysis)],
     }
-
-
-def _given(name: str, count: int, given: int) -> dict[str, Any]:
-    """A place for modes, behind their number if not all of them are given."""
-    return {**({f"{name}_given": given} if given < count else {}), name: []}

@@ -6,13 +6,11 @@ A number, a name, a place, or what a model handed out; a body stands for its fir
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
-from ..deck.rendering import model_error
+from ..deck.rendering import ModelError, model_error
 from ..model.deformations import classes_of_division, find_deformations
 from ..model.draft_arrays import draft_of
 from ..model.names import ambiguous, unknown
@@ -44,7 +42,13 @@ def part_of(parts: Parts, target: object) -> Part:
         return parts.named(target)
     elements = getattr(target, "elements", (target,))
     if not elements and hasattr(target, "nodes"):
-        return _of_one_point(parts, target)
+        # A body that has no members of its own: what carries its point.
+        body = parts.body_at.get(position_of(parts, target))
+        if body is None:
+            raise model_error(
+                "no-such-part", "this body is a single point; ask for what the point does"
+            )
+        return parts.of_body(body)
     found = dict.fromkeys(_of_element(parts, element, target) for element in elements)
     if len(found) > 1:
         raise model_error(
@@ -64,18 +68,8 @@ def _of_element(parts: Parts, element: object, target: object) -> Part:
         )
     index = parts.data.element_index.get(number)
     if index is None:
-        raise model_error("no-such-element", f"there is no element {number}", _elements(parts))
+        raise _unknown_element(parts, number)
     return parts.of_element(index)
-
-
-def _of_one_point(parts: Parts, target: object) -> Part:
-    """The body that carries the point of a body that has no members of its own."""
-    body = parts.body_at.get(position_of(parts, target))
-    if body is None:
-        raise model_error(
-            "no-such-part", "this body is a single point; ask for what the point does"
-        )
-    return parts.of_body(body)
 
 
 def _whole(given: object) -> int | None:
@@ -85,13 +79,17 @@ def _whole(given: object) -> int | None:
     return None
 
 
-def _listed(numbers: Iterable[int]) -> str:
-    every = sorted(map(int, numbers))
-    return f"there are {', '.join(map(str, every[:_MOST]))}{', ...' * (len(every) > _MOST)}"
+def numbers_listed(numbers: IntArray) -> str:
+    """The first of some numbers in ascending order, such as "1, 2, 3, ..."."""
+    shown = ", ".join(map(str, sorted(numbers.tolist())[:_MOST]))
+    return f"{shown}, ..." if numbers.size > _MOST else shown
 
 
-def _elements(parts: Parts) -> str:
-    return _listed(parts.data.arrays.element_number)
+def _unknown_element(parts: Parts, number: object) -> ModelError:
+    there = numbers_listed(parts.data.arrays.element_number)
+    return model_error(
+        "no-such-element", f"there is no element {in_short(number)}", f"there are {there}"
+    )
 
 
 def node_of(parts: Parts, target: object) -> int:
@@ -106,8 +104,10 @@ def node_of(parts: Parts, target: object) -> int:
         return position_of(parts, target)
     index = parts.data.node_index.get(number)
     if index is None:
-        there = _listed(parts.data.arrays.node_number)
-        raise model_error("no-such-node", f"there is no node {in_short(number)}", there)
+        there = numbers_listed(parts.data.arrays.node_number)
+        raise model_error(
+            "no-such-node", f"there is no node {in_short(number)}", f"there are {there}"
+        )
     return index
 
 
@@ -132,7 +132,14 @@ def position_of(parts: Parts, target: object) -> int:
     nodes = getattr(target, "nodes", None)
     handle = nodes[0] if nodes else target
     if isinstance(target, (tuple, list, np.ndarray)):
-        return _at(parts, target)
+        given = np.asarray(without_units(target, "m"), np.float64)
+        if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
+            raise TypeError(f"a place has three finite coordinates [m], not {in_short(target)}")
+        # Within rounding of the size of the model.
+        found = positions_near(parts, np.pad(given, (0, 3 - given.size)), ROUNDING)
+        if not found.size:
+            raise model_error("no-such-point", f"there is no point at {in_short(target)}")
+        return int(found[int(np.argmin(data.arrays.node_number[found]))])
     number = _whole(getattr(handle, "position", handle))
     if number is None:
         raise TypeError(
@@ -159,10 +166,8 @@ def _named(parts: Parts, name: str) -> int:
     bodies = [part for part in of_name if part.kind is PartKind.BODY]
     if len(bodies) > 1:
         raise ambiguous("body", name)
-    if bodies:
-        return _first(parts, bodies[0])
     if of_name:
-        return _first(parts, of_name[0])
+        return _first(parts, (bodies or of_name)[0])
     known = [part.name for part in parts.all if part.kind is PartKind.BODY]
     raise unknown("no-such-point", "point", name, [*names.values(), *known])
 
@@ -176,17 +181,6 @@ def _first(parts: Parts, part: Part) -> int:
             "name a point, such as one of its ends",
         )
     return int(parts.data.arrays.element_node[0, part.elements[0]]) - 1
-
-
-def _at(parts: Parts, place: object) -> int:
-    """The first position node at a place, within rounding of the size of the model."""
-    given = np.asarray(without_units(place, "m"), np.float64)
-    if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
-        raise TypeError(f"a place has three finite coordinates [m], not {in_short(place)}")
-    found = positions_near(parts, np.pad(given, (0, 3 - given.size)), ROUNDING)
-    if not found.size:
-        raise model_error("no-such-point", f"there is no point at {in_short(place)}")
-    return int(found[int(np.argmin(parts.data.arrays.node_number[found]))])
 
 
 def positions_near(parts: Parts, place: FloatArray, within: float) -> IntArray:
@@ -224,9 +218,7 @@ def elements_of(parts: Parts, target: object) -> tuple[int, ...]:
         )
     index = data.element_index.get(number)
     if index is None:
-        raise model_error(
-            "no-such-element", f"there is no element {in_short(number)}", _elements(parts)
-        )
+        raise _unknown_element(parts, number)
     return (index,)
 
 

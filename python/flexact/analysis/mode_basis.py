@@ -10,8 +10,8 @@ Self-stresses: as few flexible parts as can be; of those of one set as few defor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
-from functools import partial
+from collections.abc import Callable, Collection, Hashable, Sequence
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
+from ..model.deformations import AT_P, AT_Q
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
@@ -40,8 +41,6 @@ _AXIS: dict[int, int] = {
     **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.OFFSET_Y, Role.TILT_Y), 1),
     **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q, Role.OFFSET_Z, Role.TILT_Z), 2),
 }
-_AT_P = (Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P)
-_AT_Q = (Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q)
 #: Bendings of both ends and planes together, behind elongation and torsion.
 _BENDING = int(Role.BENDING_XZ_P)
 #: Of values of practically one size, no more than so many are put in order.
@@ -88,18 +87,26 @@ def deformation_key(
     role = int(role_table()[data.arrays.element_kind[element], deformation])
     part = outcome.parts.of_element(given)
     axis = _AXIS.get(role, 0)
-    bends = role in _AT_P or role in _AT_Q
+    bends = role in AT_P or role in AT_Q
     wide = int(outcome.parts.wide[given])
     # A sheet's local z is in its plane where the bending about local y is held.
     of_sheet = 0 if not wide or not axis else 1 + (wide == axis)
-    direction = _direction(data.frames.frame[element][:, axis]) if axis and not wide else ()
+    direction: tuple[float, ...] = ()
+    if axis and not wide:
+        # Without sense, and rounded.
+        along = without_sense(data.frames.frame[element][:, axis])
+        direction = tuple((np.round(along, 6) + 0.0).tolist())
     p, q = (data.arrays.element_node[[0, 2], element] - 1).tolist()
-    nodes = [p] if role in _AT_P else [q] if role in _AT_Q else [p, q]
+    nodes = [p] if role in AT_P else [q] if role in AT_Q else [p, q]
     places = [data.arrays.node_value[:3, node] for node in nodes if node >= 0]
     place = _place(outcome, np.mean(places, axis=0)) if places else ()
     kind = _BENDING if bends else role
     is_body = part.kind is PartKind.BODY
-    end = _end(outcome, nodes[0]) if bends else ()
+    end: Any = ()
+    if bends:
+        # What is there: ground before others, then by name, however the mechanism is turned.
+        there = int(outcome.condensed.nodes[nodes[0]])
+        end = not outcome.parts.is_held(there), natural(outcome.parts.name_of_point(there))
     return is_body, natural(_name(part, numbered)), kind, of_sheet, direction, end, place
 
 
@@ -123,12 +130,6 @@ def coordinate_key(outcome: Decomposition, node: int, axis: int, *, numbered: bo
     return turns, natural(name), _place(outcome, value), axis
 
 
-def _end(outcome: Decomposition, node: int) -> Any:
-    """What is at an end: ground before others, then by name, however the mechanism is turned."""
-    given = int(outcome.condensed.nodes[node])
-    return not outcome.parts.is_held(given), natural(outcome.parts.name_of_point(given))
-
-
 def _name(part: Part, numbered: bool) -> str:
     """A part's name; empty where it follows from a number that does not count."""
     return part.name if part.is_named or numbered else ""
@@ -144,11 +145,6 @@ def without_sense(axis: FloatArray) -> FloatArray:
     """An axis or its opposite: the first component that is not small beside others is positive."""
     first = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
     return axis if axis[first] > 0.0 else -axis
-
-
-def _direction(axis: FloatArray) -> tuple[float, ...]:
-    """An axis without sense, rounded."""
-    return tuple((np.round(without_sense(axis), 6) + 0.0).tolist())
 
 
 #: Larger spaces are given as the core has them: rows that are not zero, entries, and vectors.
@@ -185,7 +181,7 @@ def motion_basis(outcome: Decomposition, space: Basis) -> Basis:
         outcome: The analysis.
         space: An orthonormal basis of them, rotations in lengths.
     """
-    key = _kept(partial(column_key, outcome, numbered=False))
+    key = cache(partial(column_key, outcome, numbered=False))
     support, dense = _held(space, key)
     groups = _MotionGroups(outcome, support)
     found = groups.basis(dense)
@@ -206,7 +202,7 @@ def stress_basis(outcome: Decomposition, space: Basis) -> Basis:
         outcome: The analysis.
         space: An orthonormal basis of them, moments in forces.
     """
-    key = _kept(partial(row_key, outcome, numbered=False))
+    key = cache(partial(row_key, outcome, numbered=False))
     support, dense = _held(space, key)
     each, every = np.arange(support.size), np.ones(support.size, bool)
     found = _StressGroups(outcome, support).basis(dense)
@@ -218,17 +214,6 @@ def stress_basis(outcome: Decomposition, space: Basis) -> Basis:
         key,
         partial(_sense_of_row, outcome),
     )
-
-
-def internal_motions(outcome: Decomposition, basis: Basis) -> int:
-    """How many vectors of a basis of the motions move nothing but insides of sheets and wires.
-
-    In that of `motion_basis` they are a basis of all such motions: insides of different parts
-    have no element in common, so that what is inside of each moves alone.
-    """
-    if not basis.vectors:
-        return 0
-    return int(np.count_nonzero(moves_within(outcome, basis, outcome.carriers.inner)))
 
 
 def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -> BoolArray:
@@ -248,17 +233,6 @@ def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -
     np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
     made: BoolArray = largest <= outcome.rounding
     return made
-
-
-def _kept(key: Key) -> Key:
-    known: dict[int, Hashable] = {}
-
-    def of(index: int) -> Hashable:
-        if index not in known:
-            known[index] = key(index)
-        return known[index]
-
-    return of
 
 
 def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
@@ -337,8 +311,7 @@ def _sense_of_row(outcome: Decomposition, row: int) -> float:
     if role in (Role.ELONGATION, Role.TORSION):
         return 1.0
     slots = (outcome.data.arrays.element_node[:, element] - 1).tolist()
-    at_p = role in (Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P)
-    order = (slots[1], slots[0]) if at_p else (slots[3], slots[2])
+    order = (slots[1], slots[0]) if role in AT_P else (slots[3], slots[2])
     whole = outcome.assembly
     mine = whole.row_of == 6 * element + deformation
     for node in order:
@@ -371,13 +344,6 @@ def _is_undivided(pieces: Sequence[Piece]) -> bool:
     )
 
 
-def _place_in_order(piece: Piece) -> tuple[object, ...]:
-    """Few bodies first, then few joints, folds among them; insides of parts last."""
-    bodies, joints, folds, insides = piece.cost
-    joints += folds
-    return not bodies + joints, bodies, joints, insides, piece.support
-
-
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
@@ -398,7 +364,13 @@ class _MotionGroups:
         pieces = pieces_of(space, groups, costs, self._by_points)
         if _is_undivided(pieces):
             return None
-        pieces.sort(key=_place_in_order)
+
+        def order(piece: Piece) -> tuple[object, ...]:
+            bodies, joints, folds, insides = piece.cost
+            return not bodies + joints + folds, bodies, joints + folds, insides, piece.support
+
+        # Few bodies first, then few joints, folds among them; insides of parts last.
+        pieces.sort(key=order)
         return columns_of(pieces, space.shape[0])
 
     def _groups(self, *, one_by_one: bool) -> tuple[Groups, list[Cost], bool]:
@@ -415,17 +387,19 @@ class _MotionGroups:
         taken = {node for nodes in bodies for node in nodes}
         folds, joints = (
             [
-                [n for n in (j.position, j.orientation) if n is not None and n not in taken]
-                for j in self.carriers.joints
-                if j.is_fold == is_fold
+                [node for node in joint.nodes if node not in taken]
+                for joint in self.carriers.joints
+                if joint.is_fold == is_fold
             ]
             for is_fold in (True, False)
         )
-        insides = [
-            nodes
-            for inside in self.carriers.insides
-            for nodes in (self._points_of(inside.nodes) if one_by_one else [inside.nodes])
-        ]
+        # One by one the nodes of an inside are by the place where they are.
+        at: dict[object, list[int]] = {}
+        for inside in self.carriers.insides:
+            for node in inside.nodes:
+                here = parts.place_of(node) if one_by_one else None
+                at.setdefault((inside.nodes, here), []).append(node)
+        insides = list(at.values())
         made: list[IntArray] = []
         costs: list[Cost] = []
         for kinds in (
@@ -443,13 +417,6 @@ class _MotionGroups:
                 made.append(np.array(rows, np.int32))
                 costs.append(cost)
         return made, costs, any(cost[-1] for cost in costs)
-
-    def _points_of(self, nodes: Iterable[int]) -> list[tuple[int, ...]]:
-        """Nodes by the place where they are."""
-        made: dict[int | None, list[int]] = {}
-        for node in nodes:
-            made.setdefault(self.carriers.parts.place_of(node), []).append(node)
-        return [tuple(each) for each in made.values()]
 
     def _by_points(self, space: FloatArray) -> FloatArray:
         """A basis that moves as few inner points of sheets and wires as can be."""

@@ -25,7 +25,7 @@ from .naming import (
 from .part_stresses import QUANTITIES, Conflict, PartStress, shared_resultants
 from .places import axis_words, direction_words, joint_node, listed, part_words, place_words
 from .result import Motion, Result, SelfStress
-from .screws import Screw, ScrewKind, Wrench, WrenchKind
+from .screws import Screw, ScrewKind, WrenchKind
 
 #: How many names stand in a row.
 _MOST_NAMES = 4
@@ -55,10 +55,12 @@ def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
 def largest_first(motion: Motion) -> list[BodyMotion]:
     """Bodies that move as one, the largest motion first, then joints, or ends inside of parts."""
     length = motion.analysis.characteristic_length
-    return sorted(
-        motion.bodies or motion.ends,
-        key=lambda one: (one.is_joint, -round(_size(one.screw, length), 9)),
-    )
+
+    def key(one: BodyMotion) -> tuple[bool, float]:
+        moved, turned = (float(np.linalg.norm(v)) for v in (one.screw.velocity, one.screw.rotation))
+        return one.is_joint, -round(max(moved, length * turned), 9)
+
+    return sorted(motion.bodies or motion.ends, key=key)
 
 
 def internal_in_words(result: Result) -> str:
@@ -75,12 +77,6 @@ def internal_in_words(result: Result) -> str:
         which = "This motion"
     be = "is" if count == 1 else "are"
     return f"{which} {be} internal to {listed(names)}."
-
-
-def _size(screw: Screw, length: float) -> float:
-    return max(
-        float(np.linalg.norm(screw.velocity)), length * float(np.linalg.norm(screw.rotation))
-    )
 
 
 def group_in_words(outcome: Decomposition, group: BodyMotion, alone: bool) -> Pieces:
@@ -114,18 +110,14 @@ def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray)
     Across the plane of a planar model it is a point.
     """
     axis = direction_words(direction)
-    numbers = [_number(outcome, value) for value in point]
+    least = SAME_PLACE * outcome.characteristic_length
+    numbers = ["0" if abs(value) < least else f"{value:.4g}" for value in point]
     if outcome.given.planar and axis == "z":
         return f"the point ({', '.join(numbers[:2])}) m"
     if axis in ("x", "y", "z"):
         numbers["xyz".index(axis)] = "*"
     shown = numbers[:2] if outcome.given.planar else numbers
     return f"the line through ({', '.join(shown)}) m along {axis}"
-
-
-def _number(outcome: Decomposition, value: float) -> str:
-    small = abs(value) < SAME_PLACE * outcome.characteristic_length
-    return "0" if small else f"{value:.4g}"
 
 
 def parts_in_words(outcome: Decomposition, parts: tuple[Part, ...]) -> Pieces:
@@ -183,12 +175,21 @@ def conflict_in_words(stress: SelfStress) -> Pieces:
     if chosen is None:
         return ()
     names = [part_words(load.part) for load in chosen.loads if load.part is not None]
-    on = _on(outcome, chosen.on)
-    over = chosen.over
+    arrays, over = outcome.given.arrays, chosen.over
+    if isinstance(chosen.on, Joint):
+        on = named_node(outcome, int(arrays.node_number[joint_node(outcome.parts, chosen.on)]))
+    else:
+        on = named_element(outcome, int(arrays.element_number[chosen.on.elements[0]]))
     if over is None or len(names) > _MODE_WORDS_MOST_NAMES:
-        return (f"{len(names)} parts press on ", *on, ", in balance")
+        return (f"{len(names)} parts press on ", on, ", in balance")
     both = "both" if len(names) == 2 else "all"
-    return (f"{listed(names)} {both} hold ", *_held(outcome, on, over), f", {_against(over)}")
+    # What of a body several parts hold: a rotation, or a displacement along a line.
+    if over.kind is WrenchKind.COUPLE:
+        held, against = f" against rotation about {axis_words(over.direction)}", "moments"
+    else:
+        held = f" along {line_words(outcome, over.point, over.direction)}"
+        against = "forces" if over.kind is WrenchKind.FORCE else "forces and moments"
+    return (f"{listed(names)} {both} hold ", on, f"{held}, with opposite {against}")
 
 
 def pressing_in_words(stress: SelfStress) -> tuple[str, ...]:
@@ -223,28 +224,6 @@ def _is_between_parts(conflict: Conflict) -> bool:
     return all(load.part is not None for load in conflict.loads) and len(conflict.loads) > 1
 
 
-def _on(outcome: Decomposition, on: Part | Joint) -> Pieces:
-    if isinstance(on, Joint):
-        node = joint_node(outcome.parts, on)
-        return (named_node(outcome, int(outcome.given.arrays.node_number[node])),)
-    number = int(outcome.given.arrays.element_number[on.elements[0]])
-    return (named_element(outcome, number),)
-
-
-def _held(outcome: Decomposition, on: Pieces, over: Wrench) -> Pieces:
-    """What of a body several parts hold: a rotation, or a displacement along a line."""
-    if over.kind is WrenchKind.COUPLE:
-        return (*on, f" against rotation about {axis_words(over.direction)}")
-    return (*on, f" along {line_words(outcome, over.point, over.direction)}")
-
-
-def _against(over: Wrench) -> str:
-    return {
-        WrenchKind.COUPLE: "with opposite moments",
-        WrenchKind.FORCE: "with opposite forces",
-    }.get(over.kind, "with opposite forces and moments")
-
-
 def _carried(outcome: Decomposition, stress: SelfStress, one: PartStress) -> Iterator[str]:
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
@@ -269,15 +248,24 @@ def _bending(
         moments = moments_at_ends(stress, one).values()
         for quantity, at_ends in zip(_MOMENTS, moments, strict=True):
             if max(map(abs, at_ends)) > rest:
-                yield _along(outcome, one, quantity, at_ends, rest)
+                first, last = at_ends
+                told = [
+                    f"{value:.4g} N m at {place_words(outcome.parts, end.position or 0, one.part)}"
+                    for value, end in zip(at_ends, one.ends, strict=True)
+                    if abs(value) > rest
+                ]
+                if abs(first - last) <= rest:
+                    yield f"constant {quantity} {first:.4g} N m"
+                else:
+                    yield f"{quantity} {' and '.join(told)}"
         return
-    told = list(zip(one.ends, one.moments, strict=True))
-    if not one.direction.any():
-        # What a hinge passes on is the same on both sides.
-        told = told[-1:]
-    for end, moment in told:
+    # What a hinge passes on is the same on both sides.
+    first_told = 0 if one.direction.any() else -1
+    for end, moment in list(zip(one.ends, one.moments, strict=True))[first_told:]:
         if float(np.linalg.norm(moment)) > rest:
-            where = "" if end.position is None else f" at {_end(outcome, one.part, end.position)}"
+            where = ""
+            if end.position is not None:
+                where = f" at {place_words(outcome.parts, end.position, one.part)}"
             yield f"moment {_vector(moment, 'N m about')}{where}"
 
 
@@ -287,7 +275,6 @@ def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[floa
     In its plane and out of it, by `QUANTITIES` with underscores.
     """
     outcome = stress.analysis
-    elements = np.array([one.part.elements[0], one.part.elements[-1]])
     known = outcome.condensed.elements
     # Of a row of beams that is one beam that one.
     both_ends = [e for e in (one.part.elements[0], one.part.elements[-1]) if e in known]
@@ -303,24 +290,6 @@ def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[floa
         first, last = (found[end.position] for end in one.ends if end.position is not None)
         made[f"{quantity.replace('-', '_').replace(' ', '_')}s"] = (first, last)
     return made
-
-
-def _along(
-    outcome: Decomposition, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
-) -> str:
-    first, last = at_ends
-    if abs(first - last) <= rest:
-        return f"constant {word} {first:.4g} N m"
-    told = [
-        f"{value:.4g} N m at {_end(outcome, one.part, end.position or 0)}"
-        for value, end in zip(at_ends, one.ends, strict=True)
-        if abs(value) > rest
-    ]
-    return f"{word} {' and '.join(told)}"
-
-
-def _end(outcome: Decomposition, part: Part, position: int) -> str:
-    return place_words(outcome.parts, position, part)
 
 
 def _vector(vector: FloatArray, unit: str) -> str:

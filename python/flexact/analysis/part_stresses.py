@@ -227,7 +227,7 @@ class Conflict(NamedTuple):
     def over(self) -> Wrench | None:
         """What they fight over: of the first part, if that of each is a multiple of it."""
         first = self.loads[0].wrench
-        vectors = [_vector(load.wrench.at(first.about)) for load in self.loads]
+        vectors = [load.wrench.at(first.about).vector for load in self.loads]
         unit = vectors[0] / np.linalg.norm(vectors[0])
         off = max(float(np.linalg.norm(v - (v @ unit) * unit)) for v in vectors)
         largest = max(float(np.linalg.norm(v)) for v in vectors)
@@ -239,9 +239,9 @@ class Conflict(NamedTuple):
         over = self.over
         if over is None:
             return None
-        unit = _vector(over)
+        unit = over.vector
         return tuple(
-            float(_vector(load.wrench.at(over.about)) @ unit / (unit @ unit)) for load in self.loads
+            float(load.wrench.at(over.about).vector @ unit / (unit @ unit)) for load in self.loads
         )
 
     def __str__(self) -> str:
@@ -292,24 +292,22 @@ class Pressing(Frozen):
         Raises:
             ModelError: there is no such body or point.
         """
-        if hasattr(body, "position"):
-            return self._on_point(body)
-        try:
-            part = part_of(self.outcome.parts, body)
-        except (ModelError, TypeError):
-            if not isinstance(body, (str, tuple, list)):
-                raise
-            return self._on_point(body)
-        nodes = set()
+        part = None
+        if not hasattr(body, "position"):
+            try:
+                part = part_of(self.outcome.parts, body)
+            except (ModelError, TypeError):
+                if not isinstance(body, (str, tuple, list)):
+                    raise
+        if part is None:
+            position = position_of(self.outcome.parts, body)
+            own = (n for n, p in self.outcome.parts.position_of.items() if p == position)
+            return self._loads({position, *own}, None)
         if part.kind is PartKind.BODY:
-            k = self.outcome.carriers.bodies.index(part)
-            mine = self.outcome.parts.bodies[k]
-            nodes = {*mine.positions, *mine.orientations}
-        else:
-            for index in part.elements:
-                nodes.update((self.outcome.given.arrays.element_node[:, index] - 1).tolist())
-            nodes.discard(-1)
-        return self._loads(nodes, part)
+            mine = self.outcome.parts.bodies[self.outcome.carriers.bodies.index(part)]
+            return self._loads({*mine.positions, *mine.orientations}, part)
+        slots = self.outcome.given.arrays.element_node[:, list(part.elements)] - 1
+        return self._loads(set(slots.ravel().tolist()) - {-1}, part)
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -326,11 +324,11 @@ class Pressing(Frozen):
     @cached_property
     def on_joints(self) -> tuple[Conflict, ...]:
         """Those on joints."""
-        made = []
-        for joint in self.outcome.carriers.joints:
-            nodes = {node for node in (joint.position, joint.orientation) if node is not None}
-            if not self._is_held(joint) and any(node in self._of_node for node in nodes):
-                made.append(Conflict(joint, self._loads(nodes, None)))
+        made = (
+            Conflict(joint, self._loads(joint.nodes, None))
+            for joint in self.outcome.carriers.joints
+            if not self._is_held(joint) and not self._of_node.keys().isdisjoint(joint.nodes)
+        )
         return tuple(one for one in made if any(load.part for load in one.loads))
 
     # What it is made of -----------------------------------------------------
@@ -364,24 +362,17 @@ class Pressing(Frozen):
     def _ends(self) -> dict[Part, dict[_End, FloatArray]]:
         """(2, 3) force and moment of each part where its elements end."""
         given, parts = self.outcome.given.arrays, self.outcome.parts
-        made: dict[Part, dict[_End, FloatArray]] = {}
-        kinds = given.node_kind
-        slots = self._slots
-        for element, node, value in zip(*map(list, self._at_nodes), strict=True):
-            part = parts.of_element(int(element))
-            ends = slots(int(element))
-            end = next(pair for pair in ends if int(node) in pair)
-            both = made.setdefault(part, {}).setdefault(end, np.zeros((2, 3)))
-            both[int(kinds[int(node)] > NodeKind.POSITION)] += value
+        condensed, made = self.outcome.condensed, dict[Part, dict[_End, FloatArray]]()
+        elements, nodes, values = self._at_nodes
+        for element, node, value in zip(elements.tolist(), nodes.tolist(), values, strict=True):
+            # The ends of the element of the model as analysed, in nodes as given.
+            index = int(np.searchsorted(condensed.elements, element))
+            slots = self.outcome.data.arrays.element_node[:, index] - 1
+            p, op, q, oq = (int(condensed.nodes[n]) if n >= 0 else -1 for n in slots.tolist())
+            end = (p, op) if node in (p, op) else (q, oq)
+            both = made.setdefault(parts.of_element(element), {}).setdefault(end, np.zeros((2, 3)))
+            both[int(given.node_kind[node] > NodeKind.POSITION)] += value
         return made
-
-    def _slots(self, element: int) -> tuple[_End, _End]:
-        """The ends of an element of the model as analysed, in nodes as given."""
-        outcome = self.outcome
-        index = int(np.searchsorted(outcome.condensed.elements, element))
-        nodes = outcome.data.arrays.element_node[:, index] - 1
-        p, op, q, oq = (int(outcome.condensed.nodes[n]) if n >= 0 else -1 for n in nodes.tolist())
-        return (p, op), (q, oq)
 
     @cached_property
     def _largest(self) -> float:
@@ -431,30 +422,27 @@ class Pressing(Frozen):
         way = ends[-1].wrench.about - ends[0].wrench.about
         length = float(np.linalg.norm(way))
         size = max((self._size(both) for both in found.values()), default=0.0)
+        normal = np.zeros(3)
+        if part.kind is PartKind.SHEET:
+            # Of a divided sheet that is one beam, that of the one beam.
+            index = int(np.searchsorted(self.outcome.condensed.elements, part.elements[0]))
+            wide = int(self.outcome.parts.wide[part.elements[0]])
+            axis: FloatArray = self.outcome.data.frames.frame[index][:, 3 - wide]
+            normal = sense_of(axis) * axis
         return PartStress(
             part,
             ends,
             size / self._largest if self._largest > 0.0 else 0.0,
             way / length if length > 0.0 and part.kind is not PartKind.HINGE else np.zeros(3),
-            self._normal(part),
+            normal,
         )
-
-    def _normal(self, part: Part) -> FloatArray:
-        if part.kind is not PartKind.SHEET:
-            return np.zeros(3)
-        # Of a divided sheet that is one beam, that of the one beam.
-        index = int(np.searchsorted(self.outcome.condensed.elements, part.elements[0]))
-        wide = int(self.outcome.parts.wide[part.elements[0]])
-        axis: FloatArray = self.outcome.data.frames.frame[index][:, 3 - wide]
-        return sense_of(axis) * axis
 
     def _receiver(self, end: _End) -> Part | Joint | None:
         """The body or joint at an end; None of a support alone."""
         parts = self.outcome.parts
-        for node in (end[0], end[1]):
-            body = parts.body_at.get(node)
-            if body is not None:
-                return parts.of_body(body)
+        body = parts.body_at.get(end[0], parts.body_at.get(end[1]))
+        if body is not None:
+            return parts.of_body(body)
         joint = self._joint_at.get(end[1], self._joint_at.get(end[0]))
         return None if joint is None or self._is_held(joint) else joint
 
@@ -462,22 +450,12 @@ class Pressing(Frozen):
     def _joint_at(self) -> dict[int, Joint]:
         made: dict[int, Joint] = {}
         for joint in self.outcome.carriers.joints:
-            for node in (joint.orientation, joint.position):
-                if node is not None:
-                    made.setdefault(node, joint)
+            for node in joint.nodes:
+                made.setdefault(node, joint)
         return made
 
     def _is_held(self, joint: Joint) -> bool:
-        return all(
-            self.outcome.parts.is_held(node)
-            for node in (joint.position, joint.orientation)
-            if node is not None
-        )
-
-    def _on_point(self, point: object) -> tuple[Load, ...]:
-        position = position_of(self.outcome.parts, point)
-        own = (n for n, p in self.outcome.parts.position_of.items() if p == position)
-        return self._loads({position, *own}, None)
+        return all(map(self.outcome.parts.is_held, joint.nodes))
 
     def _loads(self, nodes: Iterable[int], body: Part | None) -> tuple[Load, ...]:
         """What parts but one exert on some nodes about their middle, and the support."""
@@ -526,8 +504,3 @@ class Pressing(Frozen):
         step = self.outcome.characteristic_length
         middle = np.round(np.mean(places, axis=0) / step, 9) if places else np.zeros(0)
         return name, tuple(middle.tolist())
-
-
-def _vector(wrench: Wrench) -> FloatArray:
-    """(6,) force times the length, and moment."""
-    return np.concatenate((wrench.force * wrench.length, wrench.moment))

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import calls
-from ..core.arrays import Basis, FloatArray, IntArray
+from ..core.arrays import Basis, FloatArray
 from ..core.elements import NodeKind, Role, length_table, role_table
-from ..core.raw import RawAssembly, RawSensitivities
+from ..core.raw import RawSensitivities
 from ..util.records import cached_property
 from .decomposition import Decomposition
 from .limits import LAST_POWER, LONGEST_STEP, ROUNDINGS, STORED
@@ -52,48 +52,6 @@ class Pair(NamedTuple):
     """Number of that element, likewise."""
 
 
-def of_nonzeros(outcome: Decomposition) -> tuple[Pair, ...]:
-    """The smallest values that are not zero, ascending, as far as the core gives their vectors."""
-    raw = outcome.raw
-    most = min(raw.pair_value.size, max(1, affordable_pairs(outcome)))
-    if not most:
-        return ()
-    each = np.arange(most, dtype=np.int32)
-    found = calls.find_sensitivities(
-        outcome.data.packed,
-        raw.row_scale[:, None] * raw.pair_stress[:, :most],
-        raw.column_scale[:, None] * raw.pair_motion[:, :most],
-        np.stack((each, each)),
-    )
-    return _named(outcome, raw.pair_value[:most], found)
-
-
-def of_zeros(outcome: Decomposition) -> tuple[tuple[Pair, ...], ...]:
-    """For each zero, at most 8, its pairs with the vectors of the other side.
-
-    A singular value is zero where there is a self-stress and a motion; those that are in
-    excess belong to no singular value.
-    """
-    raw = outcome.raw
-    stresses, motions = outcome.over_constrained, outcome.under_constrained
-    most_pairs = affordable_pairs(outcome)
-    zeros = min(stresses, motions, raw.stresses.vectors, raw.motions.vectors, MOST_ZEROS)
-    zeros = min(zeros, max(1, math.isqrt(most_pairs)))
-    if not zeros:
-        return ()
-    most = max(zeros, min(MOST_OTHERS, most_pairs // zeros))
-    left = _unscaled(raw.stresses, raw.row_scale, zeros if stresses <= motions else most)
-    right = _unscaled(raw.motions, raw.column_scale, most if stresses <= motions else zeros)
-    pairs = np.indices((left.shape[1], right.shape[1]), np.int32).reshape(2, -1)
-    found = calls.find_sensitivities(outcome.data.packed, left, right, pairs)
-    values = np.zeros(pairs.shape[1])
-    of_zero = pairs[0 if stresses <= motions else 1]
-    given = raw.scaled_values[::-1][: min(stresses, motions)][::-1][:zeros]
-    values[of_zero < given.size] = given[of_zero[of_zero < given.size]]
-    named = _named(outcome, values, found)
-    return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
-
-
 def affordable_pairs(outcome: Decomposition) -> int:
     """How many pairs may be looked at; each takes as long as there are nodes and elements."""
     arrays = outcome.data.arrays
@@ -119,15 +77,11 @@ def _named(outcome: Decomposition, value: FloatArray, found: RawSensitivities) -
             float(found.lift_of_storing[k]),
             float(found.by_move[k]),
             float(found.by_turn[k]),
-            _number(arrays.node_number, found.node[k]),
-            _number(arrays.element_number, found.element[k]),
+            int(arrays.node_number[found.node[k]]) if found.node[k] >= 0 else None,
+            int(arrays.element_number[found.element[k]]) if found.element[k] >= 0 else None,
         )
         for k in range(value.size)
     )
-
-
-def _number(numbers: IntArray, index: int) -> int | None:
-    return int(numbers[index]) if index >= 0 else None
 
 
 _EPSILON = float(np.finfo(np.float64).eps)
@@ -160,13 +114,6 @@ class _Vectors(NamedTuple):
         return made
 
 
-class Remainder(NamedTuple):
-    """What is left of u' D v of a self-stress and a motion, and what rounding explains of it."""
-
-    value: float
-    explained: float
-
-
 class Evidence:
     """What small changes and rounding may make of singular values; found when asked for."""
 
@@ -177,27 +124,50 @@ class Evidence:
     @cached_property
     def pairs(self) -> tuple[Pair, ...]:
         """What moves the smallest singular values that are not zero, ascending."""
-        return of_nonzeros(self._outcome)
+        outcome, raw = self._outcome, self._outcome.raw
+        most = min(raw.pair_value.size, max(1, affordable_pairs(outcome)))
+        if not most:
+            return ()
+        each = np.arange(most, dtype=np.int32)
+        found = calls.find_sensitivities(
+            outcome.data.packed,
+            raw.row_scale[:, None] * raw.pair_stress[:, :most],
+            raw.column_scale[:, None] * raw.pair_motion[:, :most],
+            np.stack((each, each)),
+        )
+        return _named(outcome, raw.pair_value[:most], found)
 
     @cached_property
     def zero_pairs(self) -> tuple[tuple[Pair, ...], ...]:
-        """For each zero, at most 8, what may lift it."""
-        return of_zeros(self._outcome)
+        """For each zero, at most 8, its pairs with the vectors of the other side.
 
-    @cached_property
-    def largest_remainder(self) -> Remainder | None:
-        """See `largest_remainder`."""
-        return largest_remainder(self._outcome)
+        A singular value is zero where there is a self-stress and a motion; those that are in
+        excess belong to no singular value.
+        """
+        outcome, raw = self._outcome, self._outcome.raw
+        stresses, motions = outcome.over_constrained, outcome.under_constrained
+        most_pairs = affordable_pairs(outcome)
+        zeros = min(stresses, motions, raw.stresses.vectors, raw.motions.vectors, MOST_ZEROS)
+        zeros = min(zeros, max(1, math.isqrt(most_pairs)))
+        if not zeros:
+            return ()
+        most = max(zeros, min(MOST_OTHERS, most_pairs // zeros))
+        left = _unscaled(raw.stresses, raw.row_scale, zeros if stresses <= motions else most)
+        right = _unscaled(raw.motions, raw.column_scale, most if stresses <= motions else zeros)
+        pairs = np.indices((left.shape[1], right.shape[1]), np.int32).reshape(2, -1)
+        found = calls.find_sensitivities(outcome.data.packed, left, right, pairs)
+        values = np.zeros(pairs.shape[1])
+        of_zero = pairs[0 if stresses <= motions else 1]
+        given = raw.scaled_values[::-1][: min(stresses, motions)][::-1][:zeros]
+        values[of_zero < given.size] = given[of_zero[of_zero < given.size]]
+        named = _named(outcome, values, found)
+        return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
 
-    @cached_property
-    def powers_faded(self) -> float:
-        """See `powers_faded`."""
-        return powers_faded(self._outcome)
 
+def largest_remainder(outcome: Decomposition) -> tuple[float, float] | None:
+    """Of a self-stress and a motion what is left of u' D v, and what rounding explains of it.
 
-def largest_remainder(outcome: Decomposition) -> Remainder | None:
-    """The pair whose u' D v exceeds most what rounding makes of it, in the scaled matrix.
-
+    Of the pair that exceeds most what rounding makes of it, in the scaled matrix.
     Of the first vectors of each side, as far as that takes little time; None where there is
     no pair, or none exceeds what rounding the entries of D(c) makes.
     """
@@ -226,9 +196,18 @@ def largest_remainder(outcome: Decomposition) -> Remainder | None:
     if not worst.size:
         return None
     u, v = np.divmod(worst, left.shape[1])
-    found = explained[u, v] + STORED * _lifts(outcome, stresses, motions, u, v)
+    # What the last bits of the geometry may make of these pairs.
+    of_left, left_place = np.unique(u, return_inverse=True)
+    of_right, right_place = np.unique(v, return_inverse=True)
+    lifts = calls.find_sensitivities(
+        outcome.data.packed,
+        stresses.in_full(of_left, outcome.rows),
+        motions.in_full(of_right, outcome.columns),
+        np.stack((left_place, right_place)).astype(np.int32),
+    ).lift_of_bits
+    found = explained[u, v] + STORED * lifts
     worst_of_all = int(np.argmax(left[u, v] / found))
-    return Remainder(float(left[u, v][worst_of_all]), float(found[worst_of_all]))
+    return float(left[u, v][worst_of_all]), float(found[worst_of_all])
 
 
 def powers_faded(outcome: Decomposition) -> float:
@@ -287,7 +266,13 @@ def _entries(outcome: Decomposition, rows: NDArray[np.integer]) -> tuple[Sparse,
     element, deformation = raw.row_label[:, rows] - 1
     node, axis = raw.column_label - 1
     used = np.flatnonzero(np.bincount(element, minlength=arrays.element_number.size))
-    whole = _assembly_of(outcome, used)
+    # The Jacobian of these elements alone, of which there may be few among very many.
+    packed = outcome.data.packed
+    some = packed._replace(
+        elements=np.asfortranarray(packed.elements[:, used]),
+        vectors=np.asfortranarray(packed.vectors[:, used]),
+    )
+    whole = calls.assemble(some, arrays.node_value, np.zeros(used.size))
     here = np.searchsorted(used, element)
     row_of = index_of(6 * here + deformation, 6 * used.size)[whole.row_of]
     column_of = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
@@ -305,16 +290,6 @@ def _entries(outcome: Decomposition, rows: NDArray[np.integer]) -> tuple[Sparse,
     return matrix, np.where(direction, np.abs(matrix.value), of_row)
 
 
-def _assembly_of(outcome: Decomposition, elements: NDArray[np.integer]) -> RawAssembly:
-    """The Jacobian of some elements alone, of which there may be few among very many."""
-    packed = outcome.data.packed
-    some = packed._replace(
-        elements=np.asfortranarray(packed.elements[:, elements]),
-        vectors=np.asfortranarray(packed.vectors[:, elements]),
-    )
-    return calls.assemble(some, outcome.data.arrays.node_value, np.zeros(elements.size))
-
-
 def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArray:
     """(stresses, motions) u' D v; `matrix` has the rows that the self-stresses reach."""
     place = index_of(
@@ -327,21 +302,3 @@ def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArr
     )
     made: FloatArray = stresses.value.T @ images
     return made
-
-
-def _lifts(
-    outcome: Decomposition,
-    stresses: _Vectors,
-    motions: _Vectors,
-    u: NDArray[np.integer],
-    v: NDArray[np.integer],
-) -> FloatArray:
-    """(pairs,) what the last bits of the geometry may make of pairs, `u` and `v` of each."""
-    left, of_left = np.unique(u, return_inverse=True)
-    right, of_right = np.unique(v, return_inverse=True)
-    return calls.find_sensitivities(
-        outcome.data.packed,
-        stresses.in_full(left, outcome.rows),
-        motions.in_full(right, outcome.columns),
-        np.stack((of_left, of_right)).astype(np.int32),
-    ).lift_of_bits

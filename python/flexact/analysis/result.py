@@ -40,7 +40,6 @@ from .locate import elements_of, node_of
 from .margin import least, margins
 from .mode_basis import (
     column_key,
-    internal_motions,
     is_large,
     motion_basis,
     moves_within,
@@ -132,7 +131,11 @@ class Result(Decomposition):
         It is the dimension of the space of these. Of a space so large that it is told as the
         core gives it, it is how many of the core's vectors are so.
         """
-        return internal_motions(self, self.motion_basis)
+        if not self.motion_basis.vectors:
+            return 0
+        # Insides of different parts have no element in common: what is inside of each moves alone.
+        inner = self.carriers.inner
+        return int(np.count_nonzero(moves_within(self, self.motion_basis, inner)))
 
     @cached_property
     def are_between_ends(self) -> tuple[bool, ...]:

@@ -223,6 +223,11 @@ class Wrench(Frozen):
             float(np.linalg.norm(self.force)) * self.length, float(np.linalg.norm(self.moment))
         )
 
+    @property
+    def vector(self) -> FloatArray:
+        """(6,) force times `length`, and moment [N m]."""
+        return np.concatenate((self.force * self.length, self.moment))
+
     def at(self, point: ArrayLike) -> Wrench:
         """The same wrench with its moment about another point [m]."""
         there = floats(point, "a point")

@@ -113,19 +113,36 @@ def _orthonormal_by_groups(basis: Basis) -> Basis:
     of_entry = shape[parts.group]
     entries = np.argsort(of_entry, kind="stable")
     bounds = np.searchsorted(of_entry[entries], np.arange(shapes.shape[1] + 1)).tolist()
-    pieces = []
+    # Of each piece the number of entries of each vector, their places and values.
+    counts: list[NDArray[np.integer]] = []
+    places: list[NDArray[np.integer]] = []
+    values: list[FloatArray] = []
     for k, (rows, vectors) in enumerate(shapes.T.tolist()):
         mine = np.sort(entries[bounds[k] : bounds[k + 1]])
         if not _can_be_held(rows, vectors):
-            pieces.append(_of_unit_norm(basis, mine))
+            # They stay as they are, but for their norm.
+            value = basis.value[mine]
+            vector, count = np.unique(
+                basis.of_entries()[mine], return_inverse=True, return_counts=True
+            )[1:]
+            norm = np.sqrt(np.bincount(vector, value**2))
+            counts.append(count)
+            places.append(basis.place[mine])
+            values.append(value / norm[vector])
             continue
         same = np.flatnonzero(shape == k)
         step = max(1, _MOST_ENTRIES // (rows * vectors))
         for some in np.split(same, range(step, same.size, step)):
             chosen = mine if some.size == same.size else mine[np.isin(parts.group[mine], some)]
-            dense, places = parts.dense(some, chosen)
-            pieces.append(_side_by_side(np.linalg.qr(dense)[0], places))
-    return _joined(basis.size, pieces)
+            dense, at = parts.dense(some, chosen)
+            q = np.linalg.qr(dense)[0]
+            many, height, width = q.shape
+            counts.append(np.full(many * width, height))
+            places.append(np.broadcast_to(at[:, None], (many, width, height)).ravel())
+            values.append(np.swapaxes(q, 1, 2).ravel())
+    start = np.concatenate(([0], np.cumsum(np.concatenate(counts))))
+    place = np.concatenate(places).astype(np.int32)
+    return Basis(basis.size, start.astype(np.int32), place, np.concatenate(values))
 
 
 class _Grouped:
@@ -168,33 +185,6 @@ def _starts(counts: NDArray[np.integer]) -> NDArray[np.integer]:
     """Where each of several pieces of these sizes begins."""
     starts: NDArray[np.integer] = np.cumsum(counts) - counts
     return starts
-
-
-class _Piece(NamedTuple):
-    counts: NDArray[np.integer]
-    place: NDArray[np.integer]
-    value: FloatArray
-
-
-def _of_unit_norm(basis: Basis, entries: NDArray[np.integer]) -> _Piece:
-    """Some of the vectors, whose entries stand in a row, as they are."""
-    vector, value = basis.of_entries()[entries], basis.value[entries]
-    _, vector, count = np.unique(vector, return_inverse=True, return_counts=True)
-    norm = np.sqrt(np.bincount(vector, value**2))
-    return _Piece(count, basis.place[entries], value / norm[vector])
-
-
-def _side_by_side(q: FloatArray, places: NDArray[np.integer]) -> _Piece:
-    """The vectors of several groups: (groups, height, width), at places (groups, height)."""
-    groups, height, width = q.shape
-    place = np.broadcast_to(places[:, None], (groups, width, height))
-    return _Piece(np.full(groups * width, height), place.ravel(), np.swapaxes(q, 1, 2).ravel())
-
-
-def _joined(size: int, pieces: list[_Piece]) -> Basis:
-    count, place, value = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
-    start = np.concatenate(([0], np.cumsum(count)))
-    return Basis(size, start.astype(np.int32), place.astype(np.int32), value)
 
 
 def _squares_by_terms(matrix: Sparse, basis: Basis) -> FloatArray:
@@ -490,23 +480,16 @@ class _Stack:
     """Blocks above each other, to see at once in which of them vectors are zero."""
 
     def __init__(self, blocks: list[FloatArray]) -> None:
-        self._there = [i for i, block in enumerate(blocks) if block.size]
-        self._rows = np.concatenate([blocks[i] for i in self._there])
-        self._start = np.cumsum([0, *(len(blocks[i]) for i in self._there[:-1])])
-        self._counts = [len(blocks[i]) for i in self._there]
-        self._blocks = len(blocks)
+        self.there = [i for i, block in enumerate(blocks) if block.size]
+        self._rows = np.concatenate([blocks[i] for i in self.there])
+        self._start = np.cumsum([0, *(len(blocks[i]) for i in self.there[:-1])])
+        self._counts = [len(blocks[i]) for i in self.there]
         self._never = sum(1 << i for i, block in enumerate(blocks) if not block.size)
 
     def norms(self, vectors: FloatArray) -> FloatArray:
         """Of each block that has rows."""
         squares = np.sum((self._rows @ vectors) ** 2, axis=1)
         made: FloatArray = np.sqrt(np.add.reduceat(squares, self._start))
-        return made
-
-    def norms_of_all(self, vector: FloatArray) -> FloatArray:
-        """Of each block, of one vector (k,)."""
-        made = np.zeros(self._blocks)
-        made[self._there] = self.norms(vector[:, None])
         return made
 
     def smaller(self, vector: FloatArray, row: FloatArray) -> FloatArray:
@@ -520,7 +503,7 @@ class _Stack:
     def zero(self, vectors: FloatArray) -> int:
         """The blocks in which they are zero, a bit each."""
         small = np.flatnonzero(self.norms(vectors) < 10.0 * ROUNDING).tolist()
-        return self._never | sum(1 << self._there[k] for k in small)
+        return self._never | sum(1 << self.there[k] for k in small)
 
 
 def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
@@ -566,18 +549,15 @@ def _by_descent(blocks: list[FloatArray], d: int) -> Iterator[_Flat]:
             for _ in range(_STEPS):
                 vector = stack.smaller(vector, row)
                 vector = vector / np.linalg.norm(vector)
-            yield _descended(blocks, i, stack.norms_of_all(vector), d)
-
-
-def _descended(blocks: list[FloatArray], start: int, norms: FloatArray, d: int) -> _Flat:
-    rounded = np.round(norms / norms.max(), 6)
-    # The smallest first; of equal ones the last, so that those that come first are kept.
-    order = np.lexsort((-np.arange(norms.size), rounded))
-    vectors = np.eye(d)
-    for i in order.tolist():
-        if i == start or not blocks[i].size:
-            continue
-        left = vectors @ null_space(blocks[i] @ vectors, ROUNDING)
-        if left.shape[1] and np.linalg.norm(blocks[start] @ left) > _NEW:
-            vectors = left
-    return _Flat(_Stack(blocks).zero(vectors), vectors)
+            norms = np.zeros(len(blocks))
+            norms[stack.there] = stack.norms(vector[:, None])
+            rounded = np.round(norms / norms.max(), 6)
+            # The smallest first; of equal ones the last, so that those that come first are kept.
+            vectors = np.eye(d)
+            for k in np.lexsort((-np.arange(norms.size), rounded)).tolist():
+                if k == i or not blocks[k].size:
+                    continue
+                left = vectors @ null_space(blocks[k] @ vectors, ROUNDING)
+                if left.shape[1] and np.linalg.norm(blocks[i] @ left) > _NEW:
+                    vectors = left
+            yield _Flat(stack.zero(vectors), vectors)

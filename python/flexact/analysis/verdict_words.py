@@ -26,7 +26,7 @@ from .naming import (
 )
 from .places import parts_words
 from .result import Result
-from .verdict import Alternative, Certainty, Margin, Proof, Verdict
+from .verdict import Certainty, Margin, Proof, Verdict
 
 _ALIGNED = "in exact alignment"
 _ANY_MISALIGNMENT = (
@@ -37,7 +37,24 @@ _ANY_MISALIGNMENT = (
 
 def margin_line(result: Result) -> Line:
     """What would change the verdict, and by how much; then the accuracy, where it was given."""
-    return sentence("Margin: ", *_margin(result), *_accuracy(result.accuracy))
+    margin, accuracy = result.margin, result.accuracy
+    length, angle = _small(result)
+    told: Pieces = ()
+    if margin.exact_alignment:
+        told = (_ANY_MISALIGNMENT,)
+    elif length is None and angle is None:
+        told = ("no small misalignment of one node or element would change this.",)
+    else:
+        if length is not None and margin.node is not None:
+            moved = named_node(result, margin.node)
+            told = ("moving ", moved, f" by {length_in_words(length)}")
+        if angle is not None and margin.element is not None:
+            turned = named_element(result, margin.element)
+            told += (*(" or ",) * bool(told), "turning ", turned, f" by {angle_in_words(angle)}")
+        told += (" would change this, to first order.",)
+    if accuracy is not None:
+        told += (f" The accuracy is {' and '.join(_sizes(*accuracy))}.",)
+    return sentence("Margin: ", *told)
 
 
 def margin_in_short(result: Result) -> str:
@@ -110,31 +127,6 @@ def word_of(verdict: Verdict, *, is_marginal: bool) -> str:
     return verdict.value
 
 
-def _margin(result: Result) -> Pieces:
-    margin = result.margin
-    of_node: Pieces = (named_node(result, margin.node),) if margin.node is not None else ()
-    of_element: Pieces = (
-        (named_element(result, margin.element),) if margin.element is not None else ()
-    )
-    if margin.exact_alignment:
-        return (_ANY_MISALIGNMENT,)
-    length, angle = _small(result)
-    moving: Pieces = ()
-    turning: Pieces = ()
-    if length is not None:
-        moving = ("moving ", *of_node, f" by {length_in_words(length)}")
-    if angle is not None:
-        turning = ("turning ", *of_element, f" by {angle_in_words(angle)}")
-    if not moving and not turning:
-        return ("no small misalignment of one node or element would change this.",)
-    return (
-        *moving,
-        *((" or ",) if moving and turning else ()),
-        *turning,
-        " would change this, to first order.",
-    )
-
-
 def _small(result: Result) -> tuple[float | None, float | None]:
     """Length and angle of the margin, None where they are large, and so is the accuracy."""
     margin, accuracy = result.margin, result.accuracy or Accuracy(0.0)
@@ -144,12 +136,6 @@ def _small(result: Result) -> tuple[float | None, float | None]:
         margin.length if margin.length is not None and margin.length < length else None,
         margin.angle if margin.angle is not None and margin.angle < angle else None,
     )
-
-
-def _accuracy(accuracy: Accuracy | None) -> Pieces:
-    if accuracy is None:
-        return ()
-    return (f" The accuracy is {' and '.join(_sizes(*accuracy))}.",)
 
 
 def _sizes(length: float | None, angle: float | None) -> list[str]:
@@ -173,8 +159,16 @@ def declared_in_words(result: Result) -> str:
 
 def decision(result: Result) -> Iterator[Line]:
     """Sentences on the rank, first on what D(c) takes as one beam."""
-    if result.condensed.chains:
-        yield sentence(_taken_as_one(result))
+    chains = result.condensed.chains
+    if chains:
+        # Which parts are one beam in D(c), though the deck has several.
+        named = f"{len(chains)} divided sheets and wires"
+        if result.is_told_by_parts:
+            named = parts_words([result.parts.of_element(chain.elements[0]) for chain in chains])
+        each, of = ("", "it") if len(chains) == 1 else (" each", "them")
+        yield sentence(
+            f"Taken as one beam{each} in D(c), as what is inside of {of} is declared: {named}."
+        )
     rows, columns, rank = result.rows, result.columns, result.rank
     size = f"{counted(rows, 'row', '', 's')} and {counted(columns, 'column', '', 's')}"
     yield sentence(f"D(c) has {size}; its rank is {rank}.")
@@ -190,16 +184,6 @@ def decision(result: Result) -> Iterator[Line]:
         yield sentence(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
 
 
-def _taken_as_one(result: Result) -> str:
-    """Which parts are one beam in D(c), though the deck has several."""
-    chains = result.condensed.chains
-    named = f"{len(chains)} divided sheets and wires"
-    if result.is_told_by_parts:
-        named = parts_words([result.parts.of_element(chain.elements[0]) for chain in chains])
-    each, of = ("", "it") if len(chains) == 1 else (" each", "them")
-    return f"Taken as one beam{each} in D(c), as what is inside of {of} is declared: {named}."
-
-
 def _zeros(result: Result) -> str:
     """The zeros and their limit; a zero within it is rounding, and of rounding no digit counts."""
     zero, limit = result.gap.largest_zero, f"limit {result.tolerance:.2g}"
@@ -213,14 +197,32 @@ def _zeros(result: Result) -> str:
 
 def _certainty(result: Result) -> Iterator[Line]:
     """What is proven and what may be meant: of the arithmetic; warnings hold the doubts."""
+    proof = result.proof
     if result.certainty is Certainty.CERTAIN:
-        yield sentence(_how_certain(result))
+        if proof is None:
+            yield sentence(
+                f"The rank is numerically certain, by the method {result.method}; "
+                f"not proven: {_why_not_proven(result)}."
+            )
+        elif proof.rank == result.rank:
+            yield sentence(f"Proven for {_OF[proof.of]}: the rank is {_proven(proof)}.")
+        else:
+            yield sentence(
+                "The rank is numerically certain within the rounding of the geometry; "
+                f"{_AS_THEY_ARE[proof.of].lower()}, to the last digit, "
+                f"the rank is {_proven(proof)}."
+            )
     else:
-        others = [_alternative(item) for item in result.alternatives]
+        others = []
+        for item in result.alternatives:
+            # Counts, and the change that leads there.
+            counts = counts_in_words(item.under_constrained, item.over_constrained)
+            ways = _sizes(item.change_m or None, item.change_rad or None)
+            others.append(f"{counts} (a change by {' or '.join(ways)})" if ways else counts)
         meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
         yield sentence(f"The decision on the rank is doubtful{meant}.")
-        if result.proof:
-            yield sentence(f"{_AS_THEY_ARE[result.proof.of]} the rank is {_proven(result.proof)}.")
+        if proof:
+            yield sentence(f"{_AS_THEY_ARE[proof.of]} the rank is {_proven(proof)}.")
 
 
 def certainty_word(result: Result) -> str:
@@ -229,21 +231,6 @@ def certainty_word(result: Result) -> str:
     if result.certainty is Certainty.CERTAIN and proof is not None and proof.rank == result.rank:
         return "proven"
     return result.certainty.value
-
-
-def _how_certain(result: Result) -> str:
-    proof = result.proof
-    if proof is None:
-        return (
-            f"The rank is numerically certain, by the method {result.method}; "
-            f"not proven: {_why(result)}."
-        )
-    if proof.rank == result.rank:
-        return f"Proven for {_OF[proof.of]}: the rank is {_proven(proof)}."
-    return (
-        "The rank is numerically certain within the rounding of the geometry; "
-        f"{_AS_THEY_ARE[proof.of].lower()}, to the last digit, the rank is {_proven(proof)}."
-    )
 
 
 _OF = {"decimals": "the decimals as typed", "doubles": "the numbers as stored"}
@@ -257,21 +244,13 @@ def _proven(proof: Proof) -> str:
     return f"{proof.rank} (too low with a probability below {proof.failure_probability:.0e})"
 
 
-def _why(result: Result) -> str:
+def _why_not_proven(result: Result) -> str:
     """Why there is no proof."""
     if result.asked.prove is False:
         return "no proof was asked for"
     if result.asked.prove is None:
         return "D(c) is large (--prove, or prove=True, takes the time)"
     return "D(c) is too large"
-
-
-def _alternative(item: Alternative) -> str:
-    """Counts, and the change that leads there."""
-    counts = counts_in_words(item.under_constrained, item.over_constrained)
-    ways = [length_in_words(item.change_m)] if item.change_m else []
-    ways += [angle_in_words(item.change_rad)] if item.change_rad else []
-    return f"{counts} (a change by {' or '.join(ways)})" if ways else counts
 
 
 def _method(result: Result) -> Iterator[Line]:
@@ -299,28 +278,41 @@ _LOOK = "look at the geometry; far from the origin, move it there"
 
 def warnings_of(result: Result) -> tuple[Diagnostic, ...]:
     """Warnings and notes about the model, then about the decision on its rank."""
-    return (*result.data.problems.kept, *_of_the_decision(result))
-
-
-def _of_the_decision(result: Result) -> Iterator[Diagnostic]:
-    doubts = result.assessment.doubts
-    for doubt in doubts:
-        yield warning_of(result, doubt)
+    made = [*result.data.problems.kept]
+    made += [warning_of(result, doubt) for doubt in result.assessment.doubts]
     small, largest = result.gap.smallest_nonzero, max(result.scaled_singular_values, default=0.0)
-    if small is not None and small < CLOSE_DECISION * largest and not doubts:
-        yield Diagnostic(
-            Severity.WARNING,
-            "close-decision",
-            f"the smallest singular value that counts as non-zero is {small / largest:.1e} "
-            "of the largest: a small misalignment would change the verdict",
-            help="look at the margin, and at the geometry",
+    is_close = small is not None and small < CLOSE_DECISION * largest
+    if small is not None and is_close and not result.assessment.doubts:
+        part = f"{small / largest:.1e} of the largest"
+        made.append(
+            Diagnostic(
+                Severity.WARNING,
+                "close-decision",
+                f"the smallest singular value that counts as non-zero is {part}: a small "
+                "misalignment would change the verdict",
+                help="look at the margin, and at the geometry",
+            )
         )
+    return tuple(made)
+
+
+def _digits(result: Result) -> str:
+    """How many digits the coordinates were typed with, those aside that are known to the bit."""
+    arrays = result.data.arrays
+    places = arrays.node_value[:3, arrays.node_kind <= NodeKind.POSITION]
+    lengths = {significant_digits(value) for value in np.unique(places).tolist()}
+    typed = [length for length in lengths if length <= MOST_TYPED]
+    return f"at most {max(typed, default=0)}"
 
 
 def warning_of(result: Result, doubt: Doubt) -> Diagnostic:
     """A doubt as a warning: its code, a sentence, and what helps."""
     sentence, advice = _words(result, doubt)
     return Diagnostic(Severity.WARNING, doubt.code, sentence, help=advice)
+
+
+def _counting(values: int) -> str:
+    return "a singular value counts" if values == 1 else f"{values} singular values count"
 
 
 def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
@@ -330,11 +322,9 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
             what = f"the method {result.method} did not confirm the rank by a second route"
             return what, "analyse with the method svd"
         case DoubtKind.CLOSE_TO_NOISE:
-            one = doubt.values == 1
-            counts = "a singular value counts" if one else f"{doubt.values} singular values count"
             return (
-                f"{counts} as non-zero within a factor of {CLEARLY:.0f} of what storing the "
-                f"geometry may make of a zero, {size}",
+                f"{_counting(doubt.values)} as non-zero within a factor of {CLEARLY:.0f} of what "
+                f"storing the geometry may make of a zero, {size}",
                 "look at the geometry, or state with a tolerance what is to count as zero",
             )
         case DoubtKind.DIGITS_EXPLAIN:
@@ -363,12 +353,11 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
                 _LOOK,
             )
         case DoubtKind.UNDECIDED:
-            one = doubt.zeros == 1
-            counts = "a singular value counts" if one else f"{doubt.zeros} singular values count"
+            is_not = "is not" if doubt.zeros == 1 else "are not"
             left = f"it is {size}, and storing them makes {doubt.explained:.1e}"
             unknown = "how large it is was not computed"
             return (
-                f"{counts} as zero, but for the numbers as they are {'is' if one else 'are'} not: "
+                f"{_counting(doubt.zeros)} as zero, but for the numbers as they are {is_not}: "
                 f"{left if doubt.size else unknown}",
                 _LOOK,
             )
@@ -392,12 +381,3 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
                 "the digits of the arithmetic",
                 _LOOK,
             )
-
-
-def _digits(result: Result) -> str:
-    """How many digits the coordinates were typed with, those aside that are known to the bit."""
-    arrays = result.data.arrays
-    places = arrays.node_value[:3, arrays.node_kind <= NodeKind.POSITION]
-    lengths = {significant_digits(value) for value in np.unique(places).tolist()}
-    typed = [length for length in lengths if length <= MOST_TYPED]
-    return f"at most {max(typed, default=0)}"

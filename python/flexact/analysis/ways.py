@@ -42,8 +42,8 @@ def releases(result: Result) -> list[int]:
 
     Rows of independent deformations are not among them; see `driven_deformations`.
     """
-    leverage = _leverage_of_class(result, Class.FIXED)
-    leverage = np.where(is_releasable(result), leverage, 0.0)
+    able = is_of_class(result, Class.FIXED) & is_releasable(result)
+    leverage = np.where(able, row_norms(result.stress_space), 0.0)
     return _largest(leverage, lambda row: row_key(result, row))
 
 
@@ -67,10 +67,9 @@ def driven_deformations(result: Result) -> Deformations:
 
     To release one in place of its declaration removes a self-stress.
     """
-    leverage = _leverage_of_class(result, Class.INDEPENDENT)
-    rows = _largest(leverage, lambda row: row_key(result, row))
-    labels = result.raw.row_label[:, rows].T.tolist()
-    return [(element - 1, deformation) for element, deformation in labels]
+    able = is_of_class(result, Class.INDEPENDENT)
+    leverage = np.where(able, row_norms(result.stress_space), 0.0)
+    return _of_rows(result, _largest(leverage, lambda row: row_key(result, row)))
 
 
 def driven_coordinates(result: Result) -> Coordinates:
@@ -143,28 +142,16 @@ def is_releasable(result: Result) -> NDArray[np.bool_]:
     return np.ones(element.size, bool)
 
 
-def _leverage_of_class(result: Result, wanted: Class) -> FloatArray:
-    """(m,) leverage in the self-stresses, zero where the deformation is of another class."""
-    return np.where(is_of_class(result, wanted), row_norms(result.stress_space), 0.0)
-
-
 def _with_reaction(result: Result, wanted: Class) -> Coordinates:
-    """Coordinates of a class on which the self-stresses act, the largest reaction first."""
-    classes = result.data.arrays.coordinate_class.T
-    able = (classes == wanted).ravel()
-    if not able.any():
-        return []
-    reaction = _reactions(result, able)
-    order = _largest(reaction, lambda place: coordinate_key(result, *divmod(place, 3)))
-    return [(place // 3, place % 3) for place in order]
+    """Coordinates of a class on which the self-stresses act, the largest reaction first.
 
-
-def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
-    """(3 nodes,) reactions to the self-stresses at some coordinates, sigma^T D, as forces.
-
-    Zero where nothing is left of what the elements contribute.
+    The reaction is sigma^T D, as a force; none where nothing is left of what the elements
+    contribute.
     """
     arrays = result.data.arrays
+    able = np.asarray(wanted == arrays.coordinate_class.T).ravel()
+    if not able.any():
+        return []
     whole = result.assembly
     element, deformation = result.raw.row_label - 1
     row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
@@ -174,14 +161,12 @@ def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
     weight = 1.0 / np.where(turned, result.characteristic_length, 1.0)
     value = matrix.value * weight[matrix.row_of] / row_weights(result)[matrix.column_of]
     space = result.stress_space
-    reaction, contributed = (
-        norms_of_product(matrix._replace(value=entries), stresses)
-        for entries, stresses in (
-            (value, space),
-            (np.abs(value), space._replace(value=np.abs(space.value))),
-        )
-    )
-    return np.where(reaction > NO_LEVERAGE * contributed, reaction, 0.0)
+    sizes = space._replace(value=np.abs(space.value))
+    reaction = norms_of_product(matrix._replace(value=value), space)
+    contributed = norms_of_product(matrix._replace(value=np.abs(value)), sizes)
+    reaction = np.where(reaction > NO_LEVERAGE * contributed, reaction, 0.0)
+    order = _largest(reaction, lambda place: coordinate_key(result, *divmod(place, 3)))
+    return [(place // 3, place % 3) for place in order]
 
 
 def _largest(leverage: FloatArray, key: Key) -> list[int]:
@@ -286,20 +271,36 @@ def on_motions(result: Result) -> Iterator[Way]:
     """
     if not result.under_constrained:
         return
-    yield from _if_any(_internal(result))
+    # What makes each divided sheet or wire one beam, as far as a deck or model does not yet.
+    numbers = result.given.arrays.element_number
+    inside = [
+        Deformation(number, deformations[0], " ".join(map(str, (number, *deformations))))
+        for element, deformations in surplus_of(result.given)
+        for number in (int(numbers[element]),)
+    ]
+    if inside:
+        yield Way(Step.DECLARE_INTERNAL, tuple(inside), False, ("DYNE",), instead=True)
     whole = result.with_folds_declared
     if whole is not None:
         folds = tuple(_deformations(result, list(result.folds)))
         yield Way(Step.DECLARE_FOLDS, folds, False, ("DYNE", "RLSE"), True)
         yield from on_motions(whole)
         return
-    able = _coordinates(result, _of_columns(result, coordinates(result)))
-    yield _some(Step.DECLARE_OR_HOLD, able, ("DYNX", "FIX"))
+    labels = result.raw.column_label.T - 1
+    yield _some(
+        Step.DECLARE_OR_HOLD,
+        _coordinates(result, labels[coordinates(result)].tolist()),
+        ("DYNX", "FIX"),
+    )
     changed = _deformations(result, deformations(result))
-    yield from _if_any(_some(Step.DECLARE_OR_HOLD_RELEASED, changed, ("DYNE", "RLSE"), True))
+    held = _some(Step.DECLARE_OR_HOLD_RELEASED, changed, ("DYNE", "RLSE"), True)
+    if held.parts:
+        yield held
     if 1 < result.under_constrained <= _MOST_PARTS:
-        every = _coordinates(result, _of_columns(result, coordinate_set(result)))
-        yield from _if_any(_some(Step.DECLARE_OR_HOLD_ALL, every))
+        every = _coordinates(result, labels[coordinate_set(result)].tolist())
+        together = _some(Step.DECLARE_OR_HOLD_ALL, every)
+        if together.parts:
+            yield together
 
 
 def on_self_stresses(result: Result) -> Iterator[Way]:
@@ -307,15 +308,14 @@ def on_self_stresses(result: Result) -> Iterator[Way]:
     if not result.over_constrained:
         return
     able = _deformations(result, _of_rows(result, releases(result)))
-    yield from _if_any(_some(Step.RELEASE, able, ("RLSE",)))
+    released = _some(Step.RELEASE, able, ("RLSE",))
     driven = _some(
         Step.UNDECLARE, _deformations(result, driven_deformations(result)), ("RLSE",), True
     )
     moved = _some(Step.UNDECLARE, _coordinates(result, driven_coordinates(result)))
     both = driven._replace(parts=driven.parts + moved.parts, more=driven.more or moved.more)
-    yield from _if_any(both)
-    held = _coordinates(result, supports(result))
-    yield from _if_any(_some(Step.FREE_SUPPORT, held))
+    held = _some(Step.FREE_SUPPORT, _coordinates(result, supports(result)))
+    yield from (way for way in (released, both, held) if way.parts)
     count = result.over_constrained
     chosen = release_set(result) if 1 < count <= _MOST_PARTS else []
     if len(chosen) == count > 1:
@@ -327,27 +327,6 @@ def _some(
 ) -> Way:
     some = tuple(islice(parts, _MOST_PARTS + 1))
     return Way(step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, keywords, instead)
-
-
-def _internal(result: Result) -> Way:
-    """What makes each divided sheet or wire one beam, as far as a deck or model does not yet."""
-    numbers = result.given.arrays.element_number
-    parts = tuple(
-        Deformation(number, deformations[0], " ".join(map(str, (number, *deformations))))
-        for element, deformations in surplus_of(result.given)
-        for number in (int(numbers[element]),)
-    )
-    return Way(Step.DECLARE_INTERNAL, parts, False, ("DYNE",), instead=True)
-
-
-def _if_any(advice: Way) -> Iterator[Way]:
-    if advice.parts:
-        yield advice
-
-
-def _of_columns(result: Result, chosen: list[int]) -> Coordinates:
-    """Node index and axis of columns of D(c)."""
-    return [(n, a) for n, a in (result.raw.column_label[:, chosen].T - 1).tolist()]
 
 
 def _of_rows(result: Result, chosen: list[int]) -> Deformations:

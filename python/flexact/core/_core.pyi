@@ -31,6 +31,7 @@ def read_deck(
     increment: _Floats,
     /,
 ) -> tuple[int, int, int, int, int, int, int, _Floats, _Ints, _Ints, _Bytes]: ...
+def find_tokens(text: _Bytes, lines: _Ints, words: _Ints, /) -> None: ...
 def check_model(
     text: _Bytes,
     nodes: _Ints,

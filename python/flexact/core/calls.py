@@ -18,6 +18,7 @@ from . import _core
 from .arrays import Basis, FloatArray, IntArray, PackedModel, room_for, unpacked
 from .raw import (
     ElementKind,
+    Meaning,
     RawAnalysis,
     RawAppearance,
     RawAssembly,
@@ -29,6 +30,7 @@ from .raw import (
     RawLoads,
     RawProperties,
     RawSensitivities,
+    RawTokens,
     RawVariants,
 )
 
@@ -101,15 +103,25 @@ def element_rows() -> list[ElementKind]:
     count = 1
     while len(rows) < count:
         words, numbers, count = _core.describe_element(len(rows) + 1)
-        keyword, synonym = (words[:, i].tobytes().decode("ascii").strip() for i in range(2))
+        keyword, synonym, says, *numbered = (
+            words[:, i].tobytes().decode("ascii").strip() for i in range(words.shape[1])
+        )
         n = tuple(numbers.tolist())
         rows.append(
             ElementKind(
                 *(len(rows) + 1, keyword, synonym, n[:4], n[4], n[5]),
-                *(n[6] == 1, n[7], n[8:14], n[14:]),
+                *(n[6] == 1, n[7], n[8:14], n[14:], says, *map(_meanings, numbered)),
             )
         )
     return rows
+
+
+def _meanings(listed: str) -> tuple[Meaning, ...]:
+    """Such as "EA (N), G It (N m^2)", one by one."""
+    return tuple(
+        Meaning(name, unit.removesuffix(")"))
+        for name, _, unit in (each.rpartition(" (") for each in listed.split(", ") if each)
+    )
 
 
 def _require_room(needed: float, left: float | None = None) -> None:
@@ -172,6 +184,23 @@ def read_deck(text: bytes) -> RawDeck:
         RawLoads(force[:, :nodes], increment[:, :nodes], found[7]) if loaded else None,
         long == 1,
     )
+
+
+def find_tokens(text: bytes) -> RawTokens:
+    """The lines of a deck and their words, as they are read; a deck need not be sound for this.
+
+    Args:
+        text: bytes of the deck, fewer than 2**31.
+    """
+    data = np.frombuffer(text, np.int8)
+    blank = (data >= 0) & (data <= ord(" "))
+    # Each word stands at the start or behind a blank; those of comments are not given.
+    most = 1 + int(np.count_nonzero(blank[:-1] & ~blank[1:]))
+    lines = np.empty((7, text.count(b"\n") + 1), np.int32, order="F")
+    words = np.empty((5, most), np.int32, order="F")
+    _core.find_tokens(data, lines, words)
+    used = int(lines[3, -1])
+    return RawTokens(lines, words[:, :used] if 2 * used > most else words[:, :used].copy("F"))
 
 
 class _Room(NamedTuple):

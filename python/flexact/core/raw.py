@@ -8,6 +8,17 @@ from typing import NamedTuple
 from .arrays import Basis, BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
 
 
+class Meaning(NamedTuple):
+    """What a number of a statement stands for."""
+
+    name: str
+    unit: str = ""
+
+    def __str__(self) -> str:
+        """Such as "EA (N)"."""
+        return f"{self.name} ({self.unit})" if self.unit else self.name
+
+
 class ElementKind(NamedTuple):
     """One row of the element table."""
 
@@ -27,6 +38,12 @@ class ElementKind(NamedTuple):
     """Role of each of six deformations, 0 beyond the last."""
     dual: tuple[int, ...]
     """Dual of each."""
+    says: str
+    """What it is, in Markdown."""
+    stiffness: tuple[Meaning, ...]
+    """The numbers of ESTIFF; none where they mean nothing."""
+    mass: tuple[Meaning, ...]
+    """The numbers of EM, likewise."""
 
     @property
     def deformations(self) -> int:
@@ -102,6 +119,18 @@ class RawDeck(NamedTuple):
     """None likewise."""
     has_long_numbers: bool
     """Whether its geometry was typed with more digits than its numbers hold."""
+
+
+class RawTokens(NamedTuple):
+    """The lines of a deck and their words; places are bytes from 0."""
+
+    lines: IntArray
+    """(7, lines) first byte, the byte behind the last, where the comment starts (behind the line
+    without one), words up to its end, block, kind of the element that it makes or 0, row of the
+    keyword table from 1, 0 without one and -1 where it ends a block."""
+    words: IntArray
+    """(5, words) first byte, the byte behind the last, letter, kind that the node of an element
+    must be (-1: warping), whole number from 1 that it is, or 0."""
 
 
 class RawCount(NamedTuple):

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from ..util.outputs import OutputError
 from .compute import compute
 from .designs import CostValues
 from .json import csv_text, dictionary_of, text_of
-from .request import Request
+from .request import AUTO, DRIVE, HELD, POINTS, SHIFT, Request
 from .words import describe, first_line
 
 #: Called with what is being done and how much of that is done, from 0 to 1.
@@ -118,13 +118,13 @@ def cost(
     *,
     at: object = None,
     release: Iterable[object] | None = None,
-    stroke: object = None,
+    stroke: str | Sequence[object] | None = None,
     misalign: Iterable[object] = (),
-    shift: float | str = -0.05,
-    held: str = "elastic",
-    drive: str = "free",
-    beams: int | str = "auto",
-    points: int = 21,
+    shift: float | str = SHIFT,
+    held: str = HELD[0],
+    drive: str = DRIVE[0],
+    beams: int | str = AUTO,
+    points: int = POINTS,
     bodies: bool = False,
     beyond: bool = False,
     name: str | None = None,

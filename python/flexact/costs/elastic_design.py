@@ -441,7 +441,10 @@ class Level:
         model = at.solver.model(at.held)
         found = core.frequencies(model, at.solver.arrays, raw, at.way.gravity, 1)
         square = float(found.values[0])
-        return max(square, 0.0) if not self.mechanism.has_masses else frequency_of(square)
+        if not self.mechanism.has_masses:
+            return max(square, 0.0)
+        # Of an unstable motion it is 0.
+        return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)
 
     def buckled(self, each: Misalignment, sense: float) -> FloatArray | None:
         """(nodes, 3) the shape in which it buckles, below or above zero; None where it does not."""
@@ -457,8 +460,3 @@ class Level:
         at = self.solution
         raw = at.raw._replace(stress=np.asfortranarray(stress))
         return Solution(at.solver, raw, at.way, at.held)
-
-
-def frequency_of(square: float) -> float:
-    """A frequency [Hz] of the square of an angular one; 0 of an unstable motion."""
-    return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)

@@ -15,24 +15,10 @@ from .charts import bars_of, charts_of, choices_of, key_of, typeset
 from .designs import CostValues
 from .words import first_line
 
-
-class Head(NamedTuple):
-    """Measures of the head [inch], and sizes of its letters [pt]."""
-
-    left: float = 0.3
-    label: float = 0.8
-    end: float = 11.8
-    top: float = 0.2
-    line: float = 0.31
-    row: float = 0.245
-    second: float = 0.17
-    room: float = 0.12
-    headline: float = 16.0
-    words: float = 10.5
-    small: float = 9.0
-
-
-HEAD = Head()
+#: Measures of the head [inch], and sizes of its letters [pt].
+_MARGIN, _LABEL, _RIGHT_END, _TOP, _ROOM = 0.3, 0.8, 11.8, 0.2, 0.12
+_LINE, _TABLE_ROW, _SECOND = 0.31, 0.245, 0.17
+_HEADLINE, _WORDS, _SMALL = 16.0, 10.5, 9.0
 #: Least and most room between columns [inch]; what is released takes at most so many lines.
 _GAP, _MOST_GAP, _LINES = 0.2, 0.4, 2
 
@@ -69,9 +55,9 @@ def table_of(figure: Any, key: Key, headline: str) -> Table:
     """
 
     def width(words: Iterable[str], weight: str = "normal") -> float:
-        return max((width_of(figure, each, HEAD.words, weight) for each in words), default=0.0)
+        return max((width_of(figure, each, _WORDS, weight) for each in words), default=0.0)
 
-    first = HEAD.label + width((row.label for row in key.rows), "bold") + _GAP
+    first = _LABEL + width((row.label for row in key.rows), "bold") + _GAP
     wide = [
         max(
             width([head]),
@@ -81,8 +67,8 @@ def table_of(figure: Any, key: Key, headline: str) -> Table:
         for k, head in enumerate(key.heads)
     ]
     told = [row.words if row.words != row.label else "" for row in key.rows]
-    left = max(HEAD.end - first - sum(wide) - _GAP * (len(wide) + 1), 1.0)
-    words = tuple(wrapped(figure, each, left, HEAD.words) for each in told)
+    left = max(_RIGHT_END - first - sum(wide) - _GAP * (len(wide) + 1), 1.0)
+    words = tuple(wrapped(figure, each, left, _WORDS) for each in told)
     needed = width(line for lines in words for line in lines)
     # What is not needed goes between the columns.
     gap = _GAP + max(0.0, min((left - needed) / (len(wide) + 1), _MOST_GAP - _GAP))
@@ -90,8 +76,8 @@ def table_of(figure: Any, key: Key, headline: str) -> Table:
     for each in wide:
         cells.append(place)
         place += each + gap
-    heights = (HEAD.row + HEAD.second * max(len(lines) - 1, 0) for lines in words)
-    lines = wrapped(figure, headline, HEAD.end - HEAD.left, HEAD.headline, "bold")
+    heights = (_TABLE_ROW + _SECOND * max(len(lines) - 1, 0) for lines in words)
+    lines = wrapped(figure, headline, _RIGHT_END - _MARGIN, _HEADLINE, "bold")
     return Table(key.heads, key.rows, words, first, cells, tuple(heights), lines)
 
 
@@ -120,24 +106,18 @@ def _cut(figure: Any, line: str, room: float, size: float, weight: str) -> str:
 _NOTES = 4
 
 
-def head_height(table: Table) -> float:
-    """How high the head is [inch]."""
-    lines = HEAD.line * len(table.headline)
-    return HEAD.top + lines + 2 * HEAD.row + sum(table.heights) + HEAD.room
-
-
 def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
     """The headline, how it was found, and the table."""
-    top = HEAD.top
+    top = _TOP
     for line in table.headline:
-        _text(figure, HEAD.left, top, line, HEAD.headline, INK, fontweight="bold")
-        top += HEAD.line
+        _text(figure, _MARGIN, top, line, _HEADLINE, INK, fontweight="bold")
+        top += _LINE
     top += 0.04
-    _text(figure, HEAD.left, top, ", ".join(choices_of(cost)), HEAD.words, SOFT)
-    top += HEAD.row + 0.1
+    _text(figure, _MARGIN, top, ", ".join(choices_of(cost)), _WORDS, SOFT)
+    top += _TABLE_ROW + 0.1
     for place, head in zip(table.cells, table.heads, strict=True):
-        _text(figure, place, top, head, HEAD.words - 0.5, SOFT)
-    top += HEAD.row
+        _text(figure, place, top, head, _WORDS - 0.5, SOFT)
+    top += _TABLE_ROW
     for row, told, height in zip(table.rows, table.words, table.heights, strict=True):
         _draw_row(figure, table, row, told, top)
         top += height
@@ -145,20 +125,20 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
 
 def notes_of(figure: Any, cost: CostValues) -> list[str]:
     """What the deck does not allow, in lines that fit; measured on any figure."""
-    room = HEAD.end - HEAD.left
+    room = _RIGHT_END - _MARGIN
     return [
         line
         for note in cost.left_out[:_NOTES]
-        for line in wrapped(figure, harmless(f"{note[:1].upper()}{note[1:]}."), room, HEAD.small)
+        for line in wrapped(figure, harmless(f"{note[:1].upper()}{note[1:]}."), room, _SMALL)
     ]
 
 
 def draw_notes(figure: Any, notes: list[str]) -> None:
     """Lines at the lower edge."""
-    top = figure.get_figheight() - HEAD.second * len(notes) - HEAD.room
+    top = figure.get_figheight() - _SECOND * len(notes) - _ROOM
     for line in notes:
-        _text(figure, HEAD.left, top, line, HEAD.small, SOFT)
-        top += HEAD.second
+        _text(figure, _MARGIN, top, line, _SMALL, SOFT)
+        top += _SECOND
 
 
 def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: float) -> None:
@@ -169,7 +149,7 @@ def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: floa
     middle = 1.0 - (top + 0.09) / whole
     figure.add_artist(
         Line2D(
-            [HEAD.left / wide, (HEAD.label - 0.1) / wide],
+            [_MARGIN / wide, (_LABEL - 0.1) / wide],
             [middle, middle],
             color=look.colour,
             lw=look.width,
@@ -177,11 +157,11 @@ def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: floa
         )
     )
     weight = "bold" if row.series == 0 else "normal"
-    _text(figure, HEAD.label, top, row.label, HEAD.words, look.colour, fontweight=weight)
+    _text(figure, _LABEL, top, row.label, _WORDS, look.colour, fontweight=weight)
     for k, line in enumerate(told):
-        _text(figure, table.place, top + k * HEAD.second, line, HEAD.words, INK)
+        _text(figure, table.place, top + k * _SECOND, line, _WORDS, INK)
     for place, cell in zip(table.cells, row.cells, strict=True):
-        _text(figure, place, top, cell, HEAD.words, INK, fontweight=weight)
+        _text(figure, place, top, cell, _WORDS, INK, fontweight=weight)
 
 
 def _text(
@@ -228,13 +208,13 @@ def plot_of(cost: CostValues) -> Any:
     FigureCanvasAgg(measure)
     table = table_of(measure, key_of(cost), typeset(first_line(cost)))
     rows = max((each.height(ROW, BETWEEN) for each in bars), default=0.0)
-    head, notes = head_height(table), notes_of(measure, cost)
+    notes = notes_of(measure, cost)
     heights = (
-        head,
+        _TOP + _LINE * len(table.headline) + 2 * _TABLE_ROW + sum(table.heights) + _ROOM,
         (_ABOVE + _CHART + _BELOW) * bool(charts),
         (_ABOVE + _ROW * rows + _END) * bool(bars),
     )
-    below = (HEAD.second * len(notes) + HEAD.room) * bool(notes)
+    below = (_SECOND * len(notes) + _ROOM) * bool(notes)
     figure: Any = Shown(figsize=(_WIDTH, sum(heights) + below), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     draw_head(figure, cost, table)
@@ -265,11 +245,11 @@ def _axes(figure: Any, left: float, top: float, width: float, height: float) -> 
 def _draw_charts(figure: Any, charts: tuple[Chart, ...], top: float) -> None:
     if not charts:
         return
-    cell = (_WIDTH - 2 * HEAD.left + 0.15) / len(charts)
+    cell = (_WIDTH - 2 * _MARGIN + 0.15) / len(charts)
     for k, chart in enumerate(charts):
         axes = _axes(
             figure,
-            HEAD.left + k * cell + _LEFT,
+            _MARGIN + k * cell + _LEFT,
             top + _ABOVE,
             cell - _LEFT - _NAMES,
             _CHART,
@@ -280,11 +260,11 @@ def _draw_charts(figure: Any, charts: tuple[Chart, ...], top: float) -> None:
 def _draw_bars(figure: Any, bars: tuple[BarChart, ...], top: float) -> None:
     if not bars:
         return
-    cell = (_WIDTH - 2 * HEAD.left) / len(bars)
+    cell = (_WIDTH - 2 * _MARGIN) / len(bars)
     for k, chart in enumerate(bars):
         axes = _axes(
             figure,
-            HEAD.left + k * cell + _GROUPS,
+            _MARGIN + k * cell + _GROUPS,
             top + _ABOVE,
             cell - _GROUPS - _RIGHT,
             _ROW * chart.height(ROW, BETWEEN),

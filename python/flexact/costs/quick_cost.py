@@ -20,6 +20,7 @@ from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
 from .elastic_design import MISMATCH, Choice, ElasticDesign, Level, has_stiffness
+from .request import SHIFT
 from .resolve import Places
 from .tolerances import extrapolated, tolerances_of
 from .words import costs, costs_nothing, off
@@ -32,8 +33,6 @@ _MOST_LOOKED_AT = 16_000
 _MOST_NEAR = 6
 #: The error that is told where that is too much [m, rad].
 _SMALL = 1.0e-6
-#: The shift of the first frequency, as `flexact cost` has it.
-_SHIFT = -0.05
 
 
 def with_quick_cost(words: str, result: Result, width: int = USUAL) -> str:
@@ -60,7 +59,7 @@ def quick_cost(result: Result) -> str:
 
 
 class _QuickCost:
-    """One glance in the making."""
+    """What the sentence is made of: the errors of a result that cost something."""
 
     def __init__(self, result: Result) -> None:
         self.result, self.data = result, result.given
@@ -84,8 +83,8 @@ class _QuickCost:
         name = FREQUENCY if mechanism.has_masses else STIFFNESS
         found = self._tightest(mechanism, order)
         if found is None:
-            return f"{costs_nothing(name, _SHIFT, self.size)}. {self._more()}"
-        return f"{costs(found, name, _SHIFT, True)}{self._behind(mechanism, found)}. {self._more()}"
+            return f"{costs_nothing(name, SHIFT, self.size)}. {self._more()}"
+        return f"{costs(found, name, SHIFT, True)}{self._behind(mechanism, found)}. {self._more()}"
 
     def _more(self) -> str:
         if self.data.source is None or not self.result.name:
@@ -116,7 +115,7 @@ class _QuickCost:
         With the coarser division all but those that are about as tight are ruled out.
         """
         coarse = mechanism.levels[0]
-        square = coarse.first_square * (1.0 + _SHIFT) ** 2
+        square = coarse.first_square * (1.0 + SHIFT) ** 2
         stresses, lengths = coarse.stresses(order), self._lengths(order)
         able: BoolArray = np.asarray(np.isfinite(stresses).all(axis=(0, 1)))
         stresses = np.asfortranarray(stresses[:, :, able])
@@ -128,14 +127,14 @@ class _QuickCost:
         chosen = sorted(near.values(), key=self.errors.index)[:_MOST_NEAR]
         if len(chosen) > 1:
             chosen = [self._tighter(mechanism, chosen)]
-        made = tolerances_of(mechanism, chosen, _SHIFT, self.size, lambda _done: None)
+        made = tolerances_of(mechanism, chosen, SHIFT, self.size, lambda _done: None)
         return smallest(made, self.size, lambda each: each.tightest)
 
     def _tighter(self, mechanism: ElasticDesign, chosen: list[Misalignment]) -> Misalignment:
         """The one of several with which less is enough, with both divisions."""
         found = []
         for level in mechanism.levels:
-            square = level.first_square * (1.0 + _SHIFT) ** 2
+            square = level.first_square * (1.0 + SHIFT) ** 2
             found.append(level.errors(np.asfortranarray(level.stresses(chosen)), square))
         least = np.abs(extrapolated(found).value).min(axis=1) * self._lengths(chosen)
         return chosen[int(np.argmin([float(f"{value:.5g}") for value in least]))]

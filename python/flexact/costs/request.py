@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from ..model.deformations import is_word
 from ..util.errors import FlexactError
@@ -42,16 +42,10 @@ class RequestError(FlexactError, ValueError):
         return type(self), self.messages
 
 
-class PointText(NamedTuple):
-    """A point by its number, or by its name."""
-
-    text: str
-
-    @property
-    def target(self) -> int | str:
-        """As a number where it is one."""
-        text = self.text.strip()
-        return int(text) if re.fullmatch(r"\d{1,9}", text) else text
+def _target(text: str) -> int | str:
+    """A point or element as it is written: its number, or its name."""
+    text = text.strip()
+    return int(text) if re.fullmatch(r"\d{1,9}", text) else text
 
 
 class StrokeRequest(NamedTuple):
@@ -109,7 +103,8 @@ def release_of(text: str) -> ReleaseRequest:
     if text.strip() == NONE:
         return {}
     made: ReleaseRequest = {}
-    for part in _parts(text):
+    # Between plus signs, but not those of exponents, such as in 1e+3.
+    for part in re.split(r"(?<![eE])\+", text):
         found = _RELEASE.fullmatch(part)
         which = "" if found is None else found["which"]
         if found is None or not (which.isdigit() or is_word(which)):
@@ -118,31 +113,20 @@ def release_of(text: str) -> ReleaseRequest:
                 "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
                 f"1:5+2:5; not {in_short(text)}"
             )
-        part_of = PointText(found["part"]).target
+        part_of = _target(found["part"])
         one = part_of, int(which) if which.isdigit() else which
-        at = () if found["at"] is None else (PointText(found["at"]).target,)
-        made[(*one, *at)] = _notch(found["notch"])
+        at = () if found["at"] is None else (_target(found["at"]),)
+        try:
+            notch = 0.0 if found["notch"] is None else quantity(found["notch"], NOTCH)
+        except QuantityError:
+            notch = -1.0
+        if not notch >= 0.0:
+            raise RequestError(
+                "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
+                f"not {in_short(found['notch'].strip())}"
+            )
+        made[(*one, *at)] = notch
     return made
-
-
-def _parts(text: str) -> list[str]:
-    """Between plus signs, but not those of exponents, such as in 1e+3."""
-    return re.split(r"(?<![eE])\+", text)
-
-
-def _notch(text: str | None) -> float:
-    if text is None:
-        return 0.0
-    try:
-        value = quantity(text, NOTCH)
-    except QuantityError:
-        value = -1.0
-    if not value >= 0.0:
-        raise RequestError(
-            "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
-            f"not {in_short(text.strip())}"
-        )
-    return value
 
 
 def stroke_of(text: str) -> StrokeRequest:
@@ -166,7 +150,7 @@ def stroke_of(text: str) -> StrokeRequest:
     first, last = _quantity(start, unit), _quantity(stop, unit)
     if first == last:
         raise RequestError(f"the stroke {in_short(text)} ends where it begins")
-    point = PointText(found["point"]).target
+    point = _target(found["point"])
     return StrokeRequest(point, name, first, last, bool(found["by"]) or dots == "+-")
 
 
@@ -187,10 +171,10 @@ def misalignment_of(text: str) -> MisalignmentRequest:
     if about and unit == "m":
         raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
     return MisalignmentRequest(
-        PointText(found["point"]).target,
+        _target(found["point"]),
         name,
         _quantity(value, unit),
-        PointText(about).target if about else None,
+        _target(about) if about else None,
     )
 
 
@@ -208,12 +192,12 @@ def _coordinate(name: str) -> tuple[str, str]:
 
 
 HELD, DRIVE, AUTO = ("elastic", "rigid"), ("free", "locked"), "auto"
+#: The shift of the first frequency by default.
+SHIFT = -0.05
 #: Places along a stroke by default, and at most.
 POINTS, _MOST_POINTS = 21, 2001
 #: Beams a sheet at most.
 _MOST_BEAMS = 1000
-
-Made = TypeVar("Made")
 
 
 @dataclass(frozen=True)
@@ -234,33 +218,33 @@ class Request:
         beyond: Whether strokes and misalignments may be larger than the model.
     """
 
-    at: object = None
-    release: tuple[ReleaseRequest, ...] | None = None
-    stroke: StrokeRequest | None = None
-    misalign: tuple[MisalignmentRequest, ...] = ()
-    shift: float = -0.05
-    held: str = HELD[0]
-    drive: str = DRIVE[0]
-    beams: int | str = AUTO
-    points: int = POINTS
-    bodies: bool = False
-    beyond: bool = False
+    at: object
+    release: tuple[ReleaseRequest, ...] | None
+    stroke: StrokeRequest | None
+    misalign: tuple[MisalignmentRequest, ...]
+    shift: float
+    held: str
+    drive: str
+    beams: int | str
+    points: int
+    bodies: bool
+    beyond: bool
 
     @classmethod
     def of(
         cls,
         *,
         at: object,
-        release: object,
-        stroke: object,
-        misalign: object,
-        shift: object,
-        held: object,
-        drive: object,
-        beams: object,
-        points: object,
-        bodies: object = False,
-        beyond: object = False,
+        release: Iterable[object] | None,
+        stroke: str | Sequence[object] | None,
+        misalign: Iterable[object],
+        shift: float | str,
+        held: str,
+        drive: str,
+        beams: int | str,
+        points: int,
+        bodies: bool,
+        beyond: bool,
     ) -> Request:
         """From arguments as users give them.
 
@@ -269,35 +253,31 @@ class Request:
         """
         wrong: list[str] = []
 
-        def tried(make: Callable[[], Made], default: Made) -> Made:
+        def tried(make: Callable[..., Any], *given: object) -> Any:
             try:
-                return make()
+                return make(*given)
             except (TypeError, ValueError) as error:
                 wrong.append(str(error))
-                return default
+                return None
 
         made = cls(
             at,
-            tried(lambda: None if release is None else _releases(release), None),
-            tried(lambda: None if stroke is None else _stroke(stroke), None),
-            tried(lambda: _misalignments(misalign), ()),
-            tried(lambda: shift_of(shift), -0.05),  # type: ignore[arg-type]
-            tried(lambda: _one_of("held", held, HELD), ""),
-            tried(lambda: _one_of("drive", drive, DRIVE), ""),
-            tried(lambda: _beams(beams), _AUTO),
-            tried(lambda: _whole("the number of places along a stroke", points, _MOST_POINTS), 2),
-            tried(lambda: _flag("bodies", bodies), False),
-            tried(lambda: _flag("beyond", beyond), False),
+            None if release is None else tried(_releases, release),
+            None if stroke is None else tried(_stroke, stroke),
+            tried(_misalignments, misalign),
+            tried(shift_of, shift),
+            tried(_one_of, "held", held, HELD),
+            tried(_one_of, "drive", drive, DRIVE),
+            tried(_beams, beams),
+            tried(_whole, "the number of places along a stroke", points, _MOST_POINTS),
+            tried(_flag, "bodies", bodies),
+            tried(_flag, "beyond", beyond),
         )
-        if made.points < 2 and not wrong:
+        if not wrong and made.points < 2:
             wrong.append("a stroke has 2 places at least")
         if wrong:
             raise RequestError(*wrong)
         return made
-
-
-#: Of its type a number or a word.
-_AUTO: int | str = AUTO
 
 
 def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:
@@ -400,7 +380,7 @@ def _stroke(given: object) -> StrokeRequest:
 
 
 def _named(name: object) -> str:
-    return _one_of("a coordinate", name, ("x", "y", "z", "rx", "ry", "rz"))
+    return _one_of("a coordinate", name, _NAMES)
 
 
 def _measured(given: object, coordinate: str) -> float:

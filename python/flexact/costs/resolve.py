@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ..analysis.locate import node_of
@@ -203,7 +201,13 @@ def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float]
             if not asked.beyond:
                 words = f"the misalignment of {clamp.words} {words_of_direction(each.coordinate)}"
                 _require_within(each.value, places.size, each.coordinate, words)
-            about = None if each.about is None else _pivot(places, each.about)
+            about = None
+            if each.about is not None:
+                pivot = places.parts.place_of(places.node(each.about))
+                if pivot is None:
+                    words = f"node {each.about} is an orientation without a position"
+                    raise model_error("no-such-node", words)
+                about = places.numbers[pivot]
             misalignment = Misalignment(clamp, each.coordinate, about)
             if any(misalignment == before for before, _ in made):
                 words = f"{each.coordinate} of node {clamp.node} is misaligned twice"
@@ -211,17 +215,13 @@ def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float]
             made.append((misalignment, each.value))
         except ModelError as error:
             wrong.append(error)
+    if len(wrong) == 1:
+        raise wrong[0]
     if wrong:
-        raise _together(wrong)
+        first = [error.diagnostics[0] for error in wrong]
+        words = "; ".join(f"{e.message}{f' ({e.help})' if e.help else ''}" for e in first)
+        raise model_error(first[0].code, words)
     return tuple(made)
-
-
-def _pivot(places: Places, target: object) -> int:
-    node = places.parts.place_of(places.node(target))
-    if node is None:
-        raise model_error("no-such-node", f"node {target} is an orientation without a position")
-    number: int = places.numbers[node]
-    return number
 
 
 def stroke_of(places: Places, asked: Request) -> StrokePoints | None:
@@ -243,7 +243,9 @@ def stroke_of(places: Places, asked: Request) -> StrokePoints | None:
             f"{wish.coordinate} of node {places.numbers[node]} is fixed and cannot be driven",
             "a clamp is moved with --misalign (misalign=)",
         )
-    rest = _rest(data, node, axis)
+    # Rotations begin at zero.
+    turns = data.arrays.node_kind[node] > NodeKind.POSITION
+    rest = 0.0 if turns else float(data.arrays.node_value[axis, node])
     offset = rest if wish.is_offset else 0.0
     # An angle may be of any number of turns.
     is_any = asked.beyond or wish.coordinate.startswith("r")
@@ -292,18 +294,3 @@ def _names(data: ModelData, node: int) -> tuple[str, ...]:
         for axis in range(3)
         if data.arrays.coordinate_class[axis, node] != Class.NONE
     )
-
-
-def _rest(data: ModelData, node: int, axis: int) -> float:
-    """Where a coordinate is in the deck [m, rad]: rotations begin at zero."""
-    if data.arrays.node_kind[node] > NodeKind.POSITION:
-        return 0.0
-    return float(data.arrays.node_value[axis, node])
-
-
-def _together(wrong: Sequence[ModelError]) -> ModelError:
-    if len(wrong) == 1:
-        return wrong[0]
-    first = [error.diagnostics[0] for error in wrong]
-    words = "; ".join(f"{e.message}{f' ({e.help})' if e.help else ''}" for e in first)
-    return model_error(first[0].code, words)

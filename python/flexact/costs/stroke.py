@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..elasticity import Elastic, State, StrokeError
-from .designs import Numbers, StrokeCurve
+from .designs import Numbers, StrokeCurve, stacked
 from .elastic_design import Measures, drives_of, numbers, over_levels
 
 
@@ -96,26 +96,37 @@ def curve_of(
     for k, state in enumerate(reached.states):
         rows.append(_row(measures, rest, state, drive, is_locked))
         progress((k + 1) / len(reached.states))
-    together = [_stacked([row[k] for row in rows]) for k in range(4)]
-    stiffness, kept, own, force = together
+    stiffness, kept, own, force, *hertz = (stacked(each) for each in zip(*rows, strict=True))
     if is_locked:
-        own = _slopes(reached.values, force)
+        # How the force changes with the value, where the drive is held.
+        slope = np.zeros_like(force.value)
+        if reached.values.size > 1:
+            slope = np.gradient(force.value[:, 0], reached.values)[:, None]
+        own = Numbers(slope, np.zeros_like(slope))
     frequencies = parasitic = None
-    if measures.has_masses:
-        frequencies = _stacked([row[4] for row in rows])
-        drives = [_drives(measures, state, is_locked) for state in reached.states]
-        parasitic = _without(frequencies, drives)
-        if not frequencies.value.size:
-            frequencies = parasitic = None
+    if hertz and hertz[0].value.size:
+        frequencies = hertz[0]
+        others = []
+        for k, state in enumerate(reached.states):
+            count = len(state.alone[-1].frequencies)
+            is_drive = (False,) * count if is_locked else drives_of(measures, state, count)
+            left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
+            others.append(Numbers(frequencies.value[k, left], frequencies.uncertainty[k, left]))
+        parasitic = stacked(others)
+    # With masses it is known from the frequencies whether a stiffness is negative.
+    is_stable = [
+        state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
+        for state in reached.states
+    ]
     return StrokeCurve(
         reached.values,
         stiffness,
-        Numbers(kept.value[:, 0], kept.uncertainty[:, 0]),
-        Numbers(own.value[:, 0], own.uncertainty[:, 0]),
-        Numbers(force.value[:, 0], force.uncertainty[:, 0]),
+        kept.column(0),
+        own.column(0),
+        force.column(0),
         frequencies,
         parasitic,
-        tuple(_is_stable(measures, state) for state in reached.states),
+        tuple(is_stable),
         tuple(state.under_constrained for state in reached.states),
         tuple(state.over_constrained for state in reached.states),
     )
@@ -125,59 +136,23 @@ def _row(
     measures: Measures, rest: State, state: State, drive: tuple[int, str], is_locked: bool
 ) -> list[Numbers]:
     """Stiffness, what is kept of it in the worst direction, of the drive, force, frequencies."""
+
+    def own(one: State) -> FloatArray:
+        """(1,) stiffness of the driven coordinate itself; infinite where it is held."""
+        if is_locked:
+            return np.zeros(1)
+        node, name = drive
+        points = one.model.points
+        names = [points.name(each) for each in points.coordinates(points.of(node))]
+        value = one.compliance(node)[(names.index(name),) * 2]
+        return np.array([1.0 / value if value != 0.0 else np.inf])
+
     made = [
-        numbers(over_levels(measures.stiffness, state)),
-        numbers(over_levels(measures.worst, rest, state)),
-        numbers(over_levels(lambda one: _own(one, drive, is_locked), state)),
-        numbers(over_levels(lambda one: np.atleast_1d(one.force), state)),
+        over_levels(measures.stiffness, state),
+        over_levels(measures.worst, rest, state),
+        over_levels(own, state),
+        over_levels(lambda one: np.atleast_1d(one.force), state),
     ]
     if measures.has_masses:
-        made.append(numbers(over_levels(measures.frequencies, state)))
-    return made
-
-
-def _own(state: State, drive: tuple[int, str], is_locked: bool) -> FloatArray:
-    """(1,) stiffness of the driven coordinate itself; infinite where it is held."""
-    if is_locked:
-        return np.zeros(1)
-    node, name = drive
-    points = state.model.points
-    names = [points.name(each) for each in points.coordinates(points.of(node))]
-    value = state.compliance(node)[(names.index(name),) * 2]
-    return np.array([1.0 / value if value != 0.0 else np.inf])
-
-
-def _is_stable(measures: Measures, state: State) -> bool:
-    """Whether no stiffness is negative; with masses known from the frequencies."""
-    return state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
-
-
-def _drives(measures: Measures, state: State, is_locked: bool) -> tuple[bool, ...]:
-    count = len(state.alone[-1].frequencies)
-    return (False,) * count if is_locked else drives_of(measures, state, count)
-
-
-def _stacked(rows: list[Numbers]) -> Numbers:
-    """(n, k) of rows, of which the shortest says how many there are."""
-    count = min(row.value.size for row in rows)
-    return Numbers(
-        np.array([row.value[:count] for row in rows]),
-        np.array([row.uncertainty[:count] for row in rows]),
-    )
-
-
-def _without(frequencies: Numbers, drives: list[tuple[bool, ...]]) -> Numbers:
-    """(n, p) frequencies without those of the drive."""
-    rows = []
-    for k, is_drive in enumerate(drives):
-        left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
-        rows.append(Numbers(frequencies.value[k, left], frequencies.uncertainty[k, left]))
-    return _stacked(rows)
-
-
-def _slopes(values: FloatArray, force: Numbers) -> Numbers:
-    """(n, 1) change of the force with the value, where the drive is held."""
-    if values.size < 2:
-        return Numbers(np.zeros_like(force.value), np.zeros_like(force.value))
-    slope = np.gradient(force.value[:, 0], values)[:, None]
-    return Numbers(slope, np.zeros_like(slope))
+        made.append(over_levels(measures.frequencies, state))
+    return [numbers(each) for each in made]

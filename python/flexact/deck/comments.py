@@ -7,8 +7,9 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from ..core.elements import element_kinds
-from .diagnostics import Source, decode
+from .diagnostics import Source
+from .keywords import Block
+from .tokens import Line, tokens_of
 
 #: Statements by what they are written as again, and the number of their node or element.
 Key = tuple[str, int]
@@ -17,27 +18,31 @@ Key = tuple[str, int]
 ELEMENT = "element"
 #: Which has no number.
 GRAVITY = "GRAVITY"
-_KINEMATICS, _DYNAMICS, _BEHIND, _PICTURE = range(4)
-#: What a statement is written as again, by block.
-_WRITTEN_AS: dict[int, dict[str, str]] = {
-    _KINEMATICS: {
-        **{word: word for word in ("X", "FIX", "DYNX", "RLSE", "DYNE")},
-        "INPUTX": "DYNX",
-        "INPUTE": "DYNE",
-    },
-    _DYNAMICS: {
-        **{word: word for word in ("ESTIFF", "EM", "XM", "XF", "DELXF", GRAVITY)},
-        "EMASS": "EM",
-        "MASS": "XM",
-        "FORCE": "XF",
-    },
+#: What a statement is written as again, by block and keyword.
+_WRITTEN_AS = {
+    **{(Block.KINEMATICS, word): word for word in ("X", "FIX", "DYNX", "RLSE", "DYNE")},
+    (Block.KINEMATICS, "INPUTX"): "DYNX",
+    (Block.KINEMATICS, "INPUTE"): "DYNE",
+    **{(Block.DYNAMICS, word): word for word in ("ESTIFF", "EM", "XM", "XF", "DELXF", GRAVITY)},
+    (Block.DYNAMICS, "EMASS"): "EM",
+    (Block.DYNAMICS, "MASS"): "XM",
+    (Block.DYNAMICS, "FORCE"): "XF",
 }
 #: Whose comments are names, which are data of the model.
 _NAMED = (ELEMENT, "X")
-#: Of the largest number of a node or an element.
-_MOST_DIGITS = 10
-_MARK = re.compile(r"[%#]")
-_MARK_OF_PICTURES = re.compile(r"[%#;]")
+
+
+def key_of(line: Line) -> Key | None:
+    """The statement that a line is written as again; None where it is not."""
+    owner = line.number_of(1)
+    if line.element is not None:
+        return (ELEMENT, owner) if owner else None
+    if line.keyword is None:
+        return None
+    word = _WRITTEN_AS.get((line.keyword.block, line.keyword.name))
+    if word == GRAVITY:
+        return word, 0
+    return None if word is None or not owner else (word, owner)
 
 
 @dataclass
@@ -75,94 +80,32 @@ def comments_of(source: Source | None) -> DeckComments:
     made = DeckComments()
     if source is None or not re.search(rb"[%#]|^\*", source.text, re.MULTILINE):
         return made
-    reader = _Reader(made)
-    for line in _lines(source.text):
-        reader.read(line.rstrip())
-    reader.finish()
-    return made
-
-
-def _lines(text: bytes) -> list[str]:
-    try:
-        return text.decode("utf-8").split("\n")
-    except UnicodeDecodeError:
-        return [decode(line) for line in text.split(b"\n")]
-
-
-class _Reader:
-    """Goes through the lines of a deck as the core does, and keeps what it passes over."""
-
-    def __init__(self, made: DeckComments) -> None:
-        self.made = made
-        self.block = _KINEMATICS
-        self.has_begun = False
-        #: Lines since the last statement that is written again.
-        self.waiting: list[str] = []
-        kinds = element_kinds()
-        self.elements = {word for kind in kinds for word in (kind.keyword, kind.synonym) if word}
-        # Read as beams, and written as such.
-        self.elements.add("BEAMW")
-
-    def read(self, line: str) -> None:
-        """Take the next line."""
-        body, comment = self._parts(line)
-        words = body.split(None, 2)
-        if words:
-            self._statement(words[0].upper(), words[1] if len(words) > 1 else "", comment)
-        elif comment:
-            lines = self.waiting if self.has_begun else self.made.top
+    #: Lines since the last statement that is written again.
+    waiting: list[str] = []
+    has_begun = False
+    block = Block.KINEMATICS
+    for line in tokens_of(source):
+        comment = line.text[line.mark :].rstrip()
+        is_new = line.block is Block.PICTURE is not block
+        if is_new or (line.ends and line.block is not Block.PICTURE):
+            (made.end if block is Block.KINEMATICS else made.rest).extend(waiting)
+            waiting = []
+        block = line.block
+        has_begun = has_begun or bool(line.words)
+        if not line.words and comment:
             # What opens a comment of a picture does so nowhere else.
-            lines.append(_printable(f"% {comment[1:].lstrip()}" if comment[0] == ";" else line))
-
-    def finish(self) -> None:
-        """Take the end of the deck."""
-        self._close()
-
-    def _parts(self, line: str) -> tuple[str, str]:
-        """A line before its comment, and the comment with its mark."""
-        if line.startswith("*"):
-            return "", line
-        pattern = _MARK_OF_PICTURES if self.block == _PICTURE else _MARK
-        mark = pattern.search(line)
-        return (line, "") if mark is None else (line[: mark.start()], line[mark.start() :])
-
-    def _statement(self, keyword: str, number: str, comment: str) -> None:
-        self.has_begun = True
-        if keyword in ("END", "HALT", "VISUALIZATION"):
-            self._next_block(keyword)
-            return
-        written = _WRITTEN_AS.get(self.block, {}).get(keyword)
-        if self.block == _KINEMATICS and keyword in self.elements:
-            written = ELEMENT
-        # Python makes no number of thousands of digits, even of zeros.
-        digits = "0" if written == GRAVITY else number.removeprefix("+").lstrip("0")
-        if written is None or not digits.isdecimal() or len(digits) > _MOST_DIGITS:
-            return
-        key = written, int(digits)
-        if self.waiting:
-            self.made.before.setdefault(key, []).extend(self.waiting)
-            self.waiting = []
-        if comment and written not in _NAMED and (words := _words_of(comment)):
-            self.made.behind.setdefault(key, []).append(words)
-
-    def _next_block(self, word: str) -> None:
-        if self.block == _PICTURE:
-            return
-        self._close()
-        if word == "VISUALIZATION":
-            self.block = _PICTURE
-        elif word == "END":
-            self.block = _DYNAMICS if self.block == _KINEMATICS else _BEHIND
-
-    def _close(self) -> None:
-        lines = self.made.end if self.block == _KINEMATICS else self.made.rest
-        lines.extend(self.waiting)
-        self.waiting = []
-
-
-def _words_of(comment: str) -> str:
-    """A comment without its mark, as it reads again."""
-    return _printable(comment).lstrip("%# ")
+            text = f"% {comment[1:].lstrip()}" if comment[0] == ";" else line.text
+            (waiting if has_begun else made.top).append(_printable(text))
+        key = key_of(line)
+        if key is None:
+            continue
+        if waiting:
+            made.before.setdefault(key, []).extend(waiting)
+            waiting = []
+        if key[0] not in _NAMED and (words := _printable(comment).lstrip("%# ")):
+            made.behind.setdefault(key, []).append(words)
+    (made.end if block is Block.KINEMATICS else made.rest).extend(waiting)
+    return made
 
 
 def _printable(text: str) -> str:

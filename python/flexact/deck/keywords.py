@@ -12,8 +12,8 @@ from itertools import groupby
 from typing import NamedTuple
 
 from ..core.calls import names_of
-from ..core.elements import NodeKind, Vector, element_kinds
-from ..core.raw import ElementKind
+from ..core.elements import Member, NodeKind, Vector, element_kinds
+from ..core.raw import ElementKind, Meaning
 
 
 class Block(IntEnum):
@@ -226,19 +226,6 @@ ENDINGS = {
     "of the file stands for any that is missing",
     "HALT": "may follow an `END`; behind the second one it opens the in/out block",
 }
-#: What elements are; their deformations stand in the core's table.
-ELEMENTS = {
-    "TRUSS": "a bar, which only a normal force strains",
-    "BEAM": "a flexible beam in space: a wire, a sheet, or what is rigid where nothing is released",
-    "RBEAM": "a rigid arm: it holds q to the body that turns with p",
-    "PINBODY": "a point of a rigid body, which turns with p; q may be where p is",
-    "HINGE": "a hinge between two orientations",
-    "PLTRUSS": "a bar in the xy plane",
-    "PLBEAM": "a flexible beam in the xy plane",
-    "PLRBEAM": "a rigid arm in the xy plane",
-    "PLHINGE": "a hinge in the xy plane",
-    "BEARING": "a bearing: how a body moves against another, in the frame of an axis",
-}
 SLOTS = ("p", "op", "q", "oq")
 _VECTORS = {
     Vector.NONE: (),
@@ -273,68 +260,26 @@ def form_of(kind: ElementKind, word: str = "") -> str:
     return " ".join(part for part in (word or kind.keyword, *nodes, optional) if part)
 
 
-class Quantity(NamedTuple):
-    """What a number stands for."""
-
-    name: str
-    unit: str = ""
-
-    def __str__(self) -> str:
-        """Such as "EA (N)"."""
-        return f"{self.name} ({self.unit})" if self.unit else self.name
-
-
-def _all(names: str, unit: str) -> tuple[Quantity, ...]:
-    return tuple(Quantity(name, unit) for name in names.split(", "))
+def _all(names: str, unit: str) -> tuple[Meaning, ...]:
+    return tuple(Meaning(name, unit) for name in names.split(", "))
 
 
 _AXES = _all("x, y, z", "m")
-_EULER = tuple(Quantity(f"Euler parameter {i}") for i in range(4))
-_BEAM_MASS = (Quantity("mass per length", "kg/m"), *_all("Jxx, Jyy, Jzz, Jyz", "kg m"))
-_BAR_MASS = _BEAM_MASS[:1]
-#: By keyword of the element; what is not here has no stiffness.
-STIFFNESS: dict[str, tuple[Quantity, ...]] = {
-    "BEAM": (
-        Quantity("EA", "N"),
-        *_all("G It, E Iy, E Iz", "N m^2"),
-        *_all("shear E Iy/(G A k), shear E Iz/(G A k)", "m^2"),
-    ),
-    "PLBEAM": (Quantity("EA", "N"), Quantity("EI", "N m^2"), Quantity("shear EI/(G A k)", "m^2")),
-    "TRUSS": (Quantity("EA", "N"),),
-    "PLTRUSS": (Quantity("EA", "N"),),
-    "HINGE": _all(
-        "stiffness about its axis, stiffness of its first tilt, stiffness of its second tilt",
-        "N m/rad",
-    ),
-    "PLHINGE": _all("stiffness about its axis", "N m/rad"),
-    "BEARING": (
-        *_all("stiffness along x, stiffness along y, stiffness along z", "N/m"),
-        *_all(
-            "stiffness about its axis, stiffness of its first tilt, stiffness of its second tilt",
-            "N m/rad",
-        ),
-    ),
-}
-#: Likewise; what is not here has no mass.
-MASS: dict[str, tuple[Quantity, ...]] = {
-    **dict.fromkeys(("BEAM", "RBEAM", "PINBODY"), _BEAM_MASS),
-    **dict.fromkeys(("PLBEAM", "PLRBEAM"), (_BEAM_MASS[0], Quantity("moment of inertia", "kg m"))),
-    **dict.fromkeys(("TRUSS", "PLTRUSS"), _BAR_MASS),
-}
+_EULER = tuple(Meaning(f"Euler parameter {i}") for i in range(4))
 #: By the kind of node.
-NODE_MASS: dict[int, tuple[Quantity, ...]] = {
-    NodeKind.POSITION: (Quantity("mass", "kg"),),
-    NodeKind.PLANAR_POSITION: (Quantity("mass", "kg"),),
+NODE_MASS: dict[int, tuple[Meaning, ...]] = {
+    NodeKind.POSITION: (Meaning("mass", "kg"),),
+    NodeKind.PLANAR_POSITION: (Meaning("mass", "kg"),),
     NodeKind.ORIENTATION: _all("Jxx, Jxy, Jxz, Jyy, Jyz, Jzz", "kg m^2"),
     NodeKind.ANGLE: _all("J", "kg m^2"),
 }
-VALUE: dict[int, tuple[Quantity, ...]] = {
+VALUE: dict[int, tuple[Meaning, ...]] = {
     NodeKind.POSITION: _AXES,
     NodeKind.PLANAR_POSITION: _AXES[:2],
     NodeKind.ORIENTATION: _EULER,
     NodeKind.ANGLE: _all("angle", "rad"),
 }
-LOAD: dict[int, tuple[Quantity, ...]] = {
+LOAD: dict[int, tuple[Meaning, ...]] = {
     NodeKind.POSITION: _all("Fx, Fy, Fz", "N"),
     NodeKind.PLANAR_POSITION: _all("Fx, Fy", "N"),
     NodeKind.ORIENTATION: _all("Mx, My, Mz", "N m"),
@@ -343,13 +288,12 @@ LOAD: dict[int, tuple[Quantity, ...]] = {
 GRAVITY = _all("gx, gy, gz", "m/s^2")
 
 
-def of_element(keyword: str, kind: ElementKind) -> tuple[Quantity, ...]:
+def of_element(keyword: str, kind: ElementKind) -> tuple[Meaning, ...]:
     """The numbers behind the element of ESTIFF, EM or EMASS; none where they mean nothing."""
-    table = STIFFNESS if keyword == "ESTIFF" else MASS if keyword in ("EM", "EMASS") else {}
-    return table.get(kind.keyword, ())
+    return {"ESTIFF": kind.stiffness, "EM": kind.mass, "EMASS": kind.mass}.get(keyword, ())
 
 
-def of_node(keyword: str, kind: int) -> tuple[Quantity, ...]:
+def of_node(keyword: str, kind: int) -> tuple[Meaning, ...]:
     """Those behind the node of X, XM, MASS, XF, FORCE or DELXF, by the kind of the node."""
     if keyword == "X":
         return VALUE[kind]
@@ -358,13 +302,13 @@ def of_node(keyword: str, kind: int) -> tuple[Quantity, ...]:
     return LOAD[kind] if keyword in ("XF", "FORCE", "DELXF") else ()
 
 
-def listed(quantities: tuple[Quantity, ...]) -> str:
+def listed(quantities: tuple[Meaning, ...]) -> str:
     """Such as "EA (N), G It, E Iy (N m^2)": each unit behind the last that has it."""
     runs = (
         (unit, ", ".join(one.name for one in run))
         for unit, run in groupby(quantities, key=lambda one: one.unit)
     )
-    return ", ".join(str(Quantity(names, unit)) for unit, names in runs)
+    return ", ".join(str(Meaning(names, unit)) for unit, names in runs)
 
 
 def properties_in_words(keyword: str) -> str:
@@ -376,10 +320,11 @@ def properties_in_words(keyword: str) -> str:
             f"of a position its {listed(mass)}; of an orientation {listed(inertia)}, of a planar "
             f"one {listed(planar)}"
         )
-    table = STIFFNESS if keyword == "ESTIFF" else MASS
-    owners: dict[tuple[Quantity, ...], list[str]] = {}
-    for element, numbers in table.items():
-        owners.setdefault(numbers, []).append(f"`{element}`")
+    owners: dict[tuple[Meaning, ...], list[str]] = {}
+    for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE):
+        for kind in element_kinds():
+            if kind.member == member and (numbers := of_element(keyword, kind)):
+                owners.setdefault(numbers, []).append(f"`{kind.keyword}`")
     return "; ".join(
         f"of a {' or '.join((', '.join(names[:-1]), names[-1]) if names[1:] else names)} "
         f"{listed(numbers)}"

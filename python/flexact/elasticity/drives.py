@@ -141,19 +141,6 @@ _WHY = {
 }
 
 
-def built(solver: Solver, off: Sequence[Imperfection]) -> Waypoint:
-    """Where the supports are and what is off of the pieces, without loads."""
-    own = solver.mesh.own
-    target = solver.at_rest.configuration.copy(order="F")
-    mine = target[:, : solver.mesh.nodes]
-    misfit = np.zeros((6, own.arrays.element_number.size))
-    for each in off:
-        mine = each.moved_to(mine, own)
-        misfit += each.value * each.misfit
-    target[:, : solver.mesh.nodes] = mine
-    return solver.nothing._replace(target=target, misfit=solver.mesh.misfit(misfit))
-
-
 def at_rest(solver: Solver, held: Held) -> Solution:
     """The undeformed state."""
     return Solution(solver, solver.at_rest, solver.nothing, held)
@@ -167,7 +154,14 @@ def assembled(solver: Solver, off: Sequence[Imperfection], held: Held) -> Soluti
     """
     if not off:
         return at_rest(solver, held)
-    way = built(solver, off)
+    # Where the supports are and what is off of the pieces, without loads.
+    own, many = solver.mesh.own, solver.mesh.nodes
+    target = solver.at_rest.configuration.copy(order="F")
+    misfit = np.zeros((6, own.arrays.element_number.size))
+    for each in off:
+        target[:, :many] = each.moved_to(target[:, :many], own)
+        misfit += each.value * each.misfit
+    way = solver.nothing._replace(target=target, misfit=solver.mesh.misfit(misfit))
     found = _go(solver, held, solver.at_rest, solver.nothing, way)
     if found.status != DONE:
         size = off[0].value if len(off) == 1 else 1.0

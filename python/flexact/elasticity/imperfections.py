@@ -17,7 +17,7 @@ from ..util.records import Frozen
 from ..util.rotations import about, turned
 from ..util.text import in_short
 from .errors import ElasticError, require_within
-from .points import Coordinate, Points
+from .points import Points
 
 
 class Angle(float):
@@ -159,14 +159,22 @@ def misalignment(
     data = points.data
     is_turn = data.arrays.node_kind[coordinate.node] > NodeKind.POSITION
     size = number_given(without_units(value, "rad" if is_turn else "m"), "a misalignment")
+    # The clamp has the number that was given for it.
+    words = f"{points.name(coordinate)} of clamp {points.number(points.node(node))}"
     if not beyond:
-        what = f"the misalignment {_words(points, coordinate, node)}"
-        require_within(size, data.size, bool(is_turn), what)
+        require_within(size, data.size, bool(is_turn), f"the misalignment {words}")
     point = points.of(node)
-    nodes = _turned_nodes(points, node) if is_turn else [point.position]
-    if is_turn and point.position >= 0:
-        nodes.append(point.position)
     fixed = (data.arrays.coordinate_class == Class.FIXED).astype(np.float64)
+    nodes = [point.position]
+    if is_turn:
+        # Orientations that turn with the clamp: of a position all that are held there.
+        index = points.node(node)
+        nodes = [index]
+        if points.kinds[index] <= NodeKind.POSITION:
+            every = points.turned_at(index)
+            nodes = [each for each in every if fixed[:, each].any()] or every[:1]
+        if point.position >= 0:
+            nodes.append(point.position)
     moved = np.zeros_like(fixed)
     moved[:, nodes] = fixed[:, nodes]
     centre = np.zeros(3)
@@ -178,7 +186,7 @@ def misalignment(
     elif about is not None:
         raise ElasticError("only a turn is about a point: leave out `about` of a displacement")
     made = replace(
-        _none(data, _words(points, coordinate, node), size),
+        _none(data, words, size),
         axis=coordinate.axis,
         is_turn=bool(is_turn),
         centre=centre,
@@ -191,21 +199,6 @@ def misalignment(
             f"the deck fixes (FIX); drive a declared one with along()"
         )
     return made
-
-
-def _turned_nodes(points: Points, node: object) -> list[int]:
-    """Orientations that turn with a clamp: of a position all that are held there."""
-    index = points.node(node)
-    if points.kinds[index] > NodeKind.POSITION:
-        return [index]
-    held = (points.data.arrays.coordinate_class == Class.FIXED).any(axis=0)
-    every = points.turned_at(index)
-    return [each for each in every if held[each]] or every[:1]
-
-
-def _words(points: Points, coordinate: Coordinate, node: object) -> str:
-    """With the clamp by the number that was given for it."""
-    return f"{points.name(coordinate)} of clamp {points.number(points.node(node))}"
 
 
 def misfit(

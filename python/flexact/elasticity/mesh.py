@@ -22,6 +22,7 @@ from ..core.elements import (
 )
 from ..model.attributes import Appearance, Properties
 from ..model.data import ModelData
+from ..model.deformations import AT_P, AT_Q
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .errors import ElasticError
@@ -132,24 +133,18 @@ def rigid_of_pieces(
         kinds: (elements,) element kinds.
     """
     made = rigid[:, owner]
-    roles = role_table()[kinds][owner].T
-    for p, q in ((2, 3), (4, 5), (1, 2)):
-        pair = np.isin(roles[p], _AT_P) & np.isin(roles[q], _AT_Q)
-        one = pair & (made[p] != made[q])
+    for p, q, bends in bending_pairs(kinds):
+        one = bends[owner] & (made[p] != made[q])
         made[p] &= ~one | is_first
         made[q] &= ~one | is_last
     return made
-
-
-_AT_P = (Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P)
-_AT_Q = (Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q)
 
 
 def bending_pairs(kinds: IntArray) -> tuple[tuple[int, int, BoolArray], ...]:
     """Deformations p and q, from 0, that bend about one axis, and (elements,) where they do."""
     roles = role_table()[kinds].T
     return tuple(
-        (p, q, np.asarray(np.isin(roles[p], _AT_P) & np.isin(roles[q], _AT_Q)))
+        (p, q, np.asarray(np.isin(roles[p], list(AT_P)) & np.isin(roles[q], list(AT_Q))))
         for p, q in ((2, 3), (4, 5), (1, 2))
     )
 
@@ -281,19 +276,33 @@ def _divided(own: ModelData, pieces: IntArray) -> ModelData:
     split = (pieces > 1) & (a.deformation_class[3] != Class.NONE)
     # Where none is given it may depend on the last digit of a direction.
     vector[:, split] = own.frames.frame[split, :, 1].T
+    free = np.full((3, 2 * new), Class.DEPENDENT, np.int32)
+    if own.planar:
+        free[2, :new] = free[:2, new:] = Class.NONE
+    # The first piece keeps the number of its element.
+    number = a.element_number[owner].astype(np.int32)
+    number[inner] = a.element_number.max(initial=0) + 1 + np.arange(new, dtype=np.int32)
+    node_number = a.node_number.max(initial=0) + 1 + np.arange(2 * new, dtype=np.int32)
     arrays = ModelArrays(
-        node_number=np.concatenate([a.node_number, _free_numbers(a.node_number, 2 * new)]),
+        node_number=np.concatenate([a.node_number, node_number]),
         node_kind=np.concatenate([a.node_kind, [sits] * new, [turns] * new]).astype(np.int32),
         node_value=value,
-        coordinate_class=np.hstack([a.coordinate_class, _free_classes(own.planar, new)]),
-        element_number=_element_numbers(a.element_number, owner, inner),
+        coordinate_class=np.asfortranarray(np.hstack([a.coordinate_class, free])),
+        element_number=number,
         element_kind=a.element_kind[owner],
         element_node=np.asfortranarray(ends, np.int32),
         element_vector=np.asfortranarray(vector[:, owner]),
         deformation_class=np.asfortranarray(a.deformation_class[:, owner]),
     )
-    arrays = arrays._replace(coordinate_class=np.asfortranarray(arrays.coordinate_class))
     names = tuple(own.element_names)
+    look, given = own.given_appearance, own.properties
+    if look is not None:
+        columns = (getattr(look, name)[owner] for name in Appearance.__dataclass_fields__)
+        look = Appearance(*columns)
+    if given is not None:
+        more = np.full((2 * new, given.node_mass.shape[1]), np.nan)
+        node_mass = np.vstack([given.node_mass, more])
+        given = Properties(given.stiffness[owner], given.mass[owner], node_mass)
     return replace(
         own,
         arrays=arrays,
@@ -301,41 +310,8 @@ def _divided(own: ModelData, pieces: IntArray) -> ModelData:
         node_names=(*own.node_names, *("",) * (2 * new)),
         source=None,
         found=own.problems,
-        given_appearance=_appearance(own.given_appearance, owner),
+        given_appearance=look,
         # Of a state the loads of the deck's nodes are what counts.
         loads=None,
-        properties=_properties(own.properties, owner, 2 * new),
+        properties=given,
     )
-
-
-def _free_numbers(taken: IntArray, count: int) -> IntArray:
-    made: IntArray = taken.max(initial=0) + 1 + np.arange(count, dtype=np.int32)
-    return made
-
-
-def _element_numbers(numbers: IntArray, owner: IntArray, inner: IntArray) -> IntArray:
-    """The first piece keeps the number of its element."""
-    made = numbers[owner].astype(np.int32)
-    made[inner] = _free_numbers(numbers, inner.size)
-    return made
-
-
-def _free_classes(planar: bool, new: int) -> IntArray:
-    made = np.full((3, 2 * new), Class.DEPENDENT, np.int32)
-    if planar:
-        made[2, :new] = Class.NONE
-        made[:2, new:] = Class.NONE
-    return made
-
-
-def _appearance(given: Appearance | None, owner: IntArray) -> Appearance | None:
-    if given is None:
-        return None
-    return Appearance(*(getattr(given, name)[owner] for name in Appearance.__dataclass_fields__))
-
-
-def _properties(given: Properties | None, owner: IntArray, new: int) -> Properties | None:
-    if given is None:
-        return None
-    node_mass = np.vstack([given.node_mass, np.full((new, given.node_mass.shape[1]), np.nan)])
-    return Properties(given.stiffness[owner], given.mass[owner], node_mass)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.locate import deformations_of, element_of, elements_of, position_of
+from ..analysis.locate import deformations_of, element_of, elements_of, numbers_listed, position_of
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..model.data import ModelData
@@ -16,9 +16,6 @@ from ..util.quantities import without_units
 from ..util.records import cached_property
 from ..util.text import in_short
 from .errors import UnknownError
-
-#: How many numbers of nodes or elements a message names.
-_MOST = 12
 
 
 class Point(NamedTuple):
@@ -83,7 +80,7 @@ class Points:
             if index is None:
                 raise UnknownError(
                     f"there is no node {in_short(int(given))}: there are "
-                    f"{_listed(self.data.arrays.node_number)}"
+                    f"{numbers_listed(self.data.arrays.node_number)}"
                 )
             return index
         return position_of(self.parts, given)
@@ -170,7 +167,7 @@ class Points:
         if isinstance(number, (int, np.integer)) and int(number) not in self.data.element_index:
             raise UnknownError(
                 f"there is no element {in_short(int(number))}: there are "
-                f"{_listed(self.data.arrays.element_number)}"
+                f"{numbers_listed(self.data.arrays.element_number)}"
             )
         return element_of(self.parts, given)
 
@@ -203,8 +200,3 @@ class Points:
         if isinstance(which, str):
             return deformations_of(self.parts, element, which, at)
         return [self.deformation(element, which)]
-
-
-def _listed(numbers: IntArray) -> str:
-    shown = ", ".join(map(str, sorted(numbers.tolist())[:_MOST]))
-    return f"{shown}, ..." if numbers.size > _MOST else shown

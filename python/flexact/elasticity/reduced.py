@@ -70,7 +70,7 @@ class Reducer:
         arrays, inputs = self.data.arrays, prescribed_in(self.data)
         dynamic = (arrays.coordinate_class == Class.INDEPENDENT) & ~inputs.coordinates
         modes = (arrays.deformation_class == Class.INDEPENDENT) & ~inputs.deformations
-        nodes, elements = self._order(b"X"), self._order(b"E")
+        nodes, elements = self._order("X"), self._order("E")
         places = [
             3 * node + axis
             for node in [*nodes, *(n for n in range(dynamic.shape[1]) if n not in nodes)]
@@ -85,12 +85,12 @@ class Reducer:
         ]
         return np.array(places, np.int32)
 
-    def _order(self, letter: bytes) -> dict[int, None]:
+    def _order(self, letter: str) -> dict[int, None]:
         """Indices of nodes or elements as the deck's statements name them."""
-        index = self.data.node_index if letter == b"X" else self.data.element_index
+        index = self.data.node_index if letter == "X" else self.data.element_index
         return {
             index[number]: None
-            for which, number, _ in class_statements(self.data, b"DYN")
+            for which, number, _ in class_statements(self.data, "DYN")
             if which == letter and number in index
         }
 

@@ -86,6 +86,8 @@ def pattern(
     turned = 360.0 / size if degrees is None else angle(degrees)
     centre = _place(draft, at)
     chosen = _chosen(draft, parts)
+    # Of several mistakes that in the names is said before those in the moves.
+    _renamer(names, 2)
     if size == 1:
         moves = []
     elif step is None:

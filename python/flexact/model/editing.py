@@ -7,25 +7,15 @@ is read again; where it does not say the same as the changed model, the model is
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from ..core.elements import element_kinds
-from ..deck.comments import ELEMENT, DeckComments
+from ..deck.comments import DeckComments, Key, key_of
+from ..deck.keywords import Block
 from ..deck.rendering import DeckError
+from ..deck.tokens import Line, Tokens
 from .data import ModelData
 from .reading import read_bytes
 from .writing import deck_of, dynamics_of, statements_of
-
-#: A statement by its keyword, of elements "element", and its number.
-Key = tuple[str, int]
-#: What keywords are written as.
-_WRITTEN_AS = {
-    **{word: word for word in ("X", "FIX", "DYNX", "RLSE", "DYNE")},
-    **{"INPUTX": "DYNX", "INPUTE": "DYNE"},
-}
-_NUMBER = re.compile(r"\+?0*([1-9]\d{0,9})$")
-_WORD = re.compile(r"\S+")
 
 
 def edited_deck(given: ModelData, changed: ModelData) -> bytes:
@@ -48,14 +38,14 @@ def edited_to_the_letter(given: ModelData, changed: ModelData) -> bytes | None:
     if source is None:
         return None
     old, new = dict(statements_of(given)), dict(statements_of(changed))
-    # Every byte is a character, so that whatever the deck holds stays.
-    lines = source.text.decode("latin-1").split("\n")
     edited = {
         key: new.get(key, "").encode().decode("latin-1")
         for key in dict.fromkeys((*old, *new))
         if old.get(key) != new.get(key)
     }
-    text = "\n".join(_Editor(edited).lines(lines)).encode("latin-1")
+    # Every byte is a character, so that whatever the deck holds stays.
+    lines = _lines(Tokens(source.text.decode("latin-1")), edited)
+    text = "\n".join(lines).encode("latin-1")
     return text if _says(text, changed) else None
 
 
@@ -71,81 +61,50 @@ def _says(text: bytes, wanted: ModelData) -> bool:
     )
 
 
-class _Editor:
-    """Goes through the lines of a deck, and puts statements in the place of others."""
+def _lines(tokens: Tokens, edited: dict[Key, str]) -> Iterable[str]:
+    """The lines of a deck with statements in the place of others.
 
-    def __init__(self, edited: dict[Key, str]) -> None:
-        """Keep the statements that change, empty where one is taken away."""
-        self.edited = edited
-        self.left = dict(edited)
-        kinds = element_kinds()
-        self.elements = {word for kind in kinds for word in (kind.keyword, kind.synonym) if word}
-        self.elements.add("BEAMW")
+    Args:
+        tokens: The deck.
+        edited: The statements that change, empty where one is taken away.
+    """
+    left = dict(edited)
+    kept: list[tuple[str, list[str]]] = []
+    rest: list[str] = []
+    lines = iter(tokens)
+    for line in lines:
+        if line.ends or line.block is Block.PICTURE:
+            rest = [line.text, *(other.text for other in lines)]
+            break
+        key = key_of(line)
+        if key is None or key not in edited:
+            kept.append(("" if key is None else key[0], [line.text]))
+        else:
+            kept.append((key[0], list(_written(line, left.pop(key, "")))))
+    new: dict[str, list[str]] = {}
+    for (keyword, _), statement in left.items():
+        if statement:
+            new.setdefault(keyword, []).append(statement)
+    ending = "\r" if any(line.endswith("\r") for _, some in kept for line in some) else ""
+    last = {keyword: place for place, (keyword, _) in enumerate(kept)}
+    made: list[str] = []
+    # New statements stand behind the last of their keyword.
+    for place, (keyword, some) in enumerate(kept):
+        made += some
+        if keyword in new and last[keyword] == place:
+            made += [statement + ending for statement in new.pop(keyword)]
+    behind = [statement + ending for statements in new.values() for statement in statements]
+    # Behind the last line there is nothing, or the end of the text.
+    is_open = not rest and made and not made[-1]
+    return [*made[:-1], *behind, ""] if is_open else [*made, *behind, *rest]
 
-    def lines(self, given: list[str]) -> list[str]:
-        """The lines of the deck, changed."""
-        kept: list[tuple[str, list[str]]] = []
-        end = None
-        for place, line in enumerate(given):
-            body, comment = _parts(line)
-            words = _WORD.findall(body)
-            if words and words[0].upper() in ("END", "HALT", "VISUALIZATION"):
-                end = place
-                break
-            key = self._key(words)
-            written = [line] if key is None else list(self._written(key, line, comment))
-            kept.append(("" if key is None else key[0], written))
-        rest = [] if end is None else given[end:]
-        return [*self._with_new(kept, bool(rest)), *rest]
 
-    def _key(self, words: list[str]) -> Key | None:
-        """Which statement the words of a line are; None where they are no statement of a model."""
-        found = _NUMBER.match(words[1]) if len(words) > 1 else None
-        if found is None:
-            return None
-        keyword = words[0].upper()
-        written = ELEMENT if keyword in self.elements else _WRITTEN_AS.get(keyword)
-        return None if written is None else (written, int(found[1]))
-
-    def _written(self, key: Key, line: str, comment: str) -> Iterator[str]:
-        """What stands in the place of a line; what it says besides stays as a comment."""
-        if key not in self.edited:
-            yield line
-            return
-        statement = self.left.pop(key, "")
-        if not statement:
-            if comment.strip("%# \t\r"):
-                yield comment
-            return
-        body = line[: len(line) - len(comment)]
-        keyword = _WORD.search(body)
-        assert keyword is not None
+def _written(line: Line, statement: str) -> Iterator[str]:
+    """What stands in the place of a line; what it says besides stays as a comment."""
+    body, comment = line.text[: line.mark], line.text[line.mark :]
+    if statement:
         operands = statement.partition(" % ")[0].partition(" ")[2]
         gap = body[len(body.rstrip()) :]
-        yield f"{body[: keyword.end()]} {operands}{gap}{comment}"
-
-    def _with_new(self, kept: list[tuple[str, list[str]]], is_ended: bool) -> list[str]:
-        """All lines, new statements behind the last of their keyword."""
-        new: dict[str, list[str]] = {}
-        for (keyword, _), statement in self.left.items():
-            if statement:
-                new.setdefault(keyword, []).append(statement)
-        ending = "\r" if any(line.endswith("\r") for _, lines in kept for line in lines) else ""
-        last = {keyword: place for place, (keyword, _) in enumerate(kept)}
-        made: list[str] = []
-        for place, (keyword, lines) in enumerate(kept):
-            made += lines
-            if keyword in new and last[keyword] == place:
-                made += [statement + ending for statement in new.pop(keyword)]
-        behind = [statement + ending for statements in new.values() for statement in statements]
-        # Behind the last line there is nothing, or the end of the text.
-        is_open = not is_ended and made and not made[-1]
-        return [*made[:-1], *behind, ""] if is_open else [*made, *behind]
-
-
-def _parts(line: str) -> tuple[str, str]:
-    """A line of the kinematics before its comment, and the comment with its mark."""
-    if line.startswith("*"):
-        return "", line
-    mark = re.search(r"[%#]", line)
-    return (line, "") if mark is None else (line[: mark.start()], line[mark.start() :])
+        yield f"{body[: line.words[0].behind]} {operands}{gap}{comment}"
+    elif comment.strip("%# \t\r"):
+        yield comment

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -11,12 +10,10 @@ import numpy as np
 
 from ..core.arrays import BoolArray, IntArray
 from ..core.elements import Class, NodeKind
+from ..deck.keywords import Block
+from ..deck.tokens import tokens_of
 from .data import ModelData
 from .writing import FIRST_COMPONENT
-
-#: The end of the kinematics, and a statement of a class up to its comment.
-_END = re.compile(rb"^[ \t\r\f\v]*END(?=[\s%#]|\Z)", re.MULTILINE | re.IGNORECASE)
-_STATEMENT = rb"^[ \t\r\f\v]*%s([XE])[ \t\f\v]([^%%#\n]*)"
 
 
 class Prescribed(NamedTuple):
@@ -42,8 +39,8 @@ def prescribed_in(data: ModelData) -> Prescribed:
         np.zeros(arrays.coordinate_class.shape, np.bool_),
         np.zeros(arrays.deformation_class.shape, np.bool_),
     )
-    for letter, number, components in class_statements(data, b"INPUT"):
-        if letter == b"X":
+    for letter, number, components in class_statements(data, "INPUT"):
+        if letter == "X":
             if (node := data.node_index.get(number)) is None:
                 # Of warping, which a model does not have.
                 continue
@@ -61,24 +58,24 @@ def _independent(classes: IntArray) -> BoolArray:
     return np.asarray(classes == Class.INDEPENDENT)
 
 
-def class_statements(data: ModelData, word: bytes) -> Iterator[tuple[bytes, int, list[int]]]:
+def class_statements(data: ModelData, word: str) -> Iterator[tuple[str, int, list[int]]]:
     """The statements of a class in a deck's kinematics, as it has them.
 
     Args:
         data: A model; one that was made in Python has none.
-        word: b"DYN" or b"INPUT".
+        word: DYN or INPUT.
 
     Yields:
         X or E, node or element, and components.
     """
     if data.source is None:
         return
-    text = data.source.text
-    end = _END.search(text)
-    statement = re.compile(_STATEMENT % word, re.MULTILINE | re.IGNORECASE)
-    for found in statement.finditer(text, 0, len(text) if end is None else end.start()):
-        number, *components = map(int, found[2].split())
-        yield found[1].upper(), number, components
+    tokens = tokens_of(data.source)
+    for number in tokens.lines_of(f"{word}X", f"{word}E").tolist():
+        line = tokens[number]
+        if line.block is Block.KINEMATICS:
+            owner, *components = (each.number for each in line.words[1:])
+            yield line.name[-1], owner, components
 
 
 def _mark(marks: BoolArray, components: list[int], first: int) -> None:

@@ -135,26 +135,22 @@ def existing(draft: Draft, given: object) -> Node:
     """
     if isinstance(given, (Node, Body, str)) or not isinstance(given, Iterable):
         return point(draft, given)
-    value = place(draft, given)
-    if not draft.nodes_at(value):
+    found = draft.nodes_at(place(draft, given))
+    if not found:
         raise model_error("no-such-point", f"there is no point at {in_short(given)}")
-    return at_place(draft, value[:3])
+    return whole_point(draft, found[0])
 
 
 def add_point(draft: Draft, value: tuple[float, float, float, float]) -> Node:
     """A new point."""
     kind = NodeKind.PLANAR_POSITION if draft.planar else NodeKind.POSITION
-    position = draft.add_node(kind, value)
-    orientation = draft.add_orientation()
-    draft.join(position, orientation)
-    return Node(position, orientation, draft)
+    return pivot(draft, draft.add_node(kind, value))
 
 
 def whole_point(draft: Draft, position: int) -> Node:
     """The point of a position node; a missing orientation is made."""
-    if position not in draft.orientation_at:
-        draft.join(position, draft.add_orientation())
-    return Node(position, draft.orientation_at[position], draft)
+    orientation = draft.orientation_at.get(position)
+    return pivot(draft, position) if orientation is None else Node(position, orientation, draft)
 
 
 def checked_name(name: str) -> str:

@@ -47,12 +47,7 @@ def deck_of(data: ModelData) -> str:
     dynamics = dynamics_of(data, comments)
     blocks = (
         [f"% {title}"] if title else comments.top,
-        beside(ELEMENT, _elements(data)),
-        beside("X", _values(data, comments)),
-        beside("FIX", _coordinates(data, Class.FIXED, "FIX")),
-        beside("DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")),
-        beside("RLSE", _deformations(data, Class.DEPENDENT, "RLSE")),
-        beside("DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")),
+        *(beside(*each) for each in _kinematics(data, comments)),
         comments.end,
         ["END"],
         comments.rest if not dynamics and appearance is None else [],
@@ -62,22 +57,25 @@ def deck_of(data: ModelData) -> str:
     return "\n".join(line for block in blocks for line in block) + "\n"
 
 
+#: A line of a statement, and the number of its element or node.
+_Statements = Iterator[tuple[int, str]]
+
+
 def statements_of(data: ModelData) -> Iterator[tuple[tuple[str, int], str]]:
     """What a deck says of the kinematics: keyword and number, and the statement."""
-    for keyword, statements in (
-        (ELEMENT, _elements(data)),
-        ("X", _values(data, DeckComments())),
-        ("FIX", _coordinates(data, Class.FIXED, "FIX")),
-        ("DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")),
-        ("RLSE", _deformations(data, Class.DEPENDENT, "RLSE")),
-        ("DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")),
-    ):
+    for keyword, statements in _kinematics(data, DeckComments()):
         for number, statement in statements:
             yield (keyword, number), statement
 
 
-#: A line of a statement, and the number of its element or node.
-_Statements = Iterator[tuple[int, str]]
+def _kinematics(data: ModelData, comments: DeckComments) -> Iterator[tuple[str, _Statements]]:
+    """The statements of the kinematics by keyword, in the order of a deck."""
+    yield ELEMENT, _elements(data)
+    yield "X", _values(data, comments)
+    yield "FIX", _coordinates(data, Class.FIXED, "FIX")
+    yield "DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")
+    yield "RLSE", _deformations(data, Class.DEPENDENT, "RLSE")
+    yield "DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")
 
 
 def _elements(data: ModelData) -> _Statements:

@@ -125,7 +125,7 @@ class Held:
         self.arrays = scaled_arrays(data.arrays, self.sizes)
         self._packed = packed(self.arrays)
         classes = self.arrays.deformation_class
-        held = (classes == Class.FIXED) | (classes == Class.INDEPENDENT)
+        held = np.isin(classes, (Class.FIXED, Class.INDEPENDENT))
         self.rows = np.flatnonzero(held.T.ravel())
         self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
         by_size = self.sizes.size / self.sizes.unit

@@ -167,7 +167,8 @@ def extent_in_words(outcome: Decomposition, extent: Extent) -> Pieces:
     if extent.reason in _PLAIN:
         return (_PLAIN[extent.reason],)
     if extent.reason is Reason.PATH:
-        return (f"it goes on: followed over {_both(extent)}, residual {_residual(extent)}",)
+        both = length_in_words(min(extent.reach or (0.0, 0.0)))
+        return (f"it goes on: followed over {both} both ways, residual {_residual(extent)}",)
     if extent.fit is not None:
         fit, order = extent.fit, round(extent.fit.order)
         return (
@@ -181,28 +182,20 @@ def finite_in_words(extents: Extents) -> tuple[Line, ...]:
     """What several motions can do together; empty where each one says it all."""
     if len(extents.motions) < 2:
         return ()
-    made = [sentence(*_dimension(extents))]
-    for branch in extents.branches:
-        made.append(sentence(f"A path begins with {_shares(branch)}."))
-    return tuple(made)
-
-
-def _dimension(extents: Extents) -> Pieces:
     dimension, many = extents.finite_dimension, len(extents.motions)
+    wide = f"{dimension} dimension{'' if dimension == 1 else 's'}"
     if dimension is None:
-        return ("Undecided in how many dimensions these motions go on together.",)
-    if dimension == 0:
-        return ("None of these motions goes on, nor do any together.",)
-    if dimension == many:
-        return (f"Together they go on in all {many} dimensions.",)
-    if all(each.kind is Kind.INFINITESIMAL for each in extents.motions):
-        s = "" if dimension == 1 else "s"
-        return (
-            f"None of these motions goes on as it is, but together they do, in {dimension} "
-            f"dimension{s}.",
-        )
-    s = "" if dimension == 1 else "s"
-    return (f"Together they go on in {dimension} dimension{s} of {many}.",)
+        words = "Undecided in how many dimensions these motions go on together."
+    elif dimension == 0:
+        words = "None of these motions goes on, nor do any together."
+    elif dimension == many:
+        words = f"Together they go on in all {many} dimensions."
+    elif all(each.kind is Kind.INFINITESIMAL for each in extents.motions):
+        words = f"None of these motions goes on as it is, but together they do, in {wide}."
+    else:
+        words = f"Together they go on in {wide} of {many}."
+    paths = (f"A path begins with {_shares(branch)}." for branch in extents.branches)
+    return tuple(map(sentence, (words, *paths)))
 
 
 def _shares(branch: Branch) -> str:
@@ -229,11 +222,6 @@ def _open(extent: Extent) -> str:
     where = sorted({_STOPS[stop] for stop in extent.stops or () if stop in _STOPS})
     why = f"; there {' and '.join(where)}" if where else ""
     return f"followed over {_each(extent)}, residual {_residual(extent)}{why}"
-
-
-def _both(extent: Extent) -> str:
-    back, ahead = extent.reach or (0.0, 0.0)
-    return f"{length_in_words(min(back, ahead))} both ways"
 
 
 def _each(extent: Extent) -> str:

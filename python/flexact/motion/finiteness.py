@@ -72,7 +72,12 @@ def _rate(felt: Felt, stresses: FloatArray, motion: FloatArray) -> tuple[FloatAr
     best, error = None, np.inf
     before: list[FloatArray] = []
     for step in _STEPS.tolist():
-        ahead, behind = (_pressed(felt, stresses, sign * step * motion) for sign in (1.0, -1.0))
+        # u' D v after a change, whose derivative along itself does not turn with it.
+        ahead, behind = (
+            felt.held.pressed(felt.held.moved(felt.held.reference, change), stresses).T
+            @ felt.motions
+            for change in (step * motion, -step * motion)
+        )
         now = [(ahead - behind) / (2.0 * step)]
         if not np.all(np.isfinite(now[0])):
             # An element has left its range.
@@ -90,13 +95,6 @@ def _rate(felt: Felt, stresses: FloatArray, motion: FloatArray) -> tuple[FloatAr
     if best is None:
         return np.zeros((stresses.shape[1], felt.many)), np.inf
     return np.asarray(best), error
-
-
-def _pressed(felt: Felt, stresses: FloatArray, change: FloatArray) -> FloatArray:
-    """(s, N) u' D v after a change, whose derivative along itself does not turn with it."""
-    held = felt.held
-    where = held.moved(held.reference, change)
-    return np.asarray(held.pressed(where, stresses).T @ felt.motions)
 
 
 class Combination(NamedTuple):
@@ -225,18 +223,14 @@ def branches_of(
     for line in lines:
         if not any(abs(line @ other) > _SAME for other in made):
             made.append(line)
-    found = [
-        _branch(np.asarray(np.linalg.lstsq(told, line, rcond=None)[0], np.float64), vectors)
-        for line in made
-    ]
+    found = []
+    for line in made:
+        shares = np.asarray(np.linalg.lstsq(told, line, rcond=None)[0], np.float64)
+        # The largest share is 1, of equal ones the first.
+        size = np.abs(shares)
+        largest = shares[np.argmax(size > (1.0 - 1.0e-5) * size.max())]
+        found.append(Branch(tuple(zip(vectors, (shares / largest).tolist(), strict=True))))
     return tuple(sorted(found, key=lambda each: [share for _, share in each.shares]))
-
-
-def _branch(shares: FloatArray, vectors: dict[int, FloatArray]) -> Branch:
-    """The largest share is 1, of equal ones the first."""
-    size = np.abs(shares)
-    largest = shares[np.argmax(size > (1.0 - 1.0e-5) * size.max())]
-    return Branch(tuple(zip(vectors, (shares / largest).tolist(), strict=True)))
 
 
 #: More motions are not followed; forms that cost more than this work are not made.
@@ -425,10 +419,15 @@ def extents_of(spaces: Result) -> Extents:
     told = _told_in(spaces, felt)
     # Matrices are so small that more threads would slow them down.
     with load("threadpoolctl").threadpool_limits(1) if felt else nullcontext():
-        decided = [
-            _of_component(spaces, component, mine, k < _MOST_COMPONENTS)
-            for k, (component, mine) in enumerate(zip(felt, told, strict=True))
-        ]
+        decided = []
+        for k, (component, mine) in enumerate(zip(felt, told, strict=True)):
+            size = len(component.motions)
+            entries = size * component.columns.size
+            if k >= _MOST_COMPONENTS or size > _MOST_MOTIONS or entries > _MOST_ENTRIES:
+                extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
+                decided.append(Decided(dict.fromkeys(mine, extent), None))
+            else:
+                decided.append(Judge(spaces, component).decided(mine))
     parts: list[list[Extent]] = [[_FREE] for _ in range(many)]
     for each in decided:
         for k, extent in each.motions.items():
@@ -468,14 +467,3 @@ def _told_in(spaces: Result, components: tuple[Component, ...]) -> list[dict[int
         made[index][k] = np.zeros(components[index].columns.size)
         made[index][k][there[place[mine]]] = value[mine]
     return made
-
-
-def _of_component(
-    spaces: Result, component: Component, told: dict[int, FloatArray], looked_at: bool
-) -> Decided:
-    many = len(component.motions)
-    too_large = many > _MOST_MOTIONS or many * component.columns.size > _MOST_ENTRIES
-    if too_large or not looked_at:
-        extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
-        return Decided(dict.fromkeys(told, extent), None)
-    return Judge(spaces, component).decided(told)

@@ -139,21 +139,19 @@ def sign_between(one: Chart, other: Chart) -> float:
     return float(left * right) or 1.0
 
 
-class Signed:
-    """The smallest singular value that is not zero near a configuration, with a sign."""
+def signed_value(held: Held, middle: Configuration, rank: int) -> Callable[[Near], float]:
+    """The smallest singular value that is not zero near a configuration; positive there."""
+    chart = Chart(held, middle, rank)
 
-    def __init__(self, held: Held, middle: Configuration, rank: int) -> None:
-        """Take the sign there as positive."""
-        self.held, self.rank = held, rank
-        self.chart = Chart(held, middle, rank)
-
-    def __call__(self, where: Configuration) -> float:
-        """The value at a configuration."""
-        if not self.rank:
+    def value(near: Near) -> float:
+        where = near.place.configuration
+        if not rank:
             return 0.0
-        jacobian = self.held.at(where).jacobian
-        sign = np.linalg.slogdet(self.chart.left.T @ jacobian @ self.chart.right)[0]
-        return float(sign * self.held.values(where)[self.rank - 1])
+        jacobian = held.at(where).jacobian
+        sign = np.linalg.slogdet(chart.left.T @ jacobian @ chart.right)[0]
+        return float(sign * held.values(where)[rank - 1])
+
+    return value
 
 
 def branch_between(held: Held, one: Station, other: Station, zero: float) -> Station | None:
@@ -163,8 +161,7 @@ def branch_between(held: Held, one: Station, other: Station, zero: float) -> Sta
     if one.rank != other.rank or one.signed * other.signed >= 0.0:
         return None
     way = Between(held, one, other)
-    signed = Signed(held, way.base.within, way.base.rank)
-    found = passing(way, lambda near: signed(near.place.configuration))
+    found = passing(way, signed_value(held, way.base.within, way.base.rank))
     if found is None:
         return None
     return station_there(held, found.where, found.arc, found.tangent, zero)
@@ -184,9 +181,8 @@ def branch_about(
     if values[1] > min(values[0], values[2]) or values[1] > _MAY_REACH * falls:
         return None
     way = Between(held, middle, other)
-    signed = Signed(held, middle.within, middle.rank)
     low = -(middle.arc - one.arc) / (other.arc - middle.arc)
-    found = touching(way, lambda near: signed(near.place.configuration), low)
+    found = touching(way, signed_value(held, middle.within, middle.rank), low)
     if found is None:
         return None
     made = station_there(held, found.where, found.arc, found.tangent, zero)
@@ -296,8 +292,12 @@ class _Walk:
         """Take a station, unless something came before it; why to stop there, if at all."""
         last = self.stations[-1]
         if self._is_back(last, there):
-            start = self.stations[0]
-            self.stations.append(replace(start, arc=self._arc_of_start(last, there)))
+            start, held = self.stations[0], self.held
+            to_start, past_start = (
+                held.reach(held.difference(start.within, each.within)) for each in (last, there)
+            )
+            arc = last.arc + (there.arc - last.arc) * to_start / (to_start + past_start)
+            self.stations.append(replace(start, arc=arc))
             return Stop(Ending.CLOSED)
         branch = branch_between(self.held, last, there, self.zero)
         if branch is None and len(self.stations) > 1:
@@ -330,13 +330,6 @@ class _Walk:
         if passed is None or start.tangent @ passed.tangent < _STRAIGHT:
             return False
         return held.reach(held.difference(start.within, passed.where)) < _CLOSED
-
-    def _arc_of_start(self, last: Station, there: Station) -> float:
-        start = self.stations[0].within
-        before, behind = (
-            self.held.reach(self.held.difference(start, each.within)) for each in (last, there)
-        )
-        return last.arc + (there.arc - last.arc) * before / (before + behind)
 
     def _onward(self, chart: Chart, step: float) -> tuple[Station, Chart, float] | None:
         """The next station with its chart, and the step to try from there; None without any."""

@@ -52,17 +52,28 @@ def components_of(spaces: Result) -> tuple[tuple[Component, ...], int]:
     """
     columns, basis = spaces.columns, spaces.motion_space
     pairs = []
-    nodes, elements = _incidence(spaces)
+    # Nodes and elements that hold something, side by side.
+    arrays = spaces.data.arrays
+    held = np.isin(arrays.deformation_class, (Class.FIXED, Class.INDEPENDENT)).any(axis=0)
+    slot, elements = np.nonzero((arrays.element_node > 0) & held)
+    nodes = arrays.element_node[slot, elements] - 1
     node, axis = spaces.raw.column_label - 1
     column_at = np.full((spaces.data.arrays.node_kind.size, 3), -1)
     column_at[node, axis] = np.arange(columns)
     for k in range(3):
         there = column_at[nodes, k]
         pairs.append((there[there >= 0], elements[there >= 0] + columns))
-    pairs.append(_within_vectors(basis))
+    # Places that a vector of unit norm reaches by more than rounding, each beside one of them.
+    seen = np.abs(basis.value) > _UNSEEN
+    where, vector = basis.place[seen], basis.of_entries()[seen]
+    one_of = np.zeros(basis.vectors, np.int64)
+    one_of[vector] = where
+    pairs.append((where, one_of[vector]))
     one, other = (np.concatenate(side) for side in zip(*pairs, strict=True))
     group = least_of_groups(columns + spaces.data.arrays.element_number.size, one, other)
-    moving = _of_vectors(group, basis)
+    # The group that each vector belongs to.
+    moving = np.zeros(basis.vectors, np.int64)
+    moving[vector] = group[where]
     # Rows less rank, by component.
     stresses = np.bincount(group[spaces.raw.row_label[0] - 1 + columns], minlength=group.size)
     stresses = stresses - np.bincount(group[:columns], minlength=group.size)
@@ -84,38 +95,6 @@ def components_of(spaces: Result) -> tuple[tuple[Component, ...], int]:
             )
         )
     return tuple(made), free
-
-
-def _of_vectors(group: NDArray[np.integer], basis: Basis) -> NDArray[np.integer]:
-    """(vectors,) the group that each vector of a basis belongs to."""
-    made = np.zeros(basis.vectors, np.int64)
-    seen = _seen(basis)
-    made[basis.of_entries()[seen]] = group[basis.place[seen]]
-    return made
-
-
-def _within_vectors(basis: Basis) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Places that a vector reaches, each beside one of them."""
-    seen = _seen(basis)
-    where, vector = basis.place[seen], basis.of_entries()[seen]
-    one = np.zeros(basis.vectors, np.int64)
-    one[vector] = where
-    return where, one[vector]
-
-
-def _seen(basis: Basis) -> NDArray[np.bool_]:
-    """Entries of vectors of unit norm that are more than rounding."""
-    return np.abs(basis.value) > _UNSEEN
-
-
-def _incidence(spaces: Result) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Nodes and elements that hold something, side by side."""
-    arrays = spaces.data.arrays
-    held = (arrays.deformation_class == Class.FIXED) | (
-        arrays.deformation_class == Class.INDEPENDENT
-    )
-    slot, element = np.nonzero((arrays.element_node > 0) & held.any(axis=0))
-    return arrays.element_node[slot, element] - 1, element
 
 
 #: The axes in which a node of each kind can move or turn.

@@ -3,18 +3,17 @@
 
 from __future__ import annotations
 
-import io
 from operator import index
 from pathlib import Path
 from typing import Any
 
 from ..analysis.result import Result
-from ..util.loading import load
 from ..util.partial import attempted
 from .drawing.selection import select_motion
 from .mesh.collection import MESHES
 from .page import page, with_way_back
-from .picture import check_packages, has_packages, picture_bytes
+from .picture import check_packages, picture_bytes, still_of
+from .picture.files import fewer_colours
 from .writers import PAGES, PICTURES, ChoiceError, Contents, Writers, as_bytes
 
 #: Width and height of a small picture [px].
@@ -76,25 +75,17 @@ def page_bytes(analysis: Result, place: str | None = None) -> bytes:
         place: Path of the page beside an index, to which it has a link then.
     """
     missing: list[str] = []
-    still = None
-    if has_packages():
-        what = "The still picture"
-        still = attempted(what, lambda: picture_bytes(analysis, ".png"), None, missing)
+    still = still_of(analysis, "The still picture", missing)
     made = page(analysis, still, missing=missing)
     return as_bytes(made if place is None else with_way_back(made, place))
 
 
 def small_picture(analysis: Result) -> bytes | None:
     """A small picture without words for an index, as PNG, where it can be made."""
-
-    def made() -> bytes:
-        drawn = picture_bytes(analysis, ".png", size=_SMALL, plain=True)
-        # An index holds very many.
-        pillow = load("PIL.Image")
-        with pillow.open(io.BytesIO(drawn)) as picture:
-            few = picture.convert("RGB").quantize(_COLOURS, dither=pillow.Dither.NONE)
-        buffer = io.BytesIO()
-        few.save(buffer, "PNG", optimize=True)
-        return buffer.getvalue()
-
-    return attempted("The picture", made, None, None) if has_packages() else None
+    made = still_of(analysis, "The picture", size=_SMALL, plain=True)
+    # An index holds very many.
+    return (
+        None
+        if made is None
+        else attempted("The picture", lambda: fewer_colours(made, _COLOURS), None, None)
+    )

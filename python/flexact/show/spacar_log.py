@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import platform
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby, islice
 from typing import NamedTuple
@@ -21,7 +20,7 @@ from ..advice.describe import describe, verdict_in_words
 from ..analysis.result import Result
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
-from ..deck.diagnostics import decode
+from ..deck.tokens import Line, Tokens, tokens_of
 from ..model.data import ModelData
 from ..model.jacobian import jacobian
 from ..model.model import Model
@@ -378,7 +377,6 @@ def _euler_rates(euler: FloatArray) -> FloatArray:
 
 
 _LINE = "=" * 80
-_END = re.compile(r"\s*END(?:[\s%#]|$)", re.IGNORECASE)
 #: Values in a line.
 _IN_A_LINE = 6
 
@@ -415,9 +413,11 @@ class _Log:
     def _echoes(self) -> tuple[list[str], list[str]]:
         """The deck up to its first END, and from there up to the second."""
         source = self.data.source
-        text = deck_of(self.data) if source is None else decode(source.text)
-        lines = iter(text.replace("\r\n", "\n").removesuffix("\n").split("\n"))
-        return list(_block(lines)), list(_block(lines))
+        tokens = Tokens(deck_of(self.data)) if source is None else tokens_of(source)
+        lines = list(tokens)[: -1 if tokens.text.endswith("\n") else None]
+        ends = [line.number + 1 for line in lines if line.ends and line.name == "END"]
+        first, second = [*ends, len(lines), len(lines)][:2]
+        return _echo(lines[:first]), _echo(lines[first:second])
 
     def _not_square(self) -> Iterator[str]:
         """What SPACAR says of a system of another number of equations than of unknowns."""
@@ -483,12 +483,9 @@ class _Log:
         )
 
 
-def _block(lines: Iterable[str]) -> Iterator[str]:
-    """Lines of a block up to its END as SPACAR shows them: a blank before, blanks for tabs."""
-    for line in lines:
-        yield f" {harmless(line.rstrip()) or ' '}"
-        if _END.match(line):
-            return
+def _echo(lines: Iterable[Line]) -> list[str]:
+    """Lines as SPACAR shows them: a blank before, blanks for tabs."""
+    return [f" {harmless(line.text.rstrip()) or ' '}" for line in lines]
 
 
 def _sixes(values: FloatArray) -> Iterator[str]:

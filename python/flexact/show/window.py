@@ -131,21 +131,9 @@ def write_page(page: bytes, name: str, path: Path | None = None) -> Path:
     Raises:
         FlexactError: It cannot be written.
     """
-    if path is None:
-        return _temporary(page, name)
-    write_together({path: page})
-    return path
-
-
-def open_page(target: Path) -> Path:
-    """Open a page in the browser, or say where it is where none opens; its whole path."""
-    target = target.absolute()
-    if not opens(target.as_uri()):
-        print(f"The page is {target}", flush=True)
-    return target
-
-
-def _temporary(page: bytes, name: str) -> Path:
+    if path is not None:
+        write_together({path: page})
+        return path
     short = re.sub(r"[^\w.-]+", "_", Path(file_name(name)).stem)[:40] or "model"
     try:
         number, made = tempfile.mkstemp(".html", f"flexact-{short}-")
@@ -154,3 +142,11 @@ def _temporary(page: bytes, name: str) -> Path:
     except OSError as error:
         raise OutputError(f"no temporary page can be written: {reason_of(error)}") from error
     return Path(made)
+
+
+def open_page(target: Path) -> Path:
+    """Open a page in the browser, or say where it is where none opens; its whole path."""
+    target = target.absolute()
+    if not opens(target.as_uri()):
+        print(f"The page is {target}", flush=True)
+    return target

@@ -22,8 +22,9 @@ STILLS = (".png", ".svg", ".pdf")
 VIDEOS = (".mp4", ".webm")
 MOVING = (".gif", *VIDEOS)
 PICTURES = (*STILLS, *MOVING)
-#: Of pages, and of what plays in ParaView.
+#: Of pages, of tables, and of what plays in ParaView.
 PAGES = (".html", ".htm")
+TABLES = (".csv", ".jsonl", ".parquet")
 PLAYING = ".pvd"
 
 #: What a file holds, or each of several files that belong together.

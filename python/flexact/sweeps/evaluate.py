@@ -13,6 +13,7 @@ import pickle
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -68,23 +69,19 @@ NO_STRESSES = StressArrays(np.zeros((0, 0, 6)), np.zeros((0, 0, 6)))
 
 def modes_of(result: Result) -> tuple[MotionArrays, StressArrays]:
     """The arrays of one result."""
-    nodes = result.given.arrays.node_number.size
-    elements = result.given.arrays.element_number.size
-    motions, stresses = tuple(result.motions), tuple(result.self_stresses)
+    arrays, motions, stresses = result.given.arrays, result.motions, result.self_stresses
+    of_nodes = (len(motions), arrays.node_number.size, 3)
+    of_elements = (len(stresses), arrays.element_number.size, 6)
     return (
         MotionArrays(
-            _stacked([each.displacement for each in motions], nodes, 3),
-            _stacked([each.rotation for each in motions], nodes, 3),
+            np.array([each.displacement for each in motions], float).reshape(of_nodes),
+            np.array([each.rotation for each in motions], float).reshape(of_nodes),
         ),
         StressArrays(
-            _stacked([each.forces for each in stresses], elements, 6),
-            _stacked([each.moments for each in stresses], elements, 6),
+            np.array([each.forces for each in stresses], float).reshape(of_elements),
+            np.array([each.moments for each in stresses], float).reshape(of_elements),
         ),
     )
-
-
-def _stacked(arrays: list[FloatArray], rows: int, columns: int) -> FloatArray:
-    return np.array(arrays, float).reshape(len(arrays), rows, columns)
 
 
 #: Entries of D(c), as it is held in full, over all coordinates.
@@ -148,7 +145,11 @@ def scaled_jacobian(data: ModelData) -> Scaled:
     deformations, coordinates = arrays.deformation_class.T, arrays.coordinate_class.T
     rows = np.flatnonzero((deformations == Class.FIXED) | (deformations == Class.INDEPENDENT))
     columns = np.flatnonzero(coordinates == Class.DEPENDENT)
-    _require_room(rows.size, coordinates.size)
+    if rows.size * coordinates.size > MOST_ENTRIES:
+        raise AnalysisError(
+            f"D(c) has {rows.size} rows and the model {coordinates.size} coordinates, too many to "
+            "follow a singular value between variants"
+        )
     place = np.full(deformations.size, -1)
     place[rows] = np.arange(rows.size)
     there = place[raw.row_of] >= 0
@@ -158,19 +159,10 @@ def scaled_jacobian(data: ModelData) -> Scaled:
     full[:, turns] /= characteristic_length(one.frames.length)
     norm = np.linalg.norm(full, axis=1, keepdims=True)
     matrix = full[:, columns] / np.where(norm > 0.0, norm, 1.0)
-    described = (arrays.element_kind, arrays.element_node, rows, columns)
     topology = 0
-    for array in described:
+    for array in (arrays.element_kind, arrays.element_node, rows, columns):
         topology = zlib.crc32(np.ascontiguousarray(array).tobytes(), topology)
     return Scaled(matrix, topology)
-
-
-def _require_room(rows: int, columns: int) -> None:
-    if rows * columns > MOST_ENTRIES:
-        raise AnalysisError(
-            f"D(c) has {rows} rows and the model {columns} coordinates, too many to follow a "
-            "singular value between variants"
-        )
 
 
 def characteristic_length(lengths: FloatArray) -> float:
@@ -232,7 +224,7 @@ class Positions(Frozen):
     def count(self) -> int:
         """How many variants there are."""
         given = self.positions if self.held is None else self.held
-        return 0 if given is None else len(given)
+        return 1 if given is None else len(given)
 
     def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
         """Each position on the straight line between its two places."""
@@ -242,13 +234,24 @@ class Positions(Frozen):
             between = first + share * (last - first)
         return varied(self.data, between, None if self.held is None else self.held[a])
 
+    def one(self, k: int) -> tuple[FloatArray | None, BoolArray | None]:
+        """Where the nodes of a variant are, and what it holds; None as in the model."""
+        positions = None if self.positions is None else self.positions[k]
+        return positions, None if self.held is None else self.held[k]
+
+    def classes(self) -> np.ndarray:
+        """(variants or 1, elements, 6) of deformations."""
+        if self.held is None:
+            return np.ascontiguousarray(self.data.arrays.deformation_class.T[None])
+        return np.ascontiguousarray(np.swapaxes(classes_held(self.data, self.held), 1, 2))
+
     def goes_between(self, a: int, b: int) -> bool:
         """Unless what is held differs, or nothing moves at all."""
         if self.positions is None:
             return False
         return self.held is None or bool((self.held[a] == self.held[b]).all())
 
-    def taken(self, index: np.ndarray) -> Positions:
+    def taken(self, index: np.ndarray | slice) -> Positions:
         """The source of some of the rows."""
         return Positions(
             self.data,
@@ -315,38 +318,6 @@ _TEXTS = {
 }
 
 
-class _Variants(NamedTuple):
-    """Variants of a model; one of positions and held may be the model's own."""
-
-    data: ModelData
-    positions: FloatArray | None
-    held: BoolArray | None
-
-    @property
-    def number(self) -> int:
-        """How many there are."""
-        given = self.positions if self.positions is not None else self.held
-        return 1 if given is None else len(given)
-
-    def some(self, first: int, last: int) -> _Variants:
-        """Those from first up to, but not including, last."""
-        return self._replace(
-            positions=None if self.positions is None else self.positions[first:last],
-            held=None if self.held is None else self.held[first:last],
-        )
-
-    def one(self, i: int) -> ModelData:
-        """One of them as a model."""
-        positions = None if self.positions is None else self.positions[i]
-        return varied(self.data, positions, None if self.held is None else self.held[i])
-
-    def classes(self) -> np.ndarray:
-        """(variants or 1, elements, 6) of deformations."""
-        if self.held is None:
-            return np.ascontiguousarray(self.data.arrays.deformation_class.T[None])
-        return np.ascontiguousarray(np.swapaxes(classes_held(self.data, self.held), 1, 2))
-
-
 def swept(
     data: ModelData,
     *,
@@ -366,31 +337,29 @@ def swept(
         workers: So many threads at most; by default one a processor.
         progress: Called with what is being done and how much of that is done, from 0 to 1.
     """
-    every = _Variants(data, positions, held)
+    every = Positions(data, positions, held)
+    count = every.count
     made: Columns = {
-        c.name: np.full(every.number, MISSING[c.kind], _TEXTS.get(c.name, c.kind))
+        c.name: np.full(count, MISSING[c.kind], _TEXTS.get(c.name, c.kind))
         for c in columns_of(want)
     }
-    made["error"] = np.full(every.number, "", object)
+    made["error"] = np.full(count, "", object)
     # Where only positions differ, what is held does not.
-    common = _perhaps_condensed(every.some(0, 1)) if held is None else None
+    common = _perhaps_condensed(every.taken(slice(0, 1))) if held is None else None
     threads = workers or processors()
-    step = max(1, min(_MOST_AT_ONCE, -(-every.number // (4 * threads))))
-    starts = range(0, every.number, step)
+    step = max(1, min(_MOST_AT_ONCE, -(-count // (4 * threads))))
     room = memory.allowance() / threads
     done = 0
 
     def run(first: int) -> int:
-        last = min(first + step, every.number)
-        _fill(
-            every.some(first, last), want, room, common, {k: v[first:last] for k, v in made.items()}
-        )
-        return last - first
+        some = slice(first, min(first + step, count))
+        _fill(every.taken(some), want, room, common, {k: v[some] for k, v in made.items()})
+        return some.stop - first
 
-    for number in _in_threads(run, starts, threads):
+    for number in _in_threads(run, range(0, count, step), threads):
         done += number
         if progress is not None:
-            progress("analysing variants", done / every.number)
+            progress("analysing variants", done / count)
     return made
 
 
@@ -408,42 +377,39 @@ def _in_threads(run: Callable[[int], int], items: Sequence[int], threads: int) -
                 future.cancel()
 
 
-def _perhaps_condensed(some: _Variants) -> BoolArray:
+def _perhaps_condensed(some: Positions) -> BoolArray:
     """(variants or 1,) whether a row of beams may count as one beam in some geometry."""
     return perhaps_condensed(some.data.arrays, some.data.element_names, some.classes())
 
 
-def _fill(some: _Variants, want: str, room: float, common: BoolArray | None, part: Columns) -> None:
+def _fill(some: Positions, want: str, room: float, common: BoolArray | None, part: Columns) -> None:
     """Put what is known of some variants into their part of the columns; room: bytes."""
     condensed = _perhaps_condensed(some) if common is None else common
+    decided = np.zeros(some.count, np.bool_)
     if not condensed.all():
-        known, decided = _decided_by_core(some, want, room)
-        decided &= ~condensed
+        known, by_core = _decided_by_core(some, want != "verdict", room)
+        decided = by_core & ~condensed
         for name, array in known.items():
             part[name][decided] = array[decided]
-    else:
-        decided = np.zeros(some.number, np.bool_)
     for i in np.flatnonzero(~decided).tolist():
-        for name, value in _row(some.one(i), want).items():
+        try:
+            row = row_of(result_of(varied(some.data, *some.one(i)), Asked()), want)
+        except (AnalysisError, DeckError, ModelError) as error:
+            row = error_row(in_a_line(error), want)
+        for name, value in row.items():
             part[name][i] = value
 
 
-def _decided_by_core(some: _Variants, want: str, room: float) -> tuple[Columns, BoolArray]:
+def _decided_by_core(some: Positions, with_values: bool, room: float) -> tuple[Columns, BoolArray]:
     """The columns that the core gives, and (variants,) for which of them they hold."""
-    with_values = want != "verdict"
-    own = some.data.arrays.node_value[:3].T[None]
     wishes = calls.VariantWishes(
         *(NEAR, CUT_OFF, REACH_OF_DIGITS, with_values, room, None),
         some.data.has_long_numbers,
         (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NO_CHANGE),
     )
+    own = some.data.arrays.node_value[:3].T[None]
     positions = own if some.positions is None else some.positions
     raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())
-    return _known(raw, with_values), raw.decided
-
-
-def _known(raw: RawVariants, with_values: bool) -> Columns:
-    """The columns of variants that are decided."""
     under, over = raw.columns - raw.rank, raw.rows - raw.rank
     made: Columns = {
         "verdict": _VERDICTS[(under > 0) + 2 * (over > 0)],
@@ -452,33 +418,29 @@ def _known(raw: RawVariants, with_values: bool) -> Columns:
         "rank": raw.rank,
         "certainty": np.full(raw.rank.size, Certainty.CERTAIN.value),
     }
-    if with_values:
-        full = raw.rank == np.minimum(raw.rows, raw.columns)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            condition = np.where(full & (raw.smallest > 0.0), raw.largest / raw.smallest, np.nan)
-        margin, angle = least_misalignments(
-            raw.pair_value, raw.by_move, raw.by_turn, raw.characteristic_length
-        )
-        # What is there in exact alignment only has no margin.
-        exact = raw.zero_moves | raw.zero_turns
-        margin = np.where(exact, np.where(raw.zero_moves, 0.0, np.inf), margin)
-        angle = np.where(exact, np.where(raw.zero_turns, 0.0, np.inf), angle)
-        made |= {
-            "gap": raw.pair_value[:, 0],
-            "largest_zero": raw.largest_zero,
-            "smallest_singular_value": raw.smallest,
-            "condition_number": condition,
-            "margin": margin,
-            "margin_angle": angle,
-        }
-    return made
+    return (made | _values(raw) if with_values else made), raw.decided
 
 
-def _row(data: ModelData, want: str) -> dict[str, Cell]:
-    try:
-        return row_of(result_of(data, Asked()), want)
-    except (AnalysisError, DeckError, ModelError) as error:
-        return error_row(in_a_line(error), want)
+def _values(raw: RawVariants) -> Columns:
+    """The columns of singular values and margins, of variants that are decided."""
+    full = raw.rank == np.minimum(raw.rows, raw.columns)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        condition = np.where(full & (raw.smallest > 0.0), raw.largest / raw.smallest, np.nan)
+    margin, angle = least_misalignments(
+        raw.pair_value, raw.by_move, raw.by_turn, raw.characteristic_length
+    )
+    # What is there in exact alignment only has no margin.
+    exact = raw.zero_moves | raw.zero_turns
+    margin = np.where(exact, np.where(raw.zero_moves, 0.0, np.inf), margin)
+    angle = np.where(exact, np.where(raw.zero_turns, 0.0, np.inf), angle)
+    return {
+        "gap": raw.pair_value[:, 0],
+        "largest_zero": raw.largest_zero,
+        "smallest_singular_value": raw.smallest,
+        "condition_number": condition,
+        "margin": margin,
+        "margin_angle": angle,
+    }
 
 
 #: Entries of D(c) up to which a sign costs little beside an analysis.
@@ -500,50 +462,32 @@ def failed(message: str, want: str) -> Answer:
     return Answer(tuple(error_row(message, want).values()))
 
 
-@dataclass(frozen=True)
-class OfFunction:
-    """Variants that a function makes of parameters."""
-
-    make: Make
-    want: str
-    asked: Asked
-
-    def __call__(self, row: Row) -> Answer:
-        """The variant of some parameters."""
-        try:
-            data = made_by(self.make, row)
-            return _answer(data, self.want, self.asked, is_signed=self.want != "verdict")
-        except Exception as error:
-            return failed(in_a_line(error), self.want)
+def of_function(make: Make, want: str, asked: Asked, row: Row) -> Answer:
+    """The variant that a function makes of some parameters."""
+    try:
+        return _answer(made_by(make, row), want, asked, is_signed=want != "verdict")
+    except Exception as error:
+        return failed(in_a_line(error), want)
 
 
-@dataclass(frozen=True)
-class OfModel:
-    """Variants of one topology."""
-
-    data: ModelData
-    want: str
-    asked: Asked
-
-    def __call__(self, variant: tuple[FloatArray | None, BoolArray | None]) -> Answer:
-        """The variant at some positions, with some deformations held."""
-        try:
-            return _answer(varied(self.data, *variant), self.want, self.asked)
-        except Exception as error:
-            return failed(in_a_line(error), self.want)
+def of_model(
+    data: ModelData,
+    want: str,
+    asked: Asked,
+    variant: tuple[FloatArray | None, BoolArray | None],
+) -> Answer:
+    """The variant of a model at some positions, with some deformations held."""
+    try:
+        return _answer(varied(data, *variant), want, asked)
+    except Exception as error:
+        return failed(in_a_line(error), want)
 
 
 def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
     result: Result = result_of(data, asked)
     modes = modes_of(result) if want == "all" else None
-    is_signed = is_signed and result.rows * result.columns <= _MOST_SIGNED
-    signed = signed_or_none(data) if is_signed else None
+    signed = None
+    if is_signed and result.rows * result.columns <= _MOST_SIGNED:
+        with suppress(AnalysisError, MemoryError, np.linalg.LinAlgError):
+            signed = signed_value(data)
     return Answer(tuple(row_of(result, want).values()), signed, modes)
-
-
-def signed_or_none(data: ModelData) -> Signed | None:
-    """The signed smallest singular value; None of a model that is too large for it."""
-    try:
-        return signed_value(data)
-    except (AnalysisError, MemoryError, np.linalg.LinAlgError):
-        return None

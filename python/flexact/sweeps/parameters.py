@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 from math import prod
@@ -71,13 +72,9 @@ class Wrong(NamedTuple):
     message: str
 
 
-class Given(NamedTuple):
-    """Parameters as they were given."""
-
-    rows: Iterator[Row | Wrong]
-    """Taken as they are needed."""
-    number: int | None
-    """How many there are; None where that shows only as they come."""
+#: Rows of parameters, taken as they are needed, and how many there are; None where that shows only
+#: as they come.
+Given = tuple[Iterator[Row | Wrong], int | None]
 
 
 def given(parameters: Parameters) -> Given:
@@ -88,7 +85,7 @@ def given(parameters: Parameters) -> Given:
         ValueError: columns differ in length, or a parameter is called like a column of the table.
     """
     if isinstance(parameters, Grid):
-        return Given(iter(parameters), len(parameters))
+        return iter(parameters), len(parameters)
     columns = _columns(parameters)
     if columns is not None:
         return _by_columns(columns)
@@ -99,19 +96,21 @@ def given(parameters: Parameters) -> Given:
         )
     if isinstance(parameters, Sequence):
         rows = [checked(row) for row in parameters]
-        return Given(iter(rows), len(rows))
-    return Given(_as_they_come(iter(parameters)), None)
+        return iter(rows), len(rows)
+    return _as_they_come(iter(parameters)), None
 
 
 def _columns(parameters: Parameters) -> dict[str, Any] | None:
     """Columns by name, of a mapping, a structured array or a data frame."""
     if isinstance(parameters, np.ndarray) and parameters.dtype.names:
-        return {name: parameters[name] for name in parameters.dtype.names}
-    if isinstance(parameters, Mapping):
-        return {name: parameters[name] for name in parameters}
-    if hasattr(parameters, "columns") and hasattr(parameters, "__getitem__"):
-        return {name: parameters[name] for name in parameters.columns}
-    return None
+        names: Iterable[str] = parameters.dtype.names
+    elif isinstance(parameters, Mapping):
+        names = parameters
+    elif hasattr(parameters, "columns") and hasattr(parameters, "__getitem__"):
+        names = parameters.columns
+    else:
+        return None
+    return {name: parameters[name] for name in names}
 
 
 def _by_columns(columns: Mapping[Any, Any]) -> Given:
@@ -131,7 +130,7 @@ def _by_columns(columns: Mapping[Any, Any]) -> Given:
     count = next(iter(lengths.values()), 1)
     whole = [v if isinstance(v, list) else [v] * count for v in made.values()]
     rows = (dict(zip(made, values, strict=True)) for values in zip(*whole, strict=True))
-    return Given(rows, count if made else 0)
+    return rows, count if made else 0
 
 
 def _column(name: str, values: Any) -> list[Value]:
@@ -215,20 +214,13 @@ def array_of(values: Sequence[Value]) -> np.ndarray:
     Among numbers None is NaN.
     """
     kinds = {type(value) for value in values}
-    if kinds == {bool}:
-        return np.array(values, np.bool_)
-    if kinds and kinds <= {str}:
-        return np.array(values, np.str_)
-    if kinds == {int}:
-        try:
-            return np.array(values, np.int64)
-        except OverflowError:
-            pass
-    elif kinds <= {int, float, type(None)} and kinds != {type(None)}:
-        try:
-            return np.array(values, np.float64)
-        except OverflowError:
-            pass
+    plain = {frozenset({bool}): np.bool_, frozenset({str}): np.str_, frozenset({int}): np.int64}
+    kind = plain.get(frozenset(kinds))
+    if kind is None and kinds <= {int, float, type(None)} and kinds != {type(None)}:
+        kind = np.float64
+    if kind is not None:
+        with suppress(OverflowError):
+            return np.array(values, kind)
     made = np.empty(len(values), object)
     made[:] = values
     return made

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from itertools import islice, repeat
+from functools import partial
+from itertools import islice
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -16,19 +17,19 @@ from ..core.progress import Progress
 from ..model.model import Model
 from ..model.variation import held_given, positions_given
 from .chunks import EngineError
-from .columns import ERROR, Column, columns_of
+from .columns import ERROR, columns_of
 from .evaluate import (
     NO_MOTIONS,
     NO_STRESSES,
     Answer,
     Make,
     Making,
-    OfFunction,
-    OfModel,
     Positions,
     Source,
     columns_of_signed,
     failed,
+    of_function,
+    of_model,
     swept,
 )
 from .parameters import Parameters, Row, Wrong, array_of, given
@@ -38,11 +39,6 @@ from .table import Table
 Array = np.ndarray
 #: Columns of results that come first.
 _FIRST = ("verdict", "under_constrained", "over_constrained", "rank", "certainty", "gap", "margin")
-
-
-def _kind_of(column: Column) -> type:
-    """Of the numbers or texts of a column; errors are few, and may be long."""
-    return object if column is ERROR else column.kind
 
 
 def table_of(
@@ -75,8 +71,9 @@ def table_of_answers(
     kept = (*columns_of(want), ERROR)
     cells: list[Sequence[Any]] = list(zip(*(answer.cells for answer in answers), strict=True))
     cells = cells or [[] for _ in kept]
+    # Errors are few, and may be long.
     found: dict[str, Array] = {
-        column.name: np.array(values, _kind_of(column))
+        column.name: np.array(values, object if column is ERROR else column.kind)
         for column, values in zip(kept, cells, strict=True)
     }
     further: dict[str, Any] = {}
@@ -275,11 +272,9 @@ def _of_model(
             progress=work.progress,
         )
         return table_of(labels, found, want, source)
-    items = zip(
-        *(repeat(None, source.count) if a is None else a for a in (source.positions, source.held)),
-        strict=True,
-    )
-    answers = answers_of(OfModel(source.data, want, asked), items, source.count, want, work)
+    items = map(source.one, range(source.count))
+    work_on = partial(of_model, source.data, want, asked)
+    answers = answers_of(work_on, items, source.count, want, work)
     return table_of_answers(labels, answers, want, source)
 
 
@@ -287,7 +282,7 @@ def _labels(parameters: Parameters | None, count: int) -> list[Row]:
     """What the variants of a model are called."""
     if parameters is None:
         return [{}] * count
-    rows = list(given(parameters).rows)
+    rows = list(given(parameters)[0])
     for row in rows:
         if isinstance(row, Wrong):
             raise ValueError(row.message)
@@ -305,5 +300,5 @@ def _of_function(make: Make, parameters: Parameters, want: str, asked: Asked, wo
             kept.append({} if isinstance(row, Wrong) else row)
             yield row
 
-    answers = answers_of(OfFunction(make, want, asked), taken(), count, want, work)
+    answers = answers_of(partial(of_function, make, want, asked), taken(), count, want, work)
     return table_of_answers(kept, answers, want, Making(make))

@@ -16,6 +16,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
+from ..show.writers import TABLES
 from ..util.loading import load
 from ..util.outputs import OutputError, written_whole
 from .columns import COLUMNS, Column
@@ -106,13 +107,9 @@ def _array(arrow: Any, column: Column, values: list[Cell]) -> Any:
         raise OutputError(f"the column {column.name} cannot be held by Parquet: {error}") from None
 
 
-_WRITERS: dict[str, Callable[[BinaryIO, Sequence[Column], Iterable[Sequence[Cell]]], None]] = {
-    ".csv": _write_csv,
-    ".jsonl": _write_jsonl,
-    ".parquet": _write_parquet,
-}
-#: Suffixes of tables.
-TABLES = tuple(_WRITERS)
+_WRITERS: dict[str, Callable[[BinaryIO, Sequence[Column], Iterable[Sequence[Cell]]], None]] = dict(
+    zip(TABLES, (_write_csv, _write_jsonl, _write_parquet), strict=True)
+)
 
 
 def _cells_of(columns: Sequence[Column]) -> list[Callable[[Any], Cell]]:

@@ -13,11 +13,11 @@ from ..analysis.result import Result
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
 from ..motion import Followed, Held, Station
-from ..motion.stations import Between, Near, passing
+from ..motion.stations import Between, Passing, passing
 from ..show.drawing.movement import pose_in, poses_with_inner_nodes
 from ..show.drawing.selection import Selection
-from ..util.records import Frozen, cached_property
-from .values import ROTATION, DeadPoint, Drive, Names, Step, drive_of, rank_of
+from ..util.records import Frozen
+from .values import ROTATION, DeadPoint, Drive, Names, Step
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,27 +34,13 @@ class Found(Frozen):
     directions: int = 0
 
 
-class WayBetween:
-    """The path between two stations, decomposed when it is needed."""
-
-    def __init__(self, held: Held, one: Station, other: Station) -> None:
-        """Keep the stations."""
-        self.held, self.one, self.other = held, one, other
-        self.tangent: FloatArray | None = None
-
-    @cached_property
-    def _between(self) -> Between:
-        return Between(self.held, self.one, self.other)
-
-    def passing(self, function: Callable[[Configuration, FloatArray], float]) -> list[Found]:
-        """Where a function of place and direction passes zero; none where it is not found."""
-
-        def of_near(near: Near) -> float:
-            return function(near.place.configuration, self._between.direction(near))
-
-        found = passing(self._between, of_near)
-        self.tangent = None if found is None else found.tangent
-        return [] if found is None else [Found(found.arc, found.where)]
+def _passing(
+    between: Between, function: Callable[[Configuration, FloatArray], float]
+) -> Passing | None:
+    """Where a function of place and direction passes zero; None where it is not found."""
+    return passing(
+        between, lambda near: function(near.place.configuration, between.direction(near))
+    )
 
 
 def merged(found: Sequence[Found], apart: float) -> list[Found]:
@@ -92,7 +78,7 @@ class Stroke:
         """Keep what was followed; `zero` is up to where scaled singular values are zero."""
         self.result, self.held, self.zero = result, held, zero
         self.judged = held if shown.freedom is None else Held(result.data)
-        self.drive: Drive | None = drive_of(shown, held)
+        self.drive = None if shown.freedom is None else Drive(shown.freedom, held)
         self.names = Names(result)
 
     def steps(self, way: Followed) -> list[Step]:
@@ -193,7 +179,7 @@ class Stroke:
         rank: int | None = None,
     ) -> Step:
         values = self.judged.values(where)
-        known = rank_of(values, zero) if rank is None else rank
+        known = int(np.count_nonzero(values > zero)) if rank is None else rank
         rows, columns = self.judged.rows.size, self.judged.columns.size
         (pose,) = poses_with_inner_nodes(self.result.condensed, [pose_in(self.held, where)])
         return Step(
@@ -209,50 +195,41 @@ class Stroke:
 
     def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[Found]:
         found = [Found(b.arc, b.within, directions=b.directions) for b in branches]
-        turning = self._turning(one, other)
+        before, behind = self._speeds(one), self._speeds(other)
+        reverses = np.sum(before * behind, axis=1) < 0.0
+        turning = np.flatnonzero((_least_norm(before, behind) > _MOVES) & reverses).tolist()
         drive = self.drive
         turns = drive is not None and (
             drive.rate(one.within, one.tangent) * drive.rate(other.within, other.tangent) < 0.0
         )
         if turning or turns:
-            way = WayBetween(self.held, one, other)
+            between = Between(self.held, one, other)
             if drive is not None and turns:
-                place = way.passing(lambda near, along: drive.rate(near, along))
-                found += [replace(each, is_drive=True) for each in place]
+                place = _passing(between, drive.rate)
+                found += [] if place is None else [Found(place.arc, place.where, is_drive=True)]
             while turning:
-                node = turning[0]
-                place, at_rest = self._rest(way, node, self._difference(one, other, node))
+                rest = self._rest(between, turning[0])
+                at_rest = () if rest is None else rest.nodes
                 turning = [each for each in turning[1:] if each not in at_rest]
-                found += [replace(each, nodes=tuple(at_rest)) for each in place if at_rest]
+                found += [] if rest is None else [rest]
         return merged(found, _ONE_PLACE * (other.arc - one.arc))
 
-    def _turning(self, one: Station, other: Station) -> list[int]:
-        before, behind = self._speeds(one), self._speeds(other)
-        moves = _least_norm(before, behind) > _MOVES
-        return np.flatnonzero(moves & (np.sum(before * behind, axis=1) < 0.0)).tolist()
-
-    def _difference(self, one: Station, other: Station, node: int) -> FloatArray:
-        return np.asarray(self._speeds(one)[node] - self._speeds(other)[node])
-
-    def _rest(
-        self, way: WayBetween, node: int, difference: FloatArray
-    ) -> tuple[list[Found], list[int]]:
-        """Where a node may come to rest on the way, and the nodes that do so with it."""
-
-        def speed(_: Configuration, along: FloatArray) -> float:
-            return float(self.held.at_nodes(along)[node] @ difference)
-
-        place = way.passing(speed)
-        if not place or way.tangent is None:
-            return [], []
-        speeds = self.held.at_nodes(way.tangent) / self.held.reach(way.tangent)
+    def _rest(self, between: Between, node: int) -> Found | None:
+        """Where a node comes to rest between two stations, and the nodes that do so with it."""
+        before, behind = self._speeds(between.one), self._speeds(between.other)
+        difference = before[node] - behind[node]
+        place = _passing(
+            between, lambda _, along: float(self.held.at_nodes(along)[node] @ difference)
+        )
+        if place is None:
+            return None
+        speeds = self.held.at_nodes(place.tangent) / self.held.reach(place.tangent)
         rests = np.linalg.norm(speeds, axis=1) <= _RESTS
-        one, other = self._speeds(way.one), self._speeds(way.other)
-        turns = rests & (np.sum(one * other, axis=1) < 0.0)
+        turns = rests & (np.sum(before * behind, axis=1) < 0.0)
         if not turns[node]:
-            return [], []
-        resting = tuple(np.flatnonzero(rests).tolist())
-        return [replace(each, resting=resting) for each in place], np.flatnonzero(turns).tolist()
+            return None
+        nodes, resting = (tuple(np.flatnonzero(each).tolist()) for each in (turns, rests))
+        return Found(place.arc, place.where, nodes, resting)
 
 
 def _least_norm(one: FloatArray, other: FloatArray) -> FloatArray:

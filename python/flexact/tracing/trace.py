@@ -166,7 +166,10 @@ def _traced(
 ) -> Trace:
     direction = held.direction(shown.motion.analysed)
     zero = _zero_of(result)
-    rank = result.rank if shown.freedom is None else _rank_at_start(held, result)
+    rank = result.rank
+    if shown.freedom is not None:
+        values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
+        rank = int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
     stroke = Stroke(result, shown, held, zero)
     ways: list[Followed] = []
     for number, sense in enumerate((-1.0, 1.0)):
@@ -193,11 +196,6 @@ def _zero_of(result: Result) -> float:
     above = gap.smallest_nonzero or 1.0
     below = max(result.raw.noise, gap.largest_zero or 0.0)
     return max(min(_ZERO, math.sqrt(above * below)), result.raw.noise)
-
-
-def _rank_at_start(held: Held, result: Result) -> int:
-    values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
-    return int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
 
 
 def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:

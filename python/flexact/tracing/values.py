@@ -126,11 +126,6 @@ class Drive(NamedTuple):
     freedom: Freedom
     held: Held
 
-    @property
-    def unit(self) -> str:
-        """Of its value, m or rad."""
-        return drive_unit(self.freedom)
-
     def rate(self, where: Configuration, along: FloatArray) -> float:
         """How fast it changes along a direction (n,)."""
         part, owner = self.freedom.place
@@ -146,18 +141,13 @@ class Drive(NamedTuple):
         part, owner = self.freedom.place
         if not self.freedom.is_coordinate:
             value = self.held.deformation(where, 6 * owner + part)
-            return value * self.held.sizes.unit if self.unit == "m" else value
+            return value * self.held.sizes.unit if drive_unit(self.freedom) == "m" else value
         analysis = self.freedom.analysis
         node = int(analysis.condensed.nodes[owner])
-        if self.unit == "m":
+        if drive_unit(self.freedom) == "m":
             start = analysis.given.arrays.node_value[part, node]
             return float(pose.position[node, part] - start)
         return float(vector_of(pose.rotation[node][np.newaxis])[0, part])
-
-
-def drive_of(shown: Selection, held: Held) -> Drive | None:
-    """What drives the path of a declared degree of freedom; None of another motion."""
-    return None if shown.freedom is None else Drive(shown.freedom, held)
 
 
 def drive_unit(freedom: Freedom) -> str:
@@ -301,8 +291,3 @@ class Traced(Frozen):
             f"<Trace: {len(self.steps)} steps, {self.against.length:.4g} m back and "
             f"{self.along.length:.4g} m on, {len(self.dead_points)} dead points>"
         )
-
-
-def rank_of(values: np.ndarray, zero: float) -> int:
-    """How many singular values are not zero."""
-    return int(np.count_nonzero(values > zero))

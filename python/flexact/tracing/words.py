@@ -22,7 +22,7 @@ from ..analysis.places import listed, with_article
 from ..motion import Ending, Stop
 from ..show.writers import as_bytes
 from ..util.rotations import vector_of
-from .values import ROTATION, DeadPoint, Names, Step, Traced, Way, drive_unit
+from .values import ROTATION, DeadPoint, Names, Step, Traced, drive_unit
 
 _RANGES = {
     "length": "its ends have come to one point",
@@ -36,45 +36,32 @@ _ROUNDING = 1.0e-14
 
 def lines(trace: Traced) -> list[str]:
     """What is to be said of a path, in sentences."""
-    result = trace.result
-    told = [
-        f"{_capital(motion_in_words(result, trace.shown.number, trace.shown.freedom))}, followed "
-        "both ways with every held deformation zero.",
-        f"Along it: {_way(trace, trace.along)}.",
-        f"Against it: {_way(trace, trace.against)}.",
-        *_drive(trace),
-    ]
-    dead = trace.dead_points
-    told += [f"{_place(step)}: {_dead(trace, step)}." for step in dead[:_MOST]]
+    shown, dead = trace.shown, trace.dead_points
+    what = motion_in_words(trace.result, shown.number, shown.freedom)
+    told = [f"{_capital(what)}, followed both ways with every held deformation zero."]
+    for side, way in (("Along it", trace.along), ("Against it", trace.against)):
+        told.append(f"{side}: {way.length:.4g} m; {stop_in_words(trace, way.stop)}.")
+    if shown.freedom is not None:
+        values = [step.drive for step in trace.steps]
+        told.append(
+            f"{_capital(plain(freedom_in_words(shown.freedom)))} goes from {min(values):+.6g} to "
+            f"{max(values):+.6g} {drive_unit(shown.freedom)}; its declaration was let loose."
+        )
+    for step in dead[:_MOST]:
+        place = "At the reference" if step.arc == 0.0 else f"At {step.arc:+.6g} m"
+        if step.dead is not None:
+            is_last = step is trace.steps[0] or step is trace.steps[-1]
+            on = "; the path goes straight on" if step.dead.is_branch and not is_last else ""
+            told.append(f"{place}: {dead_in_words(step, step.dead)}{on}.")
     if len(dead) > _MOST:
         told.append(f"{len(dead) - _MOST} more dead points are in the file that -o writes.")
     told += _verdicts(trace)
+    # The next power of ten; what is rounding on any machine is one.
+    bound = 10.0 ** math.ceil(math.log10(max(trace.residual, _ROUNDING)))
     told.append(
-        f"Held deformations stay below {_bound(trace.residual):.0e} of the model's size (angles in "
-        "rad) all along."
+        f"Held deformations stay below {bound:.0e} of the model's size (angles in rad) all along."
     )
     return told
-
-
-def _bound(residual: float) -> float:
-    """The next power of ten; what is rounding on any machine is one."""
-    return float(10.0 ** math.ceil(math.log10(max(residual, _ROUNDING))))
-
-
-def _place(step: Step) -> str:
-    return "At the reference" if step.arc == 0.0 else f"At {step.arc:+.6g} m"
-
-
-def _dead(trace: Traced, step: Step) -> str:
-    if step.dead is None:
-        return ""
-    is_last = step is trace.steps[0] or step is trace.steps[-1]
-    on = "; the path goes straight on" if step.dead.is_branch and not is_last else ""
-    return f"{dead_in_words(step, step.dead)}{on}"
-
-
-def _way(trace: Traced, way: Way) -> str:
-    return f"{way.length:.4g} m; {stop_in_words(trace, way.stop)}"
 
 
 def stop_in_words(trace: Traced, stop: Stop) -> str:
@@ -111,30 +98,19 @@ def dead_in_words(step: Step, dead: DeadPoint) -> str:
     if dead.is_drive:
         told.append("the declared degree of freedom turns back, as it can be driven no farther")
     if dead.turning:
-        names = listed([_named(name) for name in dead.turning])
+        names = listed(
+            [
+                f"the rotation of {with_article(name.removeprefix(ROTATION))}"
+                if name.startswith(ROTATION)
+                else with_article(name)
+                for name in dead.turning
+            ]
+        )
         told.append(f"{names} {'turns' if len(dead.turning) == 1 else 'turn'} back")
     if dead.is_branch:
         told.append(_branches(dead.directions))
     counts = counts_in_words(step.under_constrained, step.over_constrained)
     return f"{'; '.join(told)} ({counts})"
-
-
-def _named(name: str) -> str:
-    if name.startswith(ROTATION):
-        return f"the rotation of {with_article(name.removeprefix(ROTATION))}"
-    return with_article(name)
-
-
-def _drive(trace: Traced) -> list[str]:
-    if trace.shown.freedom is None:
-        return []
-    values = [step.drive for step in trace.steps]
-    name = plain(freedom_in_words(trace.shown.freedom))
-    unit = drive_unit(trace.shown.freedom)
-    return [
-        f"{_capital(name)} goes from {min(values):+.6g} to {max(values):+.6g} {unit}; its "
-        "declaration was let loose."
-    ]
 
 
 def _verdicts(trace: Traced) -> list[str]:

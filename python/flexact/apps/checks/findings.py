@@ -21,11 +21,11 @@ from ...analysis.result import Result
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import but_only, margin_line, warnings_of
 from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, decode
+from ...deck.tokens import Tokens, tokens_of
 from ...util.records import cached_property
 from ...util.text import harmless
 from ..editor.deck import Index, Key
-from ..editor.document import Document, units
-from ..editor.statements import Statements
+from ..editor.document import units
 
 
 def from_root(path: str, environment: Mapping[str, str] = os.environ) -> str:
@@ -90,9 +90,6 @@ class Finding:
     help: str = ""
 
 
-_COMMENTS = "%#"
-
-
 class Lines:
     """The lines of a deck.
 
@@ -119,26 +116,25 @@ class Lines:
 
     def statement(self, number: int) -> str:
         """The words of a line in capitals, one blank between them, without the comment."""
-        text = self.text(number)
-        mark = min((k for k in map(text.find, _COMMENTS) if k >= 0), default=len(text))
-        return " ".join(text[:mark].split()).upper()
+        tokens = self._tokens
+        words = tokens[number - 1].words if tokens is not None and number <= len(tokens) else ()
+        return " ".join(word.text for word in words).upper()
 
     def definition(self, key: Key) -> Region | None:
         """Where an element is made or a node gets its place; None where the text does not say."""
         where = self._index.definition(key) if self._index is not None else []
         if not where:
             return None
-        line, first = where[0].start
-        return self.region(Place(line + 1, first + 1, max(where[0].end.character, first + 1)))
+        (line, first), (_, behind) = where[0]
+        return self.region(Place(line + 1, first + 1, max(behind, first + 1)))
+
+    @cached_property
+    def _tokens(self) -> Tokens | None:
+        return None if self.source is None else tokens_of(self.source)
 
     @cached_property
     def _index(self) -> Index | None:
-        if self.source is None:
-            return None
-        # A CR that ends no line is a blank, as for the core.
-        raw = self.source.text.replace(b"\r\n", b"\n").replace(b"\r", b" ")
-        text = "\n".join(map(decode, raw.split(b"\n")))
-        return Index(Statements(Document.of(text)))
+        return None if self._tokens is None else Index(self._tokens)
 
 
 #: Code of the finding that says how many more there are.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The file that ``flexact advise -o`` writes: a changed deck, a page, or a picture."""
+"""``flexact advise``: what is wrong with decks and why, and steps that mend it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ from typing import NamedTuple
 
 from ...advice.advice import Advice, advice_of
 from ...advice.json import line_of
-from ...advice.proposal import After, tried
+from ...advice.proposal import tried
 from ...advice.steps import together
 from ...advice.words import describe
-from ...analysis.change import Change
-from ...analysis.naming import Pieces, counts_in_words
+from ...analysis.naming import counts_in_words
 from ...analysis.places import listed
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
@@ -74,110 +73,80 @@ def chosen_steps(text: str) -> tuple[Chosen, ...]:
     return made
 
 
-class _Taken(NamedTuple):
-    """Steps that are taken together."""
+def _plan(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> None:
+    """Find out what is wrong with the choice before anything is analysed.
 
-    words: str
-    """Such as "steps 1 and 8"."""
-    change: Change
-    after: After
-    pieces: Pieces
-    """What is done."""
+    Raises:
+        BatchError: options do not go together, or the file cannot be written.
+    """
+    target: Path | None = chosen.output
+    if target is None:
+        if chosen.apply is not None:
+            raise BatchError("--apply writes the changed deck: say where, with -o FILE")
+        return
+    if len(decks) > 1:
+        raise BatchError(f"-o is for one deck, and there are {len(decks)}")
+    kind = target.suffix.lower()
+    if kind in PICTURES and chosen.apply is not None:
+        raise BatchError(
+            "a picture shows the mechanism as it is; for what --apply makes of it name a "
+            "page (.html), or a deck"
+        )
+    is_shown = kind in (*PAGES, *STILLS)
+    if not is_shown and chosen.apply is None:
+        what = "standard output" if target == STDOUT else target
+        raise BatchError(
+            f"what is {what} to be? A page ends with .html, a picture with .png, "
+            ".svg or .pdf; the deck that a step makes also needs --apply K"
+        )
+    (plan_file if is_shown else plan_deck)(decks[0], target)
+    if target == STDOUT and chosen.json:
+        raise BatchError("--json and -o - both go to standard output: choose one")
 
-    @property
-    def outcome(self) -> str:
-        """What the mechanism is then."""
-        return counts_in_words(self.after.under_constrained, self.after.over_constrained)
 
+def _written(advice: Advice, target: Path, steps: tuple[Chosen, ...] | None) -> str:
+    """Write a page, a picture, or the deck that some steps make; say so.
 
-class AdviceFile:
-    """Where the file goes, and what it is by its suffix."""
-
-    def __init__(self, target: Path | None, steps: tuple[Chosen, ...] | None) -> None:
-        """Keep the file, None where none is wanted, and the steps that are to be taken."""
-        self.target, self.steps = target, steps
-        self.kind = "" if target is None else target.suffix.lower()
-
-    @property
-    def to_stdout(self) -> bool:
-        """Whether the deck goes to stdout in place of words."""
-        return self.target == STDOUT
-
-    def plan(self, decks: Sequence[DeckFile]) -> None:
-        """Find out what is wrong with the choice before anything is analysed.
-
-        Raises:
-            BatchError: options do not go together, or the file cannot be written.
-        """
-        if self.target is None:
-            if self.steps is not None:
-                raise BatchError("--apply writes the changed deck: say where, with -o FILE")
-            return
-        if len(decks) > 1:
-            raise BatchError(f"-o is for one deck, and there are {len(decks)}")
-        if self.kind in PICTURES and self.steps is not None:
-            raise BatchError(
-                "a picture shows the mechanism as it is; for what --apply makes of it name a "
-                "page (.html), or a deck"
-            )
-        if self.kind not in (*PAGES, *STILLS) and self.steps is None:
-            what = "standard output" if self.to_stdout else self.target
-            raise BatchError(
-                f"what is {what} to be? A page ends with .html, a picture with .png, "
-                ".svg or .pdf; the deck that a step makes also needs --apply K"
-            )
-        if self.kind in (*PAGES, *STILLS):
-            plan_file(decks[0], self.target)
-        else:
-            plan_deck(decks[0], self.target)
-
-    def write(self, advice: Advice) -> str:
-        """Write what was asked for, and say so; empty where nothing was.
-
-        Raises:
-            AskedError: there is no such step.
-            ModelError: there is no such choice, or no body to be drawn.
-            OutputError: the file cannot be written.
-            PictureError: a package is missing.
-        """
-        if self.target is None:
-            return ""
-        deck, name = harmless(advice.analysis.name), harmless(str(self.target))
-        name = "standard output" if self.to_stdout else name
-        pages = "flexact.show.page.advice"
-        content: bytes
-        if self.kind in STILLS:
-            content = load(pages).picture_of(advice, self.kind)
-            said = f"freedom and constraint drawn in {name}"
-        elif self.kind in PAGES and not self.steps and not len(advice):
-            content = load(pages).page_as_it_is(advice)
-            said = f"shown in {name}; {_there(advice)}"
-        else:
-            taken, given = self._taken(advice), advice.analysis.given
-            if self.kind in PAGES:
-                content = load(pages).page_of(advice, taken.change, taken.pieces)
-                said = f"{taken.words} shown in {name}, {taken.outcome}"
-            else:
-                content = edited_deck(given, taken.change.apply(given).data)
-                said = f"{taken.words} written to {name}, {taken.outcome}"
-        if self.kind in (*PAGES, *STILLS):
-            write_together({self.target: content})
-        else:
-            write_text(self.target, content)
-        return f"{deck}: {said}"
-
-    def _taken(self, advice: Advice) -> _Taken:
-        """The steps that were asked for; of a page by default the first, or what makes it exact."""
-        asked = self.steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
+    Raises:
+        AskedError: there is no such step.
+        ModelError: there is no such choice, or no body to be drawn.
+        OutputError: the file cannot be written.
+        PictureError: a package is missing.
+    """
+    kind = target.suffix.lower()
+    name = "standard output" if target == STDOUT else harmless(str(target))
+    pages = "flexact.show.page.advice"
+    content: bytes
+    if kind in STILLS:
+        content = load(pages).picture_of(advice, kind)
+        said = f"freedom and constraint drawn in {name}"
+    elif kind in PAGES and not steps and not len(advice):
+        content = load(pages).page_as_it_is(advice)
+        said = f"shown in {name}; {_there(advice)}"
+    else:
+        # Of a page by default the first step, or what makes it exact.
+        asked = steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
         for one in asked:
             if one.step > len(advice):
                 raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
-        steps = [(advice[one.step - 1], one.choice) for one in asked]
-        change = together(step.chosen(choice) for step, choice in steps)
-        after = steps[0][0].after if len(steps) == 1 else tried(advice.analysis, change)
-        numbers = listed([str(one) for one in asked])
-        pieces = tuple(piece for step, _ in steps for piece in (*step.pieces, " "))
-        return _Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after, pieces)
+        taken = [(advice[one.step - 1], one.choice) for one in asked]
+        change = together(step.chosen(choice) for step, choice in taken)
+        after = taken[0][0].after if len(taken) == 1 else tried(advice.analysis, change)
+        words = f"step{'s' * (len(taken) > 1)} {listed([str(one) for one in asked])}"
+        outcome = counts_in_words(after.under_constrained, after.over_constrained)
+        if kind in PAGES:
+            pieces = tuple(piece for step, _ in taken for piece in (*step.pieces, " "))
+            content = load(pages).page_of(advice, change, pieces)
+            said = f"{words} shown in {name}, {outcome}"
+        else:
+            given = advice.analysis.given
+            content = edited_deck(given, change.apply(given).data)
+            said = f"{words} written to {name}, {outcome}"
+    if kind in (*PAGES, *STILLS):
+        write_together({target: content})
+    else:
+        write_text(target, content)
+    return f"{harmless(advice.analysis.name)}: {said}"
 
 
 def _there(advice: Advice) -> str:
@@ -192,44 +161,32 @@ def _there(advice: Advice) -> str:
 def advise_decks(chosen: argparse.Namespace) -> ExitCode:
     """Advise on the decks that were asked for."""
     decks = find_decks(chosen.decks)
-    return take(decks, _Work(chosen, decks).step, as_json=chosen.json)
+    _plan(chosen, decks)
+    target: Path | None = chosen.output
 
-
-class _Work:
-    """One run of the verb: what was chosen, and what is done with each deck."""
-
-    def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
-        """Find out what is wrong with the choice before anything is analysed."""
-        self.chosen = chosen
-        self.file = AdviceFile(chosen.output, chosen.apply)
-        self.file.plan(decks)
-        if self.file.to_stdout and chosen.json:
-            raise BatchError("--json and -o - both go to standard output: choose one")
-
-    def step(self, deck: DeckFile) -> Outcome:
+    def step(deck: DeckFile) -> Outcome:
         """Advise on one deck, say and write it."""
         with Bar(deck.name, deck.path) as bar:
-            result = read_and_analysed(deck, self.chosen, bar)
+            result = read_and_analysed(deck, chosen, bar)
             try:
-                asked = self.chosen
-                advice = advice_of(result, asked.body, asked.wanted, asked.bodies)
+                advice = advice_of(result, chosen.body, chosen.wanted, chosen.bodies)
                 advice.found(bar.show_work)
                 with unwinding():
-                    written = self.file.write(advice)
+                    written = _written(advice, target, chosen.apply) if target else ""
             except ModelError as error:
                 raise in_short(error) from None
-            words = "" if written and not self.chosen.json else self._words(advice)
+            words = ""
+            if chosen.json:
+                words = load("json").dumps(line_of(advice), allow_nan=False)
+            elif not written:
+                words = f"{describe(advice, width=text_width())}\n"
         if words:
-            give(words) if self.chosen.json else say(words)
+            give(words) if chosen.json else say(words)
         if written:
-            complain(written) if self.chosen.json or self.file.to_stdout else say(written)
+            complain(written) if chosen.json or target == STDOUT else say(written)
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(result))
 
-    def _words(self, advice: Advice) -> str:
-        if self.chosen.json:
-            text: str = load("json").dumps(line_of(advice), allow_nan=False)
-            return text
-        return f"{describe(advice, width=text_width())}\n"
+    return take(decks, step, as_json=chosen.json)
 
 
 VERB = Verb(

@@ -14,6 +14,7 @@ from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
 from ...deck.rendering import DeckError
 from ...model.reading import read_deck
+from ...show.writers import TABLES
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.loading import load
@@ -21,14 +22,23 @@ from ...util.partial import attempted
 from ...util.text import harmless
 from . import decks as failures
 from . import terminal as colour
-from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, read_and_analysed, report_problems, take
+from .decks import (
+    ACCURACY_AND_BEYOND,
+    DECISION,
+    DECKS,
+    is_table,
+    read_and_analysed,
+    report_problems,
+    summarise_results,
+    summary_argument,
+    take,
+)
 from .parser import Verb, argument
-from .summary import TABLES, is_table, summarise_results, summary_argument
 from .targets import folder_or, mesh_argument
 from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, say, text_width
 
 if TYPE_CHECKING:
-    from .deck_files import ResultFiles
+    from .export import ResultFiles
 
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
@@ -119,7 +129,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
     findings = None if chosen.format == TEXT else Findings(chosen.format)
     files: ResultFiles | None = None
     if chosen.output and not is_table(chosen.output):
-        module = load("flexact.apps.cli.deck_files")
+        module = load("flexact.apps.cli.export")
         files = module.ResultFiles(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
     wanted = VERDICTS.get(chosen.expect)
 

@@ -13,9 +13,8 @@ from ...util.loading import load
 from ...util.text import harmless
 from . import decks as failures
 from .analyse import FORMAT, TEXT, Findings, require_one_form
-from .decks import DECKS, report_problems, take
+from .decks import DECKS, Cells, failed, report_problems, summary_argument, tabulate, take
 from .parser import Verb, argument
-from .summary import Cells, failed, summarise, summary_argument
 from .terminal import ExitCode, Outcome, give, say
 
 
@@ -24,7 +23,7 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
     require_one_form(chosen)
     decks = find_decks(chosen.decks)
     if chosen.summary:
-        return summarise(decks, ("errors", "warnings", "notes"), _counted)
+        return tabulate(decks, ("errors", "warnings", "notes"), _counted)
     if chosen.json:
 
         def say_failure(deck: DeckFile, error: Exception) -> None:

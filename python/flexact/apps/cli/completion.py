@@ -227,11 +227,9 @@ def _quoted_for_fish(text: str) -> str:
 
 
 SCRIPTS = {"bash": bash_script, "zsh": zsh_script, "fish": fish_script}
-
-
-SHELLS = ("bash", "zsh", "fish")
+SHELLS = tuple(SCRIPTS)
 #: What the values of options and arguments are, by what help calls them.
-_FILES, _FOLDERS = ("FILE", "PAGE", "TABLE"), ("DIR",)
+_KINDS = {"DECK": "deck", "DIR": "folder", **dict.fromkeys(("FILE", "PAGE", "TABLE"), "file")}
 
 
 def complete(chosen: argparse.Namespace) -> ExitCode:
@@ -257,7 +255,7 @@ def words_of(verb: str, parser: argparse.ArgumentParser) -> VerbWords:
         options.append(
             OptionWords(
                 tuple(action.option_strings),
-                _plain(action),
+                (action.help or "") % {"prog": "flexact", "default": action.default},
                 action.nargs != 0,
                 tuple(map(str, action.choices or ())),
                 _kind(action),
@@ -269,16 +267,7 @@ def words_of(verb: str, parser: argparse.ArgumentParser) -> VerbWords:
 
 def _kind(action: argparse.Action) -> str:
     """What a value names: a deck, a file, a folder, or nothing that stands in folders."""
-    if action.metavar == "DECK":
-        return "deck"
-    if action.metavar in _FILES:
-        return "file"
-    return "folder" if action.metavar in _FOLDERS else ""
-
-
-def _plain(action: argparse.Action) -> str:
-    """What help says of an option, in a line."""
-    return (action.help or "") % {"prog": "flexact", "default": action.default}
+    return _KINDS.get(str(action.metavar), "")
 
 
 VERB = Verb(

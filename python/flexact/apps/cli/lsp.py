@@ -8,7 +8,6 @@ import os
 import sys
 import threading
 
-from ...advice.advice import advice_of
 from ...util.errors import BatchError
 from ...util.loading import load
 from .parser import Verb, argument
@@ -28,7 +27,7 @@ def talk(_: argparse.Namespace) -> ExitCode:
     # Nothing but the protocol may go where the editor listens.
     with os.fdopen(os.dup(1), "wb") as stdout:
         os.dup2(2, 1)
-        is_over = server.serve(sys.stdin.buffer, stdout, advice_of)
+        is_over = server.serve(sys.stdin.buffer, stdout)
     code = ExitCode.ANALYSED if is_over else ExitCode.OTHER
     if threading.active_count() > 1:
         # An analysis that nobody waits for would keep the process for a while.

@@ -9,13 +9,27 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from ...analysis.differences import Side, SideError, broken_side, change_of, side_of, stored_side
 from ...analysis.result import Result
 from ...analysis.verdict_words import verdict_word
-from ...show.page import Entry, Pair, before_and_after, changes_part, compare_page, index_page
+from ...deck.rendering import ProblemsError
+from ...show.page import (
+    Entry,
+    Pair,
+    before_and_after,
+    broken_entry,
+    broken_page,
+    changes_part,
+    compare_page,
+    entry_of,
+    index_page,
+    unread_entry,
+    with_way_back,
+)
 from ...show.picture import has_packages, picture_bytes
-from ...show.saving import small_picture
+from ...show.saving import page_bytes, small_picture
 from ...show.writers import PAGES, as_bytes
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
@@ -24,7 +38,6 @@ from ...util.outputs import OutputError, plan_file, plan_files, require_replacea
 from ...util.partial import attempted
 from ...util.text import harmless
 from . import decks as failures
-from .deck_files import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
 from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, analysed, opened, read_and_analysed, take
 from .parser import Verb, argument
 from .targets import folder_or
@@ -33,6 +46,50 @@ from .terminal import Bar, ExitCode, Outcome, complain, end_progress, exit_code,
 _JSON = ".json"
 _USAGE = "--compare takes two decks, or two folders"
 _KINDS = {"changed": "changed", "same": "as before"}
+
+
+#: What the index takes the place of among the decks.
+INDEX = DeckFile("the index", Path("index"))
+WITHOUT_PICTURES = (
+    "without the packages matplotlib and pillow there are no still pictures, for browsers without "
+    "WebGL and in the index: pip install matplotlib pillow"
+)
+
+
+class DeckPage(NamedTuple):
+    """A page, and its place in the index."""
+
+    content: bytes
+    entry: Entry
+
+
+def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
+    """The page of a result, whose path beside the index is `place` but for its suffix.
+
+    Args:
+        result: The result.
+        place: The path.
+        indexed: Whether there is an index, which has a picture of each page.
+    """
+    with unwinding():
+        content = page_bytes(result, place if indexed else None)
+    with unwinding():
+        picture = small_picture(result) if indexed else None
+    return DeckPage(content, entry_of(result, place, f"{place}.html", picture))
+
+
+def broken_page_of(
+    error: Exception, name: str, place: str, *, indexed: bool = True
+) -> DeckPage | None:
+    """The page of a deck with errors; None where its file could not be read."""
+    if isinstance(error, ProblemsError):
+        codes = {item.code for item in error.diagnostics}
+        if codes & failures.NOT_READ:
+            return None
+    made = broken_page(error, name)
+    if indexed:
+        made = with_way_back(made, place)
+    return DeckPage(as_bytes(made), broken_entry(error, place, f"{place}.html", name))
 
 
 COMPARE = (
@@ -61,13 +118,16 @@ def compare(chosen: argparse.Namespace) -> ExitCode:
     """Compare the two decks or folders that were asked for, and write the page."""
     places = _checked(chosen)
     before, after = (_decks(place) for place in places)
-    _require_place(chosen.output, [*before.values(), *after.values()])
+    for deck in (*before.values(), *after.values()):
+        # The page shall not overwrite what it is made from.
+        plan_file(deck, chosen.output)
+    require_replaceable(chosen.output)
     runs = _called(*places)
     if not os.path.isdir(places[0]):
         # Two decks are one pair, whatever they are called.
         ((_, one),), ((_, other),) = before.items(), after.items()
-        return _Work(chosen, runs).one(one, other)
-    return _Work(chosen, runs).many(before, after)
+        return _Comparison(chosen, runs).one(one, other)
+    return _Comparison(chosen, runs).many(before, after)
 
 
 def _checked(chosen: argparse.Namespace) -> tuple[str, str]:
@@ -120,17 +180,6 @@ def _decks(place: str) -> dict[str, DeckFile]:
     return made
 
 
-def _require_place(target: Path, decks: Sequence[DeckFile]) -> None:
-    """Raise where the page has no place, or would overwrite what it is made from.
-
-    Raises:
-        OutputError: It would.
-    """
-    for deck in decks:
-        plan_file(deck, target)
-    require_replaceable(target)
-
-
 def _called(first: str, second: str) -> tuple[str, str]:
     """What both are called: the shortest ends of their paths that differ."""
     one, other = (Path(os.path.abspath(path)).parts for path in (first, second))
@@ -141,8 +190,8 @@ def _called(first: str, second: str) -> tuple[str, str]:
     return harmless(first), harmless(second)
 
 
-class _Work:
-    """One comparison."""
+class _Comparison:
+    """One comparison of two decks, or of two folders."""
 
     def __init__(self, chosen: argparse.Namespace, runs: tuple[str, str]) -> None:
         self.chosen, self.runs = chosen, runs
@@ -207,7 +256,12 @@ class _Work:
         """One side, however it is to be had."""
         try:
             if Path(deck.path).suffix.lower() == _JSON:
-                return _Found(_stored(deck))
+                try:
+                    raw = Path(deck.path).read_bytes()
+                except OSError as unread:
+                    words = f"{deck.path}: cannot be read: {unread.strerror}"
+                    raise BatchError(words) from unread
+                return _Found(stored_side(raw, deck.name))
             with Bar(deck.name, deck.path) as bar:
                 result = analysed(deck, opened(deck, bar), self.chosen, bar)
                 return _Found(side_of(result), result)
@@ -240,14 +294,6 @@ def _still(result: Result) -> bytes | None:
     return attempted("", lambda: picture_bytes(result, ".png"), None, None)
 
 
-def _stored(deck: DeckFile) -> Side:
-    try:
-        raw = Path(deck.path).read_bytes()
-    except OSError as error:
-        raise BatchError(f"{deck.path}: cannot be read: {error.strerror}") from error
-    return stored_side(raw, deck.name)
-
-
 def _is_same(first: str, second: str) -> bool:
     """Whether two files hold the same bytes."""
     try:
@@ -276,77 +322,55 @@ def report_decks(chosen: argparse.Namespace) -> ExitCode:
     if chosen.expect:
         raise BatchError("--expect same is for --compare")
     decks = find_decks(chosen.decks)
-    work = _CliReportWork(chosen, decks)
-    code = take(decks, work.step)
-    work.finish()
-    return code
+    output: Path = chosen.output
+    index: Path | None = None
+    if output.suffix.lower() in PAGES and not output.is_dir():
+        if len(decks) > 1:
+            raise BatchError(f"-o {output} is one page; of {len(decks)} decks name a folder")
+        plan = plan_file(decks[0], output)
+    else:
+        plan = plan_files((*decks, INDEX), output, (".html",))
+        index = plan[INDEX.path][0]
+    if not has_packages():
+        complain(WITHOUT_PICTURES)
+    entries = {deck.path: unread_entry(deck.relative.as_posix()) for deck in decks}
 
+    def put(deck: DeckFile, page: DeckPage) -> None:
+        write_together({plan[deck.path][0]: page.content})
+        entries[deck.path] = page.entry
 
-class _CliReportWork:
-    """One run of the verb: where each deck's page goes, and what the index will say."""
-
-    def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
-        self.chosen, self.decks = chosen, decks
-        output: Path = chosen.output
-        self.index: Path | None = None
-        if output.suffix.lower() in PAGES and not output.is_dir():
-            if len(decks) > 1:
-                raise BatchError(f"-o {output} is one page; of {len(decks)} decks name a folder")
-            self.plan = plan_file(decks[0], output)
-        else:
-            self.plan = plan_files((*decks, INDEX), output, (".html",))
-            self.index = self.plan[INDEX.path][0]
-        self.entries: dict[str, Entry] = {}
-        if not has_packages():
-            complain(WITHOUT_PICTURES)
-
-    def step(self, deck: DeckFile) -> Outcome:
+    def step(deck: DeckFile) -> Outcome:
         """Analyse one deck and write its page."""
+        place, indexed = deck.relative.as_posix(), index is not None
         try:
             with Bar(deck.name, deck.path) as bar:
-                analysis = read_and_analysed(deck, self.chosen, bar)
+                result = read_and_analysed(deck, chosen, bar)
                 bar.show("writing")
-                self._write(deck, analysis)
+                page = page_of(result, place, indexed=indexed)
+                with unwinding():
+                    put(deck, page)
         except BatchError:
             raise
         except Exception as unforeseen:
             error = failures.foreseen(unforeseen)
-            self._write_broken(deck, error)
+            broken = broken_page_of(error, deck.name, place, indexed=indexed)
+            try:
+                if broken is not None:
+                    put(deck, broken)
+            except OutputError:
+                failures.report_failure(deck, error)
+                raise
             raise error from None
-        target = self.plan[deck.path][0]
-        say(f"{harmless(deck.name)}: {verdict_word(analysis)}; page in {harmless(str(target))}")
-        return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))
+        word, target = verdict_word(result), plan[deck.path][0]
+        say(f"{harmless(deck.name)}: {word}; page in {harmless(str(target))}")
+        return Outcome(deck.name, ExitCode.ANALYSED, word)
 
-    def _write(self, deck: DeckFile, analysis: Result) -> None:
-        page = page_of(analysis, deck.relative.as_posix(), indexed=self.index is not None)
+    code = take(decks, step)
+    if index is not None:
         with unwinding():
-            self._put(deck, page)
-
-    def _write_broken(self, deck: DeckFile, error: Exception) -> None:
-        place, indexed = deck.relative.as_posix(), self.index is not None
-        page = broken_page_of(error, deck.name, place, indexed=indexed)
-        if page is None:
-            return
-        try:
-            self._put(deck, page)
-        except OutputError:
-            failures.report_failure(deck, error)
-            raise
-
-    def _put(self, deck: DeckFile, page: DeckPage) -> None:
-        write_together({self.plan[deck.path][0]: page.content})
-        self.entries[deck.path] = page.entry
-
-    def finish(self) -> None:
-        """Write the index, if there is to be one."""
-        if self.index is None:
-            return
-        entries = [
-            self.entries.get(deck.path, unread(deck.relative.as_posix())) for deck in self.decks
-        ]
-        with unwinding():
-            write_together({self.index: as_bytes(index_page(entries))})
-        say(f"index in {harmless(str(self.index))}")
+            write_together({index: as_bytes(index_page([entries[each.path] for each in decks]))})
+        say(f"index in {harmless(str(index))}")
+    return code
 
 
 VERB = Verb(

@@ -6,13 +6,14 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ...show.writers import PAGES, PICTURES, PLAYING, TABLES
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, OutputError, plan_file, write_together
+from ...util.outputs import STDOUT, OutputError, plan_file, require_replaceable, write_together
 from .parser import Argument, Group, argument
 from .terminal import put
 
@@ -22,12 +23,10 @@ DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
 _FILE = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,6}")
 #: What writes files of such suffixes, to be named where a folder was wanted.
 _MAKERS = {
-    **dict.fromkeys((".html", ".htm"), "a page is made by flexact report"),
-    **dict.fromkeys(
-        (".png", ".svg", ".gif", ".pdf", ".mp4", ".webm"), "a picture is made by flexact picture"
-    ),
-    **dict.fromkeys((".csv", ".jsonl", ".parquet"), "a table is made by flexact batch"),
-    **dict.fromkeys((".vtu", ".vtp", ".vtk", ".xdmf", ".pvd"), "a mesh is made by flexact export"),
+    **dict.fromkeys(PAGES, "a page is made by flexact report"),
+    **dict.fromkeys(PICTURES, "a picture is made by flexact picture"),
+    **dict.fromkeys(TABLES, "a table is made by flexact batch"),
+    **dict.fromkeys((".vtu", ".vtp", ".vtk", ".xdmf", PLAYING), "a mesh is made by flexact export"),
     ".json": "for JSON on standard output say --json of flexact analyse",
     SUFFIX: "a deck is made by flexact advise --apply, declare or convert",
 }
@@ -98,6 +97,21 @@ def plan_text(deck: DeckFile, target: Path) -> None:
     """As `plan_file`, of a file that may be stdout."""
     if target != STDOUT:
         plan_file(deck, target)
+
+
+def plan_table(table: Path, decks: Sequence[DeckFile]) -> None:
+    """Raise where the table would overwrite a deck, or has no place.
+
+    Raises:
+        OutputError: It does.
+    """
+    plan_file(DeckFile("the table", Path()), table)
+    require_replaceable(table)
+    for deck in decks:
+        if deck.path.endswith(table.suffix) and os.path.realpath(deck.path) == os.path.realpath(
+            table
+        ):
+            raise OutputError(f"{table} would overwrite the deck {deck.path}")
 
 
 def write_text(target: Path, content: bytes) -> None:

@@ -15,9 +15,9 @@ from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file
 from ...util.text import harmless
-from .deck_files import broken_page_of
 from .decks import ACCURACY_AND_BEYOND, DECISION, foreseen, read_and_analysed, take
 from .parser import Verb, argument
+from .report import broken_page_of
 from .targets import DECK, NO_BROWSER, file, one_deck
 from .terminal import Bar, ExitCode, Outcome, say
 

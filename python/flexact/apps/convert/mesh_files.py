@@ -72,6 +72,7 @@ def read_mesh(path: Path) -> Any:
     except MemoryError:
         raise
     except (Exception, SystemExit) as error:
+        # Where it ends the process, it has printed why.
         words = str(error) if isinstance(error, Exception) else ""
         words = words or next(iter(said.getvalue().strip().splitlines()), "")
         reason = " ".join(words.split())[:200] or type(error).__name__
@@ -178,20 +179,16 @@ def model_of_mesh(
         "eprops": sets,
         "rls": releases,
     }
-    _note_data(mesh, remarks)
-    model = model_of(tables, name=name)
-    found = model.data.besides + remarks.diagnostics()
-    return Model.from_data(replace(model.data, besides=found)) if remarks.left_out else model
-
-
-def _note_data(mesh: Any, remarks: Remarks) -> None:
     for word, known, names in (
         ("points", POINT_DATA, mesh.point_data),
         ("lines", _LINE_DATA, mesh.cell_data),
     ):
         for unknown in (each for each in names if each not in known):
             # With a colon it is what a format keeps for itself.
-            remarks.leave_out(f"data of {word}: {unknown}", 0 if ":" in unknown else 1)
+            remarks.leave_out(f"data of {word}: {unknown}", int(":" not in unknown))
+    model = model_of(tables, name=name)
+    found = model.data.besides + remarks.diagnostics()
+    return Model.from_data(replace(model.data, besides=found)) if remarks.left_out else model
 
 
 def _lines(mesh: Any, remarks: Remarks) -> tuple[np.ndarray, dict[str, FloatArray]]:
@@ -269,12 +266,10 @@ def _sets(
     releases = []
     for i in range(count):
         is_truss = bool(cells[TRUSS][i, 0]) if TRUSS in cells else kind.endswith("truss")
-        own = ("pl" if kind.startswith("pl") else "") + ("truss" if is_truss else "beam")
+        own = f"{'pl' * kind.startswith('pl')}{'truss' if is_truss else 'beam'}"
         released = _deformations(RELEASED, cells, i)
         flexible = sorted({*released, *_deformations(INDEPENDENT, cells, i)})
-        entry: Entry = {"type": own}
-        if flexible:
-            entry["flex"] = flexible
+        entry: Entry = {"type": own, **({"flex": flexible} if flexible else {})}
         if VECTOR in cells and own == "beam" and cells[VECTOR][i].any():
             entry["orien"] = cells[VECTOR][i].tolist()
         alike.setdefault(repr(entry), {"elems": [], **entry})["elems"].append(i + 1)
@@ -328,10 +323,7 @@ def mesh_of(model: Model) -> tuple[Any, Remarks]:
     if model.planar:
         places = np.column_stack([places, np.zeros(len(places))])
         remarks.leave_out("that it is planar: read it with --as plbeam or pltruss")
-    try:
-        meshio = import_module("meshio")
-    except ImportError as error:
-        raise MeshError(f"meshes need the package meshio: pip install meshio ({error})") from error
+    meshio = _meshio()
     for entry in nodes:
         remarks.left_out.update(f"of nodes: {name}" for name in entry if name in _WITHOUT_DATA)
     remarks.leave_out("gravity", int("gravity" in tables.get("opt", {})))
@@ -367,13 +359,12 @@ def _require_lines(tables: Mapping[str, Any], planar: bool) -> None:
 
 
 def _of_nodes(nodes: Sequence[Entry], name: str) -> np.ndarray:
-    made = np.zeros((len(nodes), 3))
-    for i, entry in enumerate(nodes):
-        stem = POINT_DATA[name]
-        made[i] = [f"{stem}{axis}" in entry for axis in AXES]
-        if any(entry.get(whole) and name in names for whole, names in _WHOLE.items()):
-            made[i] = 1.0
-    return made
+    whole = [field for field, names in _WHOLE.items() if name in names]
+    rows = [
+        [any(map(entry.get, whole)) or f"{POINT_DATA[name]}{axis}" in entry for axis in AXES]
+        for entry in nodes
+    ]
+    return np.array(rows, float).reshape(-1, 3)
 
 
 def _of_elements(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Of a model's points: the table of nodes and what is said of each."""
+"""From a model to tables: its points and what is said of them, its elements in sets."""
 
 from __future__ import annotations
 
@@ -30,23 +30,14 @@ class Points(NamedTuple):
     nodes: tuple[tuple[int, int], ...]
     ends: tuple[tuple[int, int], ...]
 
-    @property
-    def same_position(self) -> dict[int, int]:
-        """Points that share their position with an earlier one, with the first that does."""
-        return _shared([position for position, _ in self.nodes])
 
-    @property
-    def same_orientation(self) -> dict[int, int]:
-        """Likewise of orientations."""
-        return _shared([orientation for _, orientation in self.nodes])
-
-
-def _shared(nodes: list[int]) -> dict[int, int]:
+def _shared(points: Points, which: int) -> dict[int, int]:
+    """Points that share their position (0), or orientation (1), with the first that has it."""
     first: dict[int, int] = {}
     made = {}
-    for point, node in enumerate(nodes, start=1):
-        if node >= 0 and first.setdefault(node, point) != point:
-            made[point] = first[node]
+    for point, nodes in enumerate(points.nodes, start=1):
+        if nodes[which] >= 0 and first.setdefault(nodes[which], point) != point:
+            made[point] = first[nodes[which]]
     return made
 
 
@@ -109,199 +100,128 @@ def _add_turned(
         waiting = left
 
 
-class NodeTables:
-    """Places and fields of the points of a model."""
+def _places(data: ModelData, points: Points) -> list[list[float]]:
+    """Coordinates of each point."""
+    width = 2 if data.planar else 3
+    values = data.arrays.node_value.T[:, :width].tolist()
+    return [values[p] if p >= 0 else [0.0] * width for p, _ in points.nodes]
 
-    def __init__(
-        self, data: ModelData, points: Points, kinds: list[ElementKind], remarks: Remarks
-    ) -> None:
-        """Of a sound model, its points and the kinds of its elements."""
-        self.data, self.points, self.kinds, self.remarks = data, points, kinds, remarks
 
-    def places(self) -> list[list[float]]:
-        """Coordinates of each node."""
-        width = 2 if self.data.planar else 3
-        values = self.data.arrays.node_value.T[:, :width].tolist()
-        return [values[p] if p >= 0 else [0.0] * width for p, _ in self.points.nodes]
+def _points_said(
+    data: ModelData, points: Points, kinds: list[ElementKind], remarks: Remarks
+) -> list[Entry]:
+    """What is said of each point."""
+    same_pos, same_orien = _shared(points, 0), _shared(points, 1)
+    places = _places(data, points)
+    # Else a hinge between points at one place joins them there.
+    hinged = {
+        max(p, q)
+        for (p, q), kind in zip(points.ends, kinds, strict=True)
+        if kind.keyword == "HINGE"
+        and places[p - 1] == places[q - 1]
+        and same_pos.get(p, p) != same_pos.get(q, q)
+    }
+    made: list[Entry] = []
+    for point, (position, orientation) in enumerate(points.nodes, start=1):
+        entry: Entry = {}
+        if point in same_pos or point in hinged:
+            entry["same_pos"] = same_pos.get(point, point)
+        if point in same_orien:
+            entry["same_orien"] = same_orien[point]
+        own = (
+            position if point not in same_pos else -1,
+            orientation if point not in same_orien else -1,
+        )
+        entry |= _classes(data, own, bool(entry))
+        entry |= _masses(data, own, remarks)
+        entry |= _loads(data, own)
+        if own[0] >= 0 and (name := data.node_names[own[0]]):
+            entry["name"] = name
+        made.append(entry)
+    return made
 
-    def fields(self) -> list[Entry]:
-        """What is said of each node."""
-        a = self.data.arrays
-        classes = a.coordinate_class.T.tolist()
-        same_pos, same_orien = self.points.same_position, self.points.same_orientation
-        hinged = self._hinged(same_pos)
-        made: list[Entry] = []
-        for point, (position, orientation) in enumerate(self.points.nodes, start=1):
-            entry: Entry = {}
-            if point in same_pos:
-                entry["same_pos"] = same_pos[point]
-            elif point in hinged:
-                # Else a hinge between points at one place joins them there.
-                entry["same_pos"] = point
-            if point in same_orien:
-                entry["same_orien"] = same_orien[point]
-            own = (
-                position if point not in same_pos else -1,
-                orientation if point not in same_orien else -1,
-            )
-            self._add_fixed(entry, own, classes)
-            self._add_independent(entry, own, classes)
-            self._add_mass(entry, own)
-            self._add_loads(entry, own)
-            if own[0] >= 0 and (name := self.data.node_names[own[0]]):
-                entry["name"] = name
-            made.append(entry)
-        return made
 
-    def _hinged(self, same: dict[int, int]) -> set[int]:
-        places = self.places()
-        return {
-            max(p, q)
-            for (p, q), kind in zip(self.points.ends, self.kinds, strict=True)
-            if kind.keyword == "HINGE"
-            and places[p - 1] == places[q - 1]
-            and same.get(p, p) != same.get(q, q)
-        }
-
-    def _of_class(self, node: int, classes: list[list[int]], wanted: Class) -> list[int]:
-        """Axes of a node that have a class."""
-        if node < 0:
-            return []
-        axes = AXES[int(self.data.arrays.node_kind[node])]
-        return [axis for axis in axes if classes[node][axis] == wanted]
-
-    def _add_fixed(self, entry: Entry, own: tuple[int, int], classes: list[list[int]]) -> None:
-        whole = []
-        for node, all_of_it, stem in zip(own, ("fix_pos", "fix_orien"), ("", "r"), strict=True):
-            axes = self._of_class(node, classes, Class.FIXED)
-            if node >= 0 and len(axes) == len(AXES[int(self.data.arrays.node_kind[node])]):
-                whole.append(all_of_it)
-            else:
-                entry.update({f"fix_{stem}{LETTERS[axis]}": True for axis in axes})
-        shares = not entry.keys().isdisjoint(("same_pos", "same_orien"))
-        if whole and not shares and len(whole) == sum(node >= 0 for node in own):
-            entry["fix"] = True
+def _classes(data: ModelData, own: tuple[int, int], shares: bool) -> Entry:
+    """What is fixed of the nodes of a point, and what is independent."""
+    entry: Entry = {}
+    whole = []
+    axes = [AXES[int(data.arrays.node_kind[node])] if node >= 0 else () for node in own]
+    classes = [data.arrays.coordinate_class[:, node] for node in own]
+    for of_node, given, name, stem in zip(
+        axes, classes, ("fix_pos", "fix_orien"), ("", "r"), strict=True
+    ):
+        fixed = [axis for axis in of_node if given[axis] == Class.FIXED]
+        if of_node and len(fixed) == len(of_node):
+            whole.append(name)
         else:
-            entry.update(dict.fromkeys(whole, True))
+            entry |= {f"fix_{stem}{LETTERS[axis]}": True for axis in fixed}
+    if whole and not shares and len(whole) == sum(map(bool, axes)):
+        whole = ["fix"]
+    entry |= dict.fromkeys(whole, True)
+    for of_node, given, stem in zip(axes, classes, ("displ", "rot"), strict=True):
+        free = (axis for axis in of_node if given[axis] == Class.INDEPENDENT)
+        entry |= {f"{stem}_{LETTERS[axis]}": 0.0 for axis in free}
+    return entry
 
-    def _add_independent(
-        self, entry: Entry, own: tuple[int, int], classes: list[list[int]]
-    ) -> None:
-        for node, stem in zip(own, ("displ", "rot"), strict=True):
-            for axis in self._of_class(node, classes, Class.INDEPENDENT):
-                entry[f"{stem}_{LETTERS[axis]}"] = 0.0
 
-    def _add_mass(self, entry: Entry, own: tuple[int, int]) -> None:
-        if self.data.properties is None:
-            return
-        for node, name, size in zip(own, ("mass", "mominertia"), (1, 6), strict=True):
-            given = self.data.properties.node_mass[node] if node >= 0 else np.full(6, np.nan)
-            if np.isnan(given[0]):
-                continue
-            numbers = given[~np.isnan(given)].tolist()
-            given_as: Any = numbers[0] if size == 1 else numbers + [0.0] * (6 - len(numbers))
-            try:
-                fits = len(numbers) <= size and NODE_FIELDS[name].check(given_as) is not None
-            except ValueError:
-                fits = False
-            if not fits:
-                self.remarks.leave_out("masses of nodes that are no mass or six moments")
-            elif size == 6 and self.data.arrays.node_kind[node] == NodeKind.ANGLE:
-                entry[name] = [0.0] * 5 + numbers[:1]
-            else:
-                entry[name] = given_as
+def _masses(data: ModelData, own: tuple[int, int], remarks: Remarks) -> Entry:
+    entry: Entry = {}
+    if data.properties is None:
+        return entry
+    for node, name, size in zip(own, ("mass", "mominertia"), (1, 6), strict=True):
+        given = data.properties.node_mass[node] if node >= 0 else np.full(6, np.nan)
+        if np.isnan(given[0]):
+            continue
+        numbers = given[~np.isnan(given)].tolist()
+        given_as: Any = numbers[0] if size == 1 else numbers + [0.0] * (6 - len(numbers))
+        try:
+            fits = len(numbers) <= size and NODE_FIELDS[name].check(given_as) is not None
+        except ValueError:
+            fits = False
+        if not fits:
+            remarks.leave_out("masses of nodes that are no mass or six moments")
+        elif size == 6 and data.arrays.node_kind[node] == NodeKind.ANGLE:
+            entry[name] = [0.0] * 5 + numbers[:1]
+        else:
+            entry[name] = given_as
+    return entry
 
-    def _add_loads(self, entry: Entry, own: tuple[int, int]) -> None:
-        for kind, end in LOADS.items():
-            for node, stem in zip(own, ("force", "moment"), strict=True):
-                if self.data.loads is None or node < 0:
-                    continue
-                load = getattr(self.data.loads, kind)[node].tolist()
-                if any(load):
-                    entry[f"{stem}{end}"] = load
+
+def _loads(data: ModelData, own: tuple[int, int]) -> Entry:
+    if data.loads is None:
+        return {}
+    return {
+        f"{stem}{end}": load
+        for kind, end in LOADS.items()
+        for node, stem in zip(own, ("force", "moment"), strict=True)
+        if node >= 0 and any(load := getattr(data.loads, kind)[node].tolist())
+    }
 
 
 _CROSS_SECTIONS = {CrossSection.RECT: "rect", CrossSection.CIRC: "circ"}
 
 
-class ElementTables:
-    """Fields of the elements of a model."""
-
-    def __init__(self, data: ModelData, kinds: list[ElementKind], remarks: Remarks) -> None:
-        """Of a sound model, and the kinds of its elements."""
-        self.data, self.kinds, self.remarks = data, kinds, remarks
-
-    def sets(self) -> tuple[list[Entry], list[list[int]]]:
-        """Elements that share all their fields, and what is released of each element."""
-        classes = self.data.arrays.deformation_class.T
-        alike: dict[str, Entry] = {}
-        releases = []
-        for i in range(len(self.kinds)):
-            released = (np.flatnonzero(classes[i] == Class.DEPENDENT) + 1).tolist()
-            releases.append(released)
-            entry = self._set_of(i)
-            key = repr(entry)
-            alike.setdefault(key, {"elems": [], **entry})["elems"].append(i + 1)
-        return list(alike.values()), releases
-
-    def _set_of(self, i: int) -> Entry:
-        kind = self.kinds[i]
+def _sets(data: ModelData, kinds: list[ElementKind], remarks: Remarks) -> list[Entry]:
+    """Elements that share all their fields."""
+    alike: dict[str, Entry] = {}
+    for i, kind in enumerate(kinds):
         entry: Entry = {}
-        if kind.keyword != ("PLBEAM" if self.data.planar else "BEAM"):
+        if kind.keyword != ("PLBEAM" if data.planar else "BEAM"):
             entry["type"] = kind.keyword.lower()
-        if name := self.data.element_names[i]:
+        if name := data.element_names[i]:
             entry["name"] = name
-        classes = self.data.arrays.deformation_class[:, i]
-        flexible = (classes == Class.DEPENDENT) | (classes == Class.INDEPENDENT)
+        classes = data.arrays.deformation_class[:, i]
+        flexible = np.isin(classes, (Class.DEPENDENT, Class.INDEPENDENT))
         if flexible.any():
             entry["flex"] = (np.flatnonzero(flexible) + 1).tolist()
-        if (vector := self._vector(i, kind)) is not None:
-            entry["orien"] = vector
-        self._add_section(entry, i, kind)
-        self._add_look(entry, i)
-        return entry
-
-    def _vector(self, i: int, kind: ElementKind) -> list[float] | None:
-        given: list[float] = self.data.arrays.element_vector[:, i].tolist()
-        if any(given):
-            return given
-        if kind.member == Member.BEAM and kind.vector != Vector.NONE:
+        vector = data.arrays.element_vector[:, i]
+        if vector.any():
+            entry["orien"] = vector.tolist()
+        elif kind.member == Member.BEAM and kind.vector != Vector.NONE:
             # The tables have another local y axis where none is given.
-            axis: list[float] = self.data.frames.frame[i, :, 1].tolist()
-            return axis
-        return None
-
-    def _add_section(self, entry: Entry, i: int, kind: ElementKind) -> None:
-        look, given = self.data.appearance, self.data.properties
-        section = CrossSection(int(look.cross_section[i]))
-        sizes: list[float] = look.dimensions[i].tolist()
-        shape = None
-        if section in _CROSS_SECTIONS and is_ordinary(Shape(section, sizes[0], sizes[1])):
-            shape = Shape(section, sizes[0], sizes[1])
-            entry["cshape"] = _CROSS_SECTIONS[section]
-            entry["dim"] = sizes[:1] if section is CrossSection.CIRC else sizes
-        elif section or any(sizes):
-            self.remarks.leave_out("cross-sections other than whole rectangles and circles")
-        if given is None:
-            return
-        stiff, heavy = (row[~np.isnan(row)] for row in (given.stiffness[i], given.mass[i]))
-        if stiff.size:
-            found = None if shape is None else moduli_of(kind, shape, tuple(stiff.tolist()))
-            if found is None:
-                self.remarks.leave_out("stiffness that no moduli and cross-section give")
-            else:
-                entry.update(found[0])
-                if found[1]:
-                    self.remarks.leave_out("shear stiffness, which follows from the cross-section")
-        if heavy.size:
-            density = None if shape is None else density_of(kind, shape, tuple(heavy.tolist()))
-            if density is None:
-                self.remarks.leave_out("mass of elements that no density and cross-section give")
-            else:
-                entry["dens"] = density
-
-    def _add_look(self, entry: Entry, i: int) -> None:
-        look = self.data.appearance
+            entry["orien"] = data.frames.frame[i, :, 1].tolist()
+        entry |= _section(data, i, kind, remarks)
+        look = data.appearance
         if not np.isnan(look.colour[i]).any():
             entry["color"] = look.colour[i].tolist()
         if not np.isnan(look.opacity[i]):
@@ -309,7 +229,42 @@ class ElementTables:
         if not look.drawn[i]:
             entry["hide"] = True
         if not np.isnan(look.edge_colour[i]).any():
-            self.remarks.leave_out("colours of edges")
+            remarks.leave_out("colours of edges")
+        alike.setdefault(repr(entry), {"elems": [], **entry})["elems"].append(i + 1)
+    return list(alike.values())
+
+
+def _section(data: ModelData, i: int, kind: ElementKind, remarks: Remarks) -> Entry:
+    """Cross-section, moduli and density of an element."""
+    entry: Entry = {}
+    look, given = data.appearance, data.properties
+    section = CrossSection(int(look.cross_section[i]))
+    sizes: list[float] = look.dimensions[i].tolist()
+    shape = None
+    if section in _CROSS_SECTIONS and is_ordinary(Shape(section, sizes[0], sizes[1])):
+        shape = Shape(section, sizes[0], sizes[1])
+        entry["cshape"] = _CROSS_SECTIONS[section]
+        entry["dim"] = sizes[:1] if section is CrossSection.CIRC else sizes
+    elif section or any(sizes):
+        remarks.leave_out("cross-sections other than whole rectangles and circles")
+    if given is None:
+        return entry
+    stiff, heavy = (
+        tuple(row[~np.isnan(row)].tolist()) for row in (given.stiffness[i], given.mass[i])
+    )
+    moduli = moduli_of(kind, shape, stiff) if stiff and shape is not None else None
+    if moduli is not None:
+        entry |= moduli[0]
+        times = int(moduli[1])
+        remarks.leave_out("shear stiffness, which follows from the cross-section", times)
+    elif stiff:
+        remarks.leave_out("stiffness that no moduli and cross-section give")
+    density = density_of(kind, shape, heavy) if heavy and shape is not None else None
+    if density is not None:
+        entry["dens"] = density
+    elif heavy:
+        remarks.leave_out("mass of elements that no density and cross-section give")
+    return entry
 
 
 def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
@@ -317,12 +272,13 @@ def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
     remarks, points = Remarks(), points_of(data.arrays)
     every = element_kinds()
     kinds = [every[kind - 1] for kind in data.arrays.element_kind.tolist()]
-    nodes = NodeTables(data, points, kinds, remarks)
-    sets, releases = ElementTables(data, kinds, remarks).sets()
+    sets = _sets(data, kinds, remarks)
+    is_released = data.arrays.deformation_class == Class.DEPENDENT
+    releases = [(np.flatnonzero(modes) + 1).tolist() for modes in is_released.T]
     made: dict[str, Any] = {
-        "nodes": nodes.places(),
+        "nodes": _places(data, points),
         "elements": [list(ends) for ends in points.ends],
-        "nprops": nodes.fields(),
+        "nprops": _points_said(data, points, kinds, remarks),
         "eprops": sets,
     }
     if any(releases):

@@ -25,7 +25,6 @@ from .values import (
     RELEASE_FIELDS,
     Field,
     Found,
-    checked,
     is_unset,
     number,
     vector,
@@ -83,13 +82,11 @@ def tables_given(given: Mapping[str, Any], found: Found) -> Tables:
     made.name = given["name"] if isinstance(given.get("name"), str) else ""
     _take_places(made, given.get("nodes"), found)
     _take_ends(made, given.get("elements"), found)
-    nodes = _entries(given.get("nprops"), "nprops", NODE_FIELDS, found)
-    _take_fields(made.nodes, nodes, "nprops", NODE_FIELDS, made, found)
+    made.nodes = _fields(given.get("nprops"), "nprops", NODE_FIELDS, made, found)
     for node in made.nodes:
         if made.places and node > len(made.places):
             found.error(f"nprops[{node}]", f"there are {len(made.places)} nodes")
-    sets = _entries(given.get("eprops"), "eprops", ELEMENT_FIELDS, found)
-    _take_fields(made.sets, sets, "eprops", ELEMENT_FIELDS, made, found)
+    made.sets = _fields(given.get("eprops"), "eprops", ELEMENT_FIELDS, made, found)
     _take_sets(made, found)
     _take_options(made, given, found)
     return made
@@ -121,10 +118,7 @@ def _take_places(made: Tables, given: Any, found: Found) -> None:
             found.error(f"nodes[{i}]", words)
             row = ()
         for k, value in enumerate(row):
-            try:
-                place[k] = checked(Field(number), value)
-            except ValueError as error:
-                found.error(f"nodes[{i}][{k + 1}]", str(error))
+            place[k] = found.checked(f"nodes[{i}][{k + 1}]", number, value) or 0.0
         made.places.append(tuple(place))
 
 
@@ -170,15 +164,12 @@ def _entries(
     return []
 
 
-def _take_fields(
-    into: dict[int, Entry],
-    entries: list[tuple[int, Any]],
-    name: str,
-    fields: Mapping[str, Field],
-    made: Tables,
-    found: Found,
-) -> None:
-    for i, entry in entries:
+def _fields(
+    given: Any, name: str, fields: Mapping[str, Field], made: Tables, found: Found
+) -> dict[int, Entry]:
+    """The checked fields of entries that have any, by number."""
+    into: dict[int, Entry] = {}
+    for i, entry in _entries(given, name, fields, found):
         if is_unset(entry):
             continue
         place = f"{name}[{i}]"
@@ -189,15 +180,14 @@ def _take_fields(
             if key not in fields:
                 found.error(f"{place}.{key}", f"there is no such field{_meant(key, fields)}")
             elif not is_unset(value):
-                try:
-                    value = checked(fields[key], value)
-                except ValueError as error:
-                    found.error(f"{place}.{key}", str(error))
+                value = found.checked(f"{place}.{key}", fields[key].check, value)
+                if value is None:
                     made.faulty.add(place)
                     continue
                 into.setdefault(i, {})[key] = value
                 if fields[key].left_out and value is not False:
                     made.left_out[f"{fields[key].left_out}: {name}.{key}"] += 1
+    return into
 
 
 def _take_sets(made: Tables, found: Found) -> None:
@@ -224,20 +214,11 @@ def _take_sets(made: Tables, found: Found) -> None:
         elif "cshape" in entry and len(entry["dim"]) != (2 if entry["cshape"] == "rect" else 1):
             wanted = "width and thickness" if entry["cshape"] == "rect" else "one diameter"
             found.error(f"{place}.dim", f"of cshape {entry['cshape']!r} {wanted} is wanted")
-        missing = [name for name in ("emod", "smod") if name not in entry]
-        if len(missing) == 1:
-            found.error(place, f"emod and smod belong together: {missing[0]} is missing")
+        if ("emod" in entry) != ("smod" in entry):
+            missing = "smod" if "emod" in entry else "emod"
+            found.error(place, f"emod and smod belong together: {missing} is missing")
         if "cshape" not in entry and {"emod", "dens"} & entry.keys():
             found.error(place, "emod and dens need a cross-section: give cshape and dim")
-
-
-def _take_gravity(made: Tables, value: Any, found: Found) -> None:
-    if is_unset(value):
-        return
-    try:
-        made.gravity = checked(Field(vector(3)), value)
-    except ValueError as error:
-        found.error("opt.gravity", str(error))
 
 
 def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
@@ -249,18 +230,17 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     for name, value in (options or {}).items():
         if name not in OPTIONS:
             found.error(f"opt.{name}", f"there is no such option{_meant(name, OPTIONS)}")
-        elif name == "gravity":
-            _take_gravity(made, value, found)
-        elif name != "rls":
+        elif name not in ("gravity", "rls"):
             made.left_out[f"what is for a simulation: opt.{name}"] += 1
-        elif not is_unset(value):
+        elif is_unset(value):
+            continue
+        elif name == "gravity":
+            made.gravity = found.checked("opt.gravity", vector(3), value) or made.gravity
+        else:
             if not is_unset(releases):
                 found.error("opt.rls", "releases are given twice, here and as rls: keep one")
             releases, place = value, "opt.rls"
-    taken: dict[int, Entry] = {}
-    entries = _entries(releases, place, RELEASE_FIELDS, found)
-    _take_fields(taken, entries, place, RELEASE_FIELDS, made, found)
-    for element, entry in taken.items():
+    for element, entry in _fields(releases, place, RELEASE_FIELDS, made, found).items():
         if made.ends and element > len(made.ends):
             found.error(f"{place}[{element}]", f"there are {len(made.ends)} elements")
         made.released[element] = entry["def"]
@@ -272,12 +252,10 @@ _NEAR = 1.0e-9
 
 def shape_of(entry: dict[str, Any]) -> Shape | None:
     """The cross-section: of a rectangle the width lies along local y, as orien does."""
-    if "cshape" not in entry or "dim" not in entry:
+    if not {"cshape", "dim"} <= entry.keys():
         return None
-    dim = entry["dim"]
-    if entry["cshape"] == "circ":
-        return Shape(CrossSection.CIRC, dim[0], dim[0])
-    return Shape(CrossSection.RECT, dim[0], dim[-1])
+    kind = CrossSection.CIRC if entry["cshape"] == "circ" else CrossSection.RECT
+    return Shape(kind, entry["dim"][0], entry["dim"][-1])
 
 
 def is_ordinary(shape: Shape) -> bool:
@@ -289,7 +267,7 @@ def stiffness_of(
     kind: ElementKind, shape: Shape, entry: dict[str, Any]
 ) -> tuple[float, ...] | None:
     """ESTIFF of an element; None without moduli."""
-    if "emod" not in entry or "smod" not in entry:
+    if not {"emod", "smod"} <= entry.keys():
         return None
     return stiffness(kind, shape, Material("given", entry["emod"], entry["smod"]))
 
@@ -317,9 +295,8 @@ def moduli_of(
 
     Of a planar beam and of a bar nothing is known of the shear modulus.
     """
-    if kind.member != Member.BEAM or NodeKind.PLANAR_POSITION in kind.slots or len(given) < 4:
-        return None
-    if not is_ordinary(shape):
+    is_spatial = kind.member == Member.BEAM and NodeKind.PLANAR_POSITION not in kind.slots
+    if not is_spatial or len(given) < 4 or not is_ordinary(shape):
         return None
     c = constants_of(shape)
     found = {"emod": given[0] / c.area, "smod": given[1] / c.torsion}

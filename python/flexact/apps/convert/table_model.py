@@ -6,8 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import pairwise
-from typing import NamedTuple
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -20,16 +19,6 @@ from ...model.names import one_line
 from .table_input import Entry, Tables, mass_of, shape_of, stiffness_of, warped
 from .values import AXES as LETTERS
 from .values import LOADS, NODES_A_POINT, PRESCRIBED, Found, Remarks
-
-
-def positions_of(tables: Tables, found: Found) -> dict[int, int]:
-    """Number of the position of each node; some share one."""
-    return _numbers(tables, "same_pos", 1, _hinged(tables), found)
-
-
-def orientations_of(tables: Tables, found: Found) -> dict[int, int]:
-    """Likewise of orientations."""
-    return _numbers(tables, "same_orien", 2, {}, found)
 
 
 def _numbers(
@@ -58,125 +47,6 @@ def _hinged(tables: Tables) -> dict[int, int]:
     return made
 
 
-class NodeGiver(NamedTuple):
-    """Gives the nodes of a draft what tables say of them.
-
-    Attributes:
-        tables: The tables.
-        draft: The draft, with all its elements.
-        position: Number of the position of each node of the tables.
-        orientation: Likewise.
-        used: Numbers of the nodes that an element uses.
-        found: Where problems are noted.
-        remarks: Where is noted what a model does not hold.
-    """
-
-    tables: Tables
-    draft: Draft
-    position: dict[int, int]
-    orientation: dict[int, int]
-    used: set[int]
-    found: Found
-    remarks: Remarks
-
-    def add_classes(self) -> None:
-        """What is fixed, and what is prescribed and so independent."""
-        for point, entry in self.tables.nodes.items():
-            if point > len(self.tables.places):
-                continue
-            stated: dict[tuple[int, int], Class] = {}
-            self._fix(point, entry, stated)
-            if self._prescribe(point, entry, stated):
-                self.remarks.leave_out(PRESCRIBED)
-            self.draft.coordinate_class.update(stated)
-
-    def _axes(self, number: int) -> tuple[int, ...]:
-        """Of a node that an element uses."""
-        return AXES[self.draft.node_kind[number]] if number in self.used else ()
-
-    def _fix(self, point: int, entry: Entry, stated: dict[tuple[int, int], Class]) -> None:
-        position, orientation = self.position[point], self.orientation[point]
-        for axis in self._axes(position):
-            if any(entry.get(name) for name in ("fix", "fix_pos", f"fix_{LETTERS[axis]}")):
-                stated[position, axis] = Class.FIXED
-        for axis in self._axes(orientation):
-            if any(entry.get(name) for name in ("fix", "fix_orien", f"fix_r{LETTERS[axis]}")):
-                stated[orientation, axis] = Class.FIXED
-
-    def _prescribe(self, point: int, entry: Entry, stated: dict[tuple[int, int], Class]) -> bool:
-        """Make independent what moves as it is told; whether a value was told."""
-        told = False
-        for number, stem in ((self.position[point], "displ"), (self.orientation[point], "rot")):
-            axes = self._axes(number)
-            for start in (stem, f"{stem}_initial"):
-                names = {f"{start}_{letter}": (axis,) for axis, letter in enumerate(LETTERS)}
-                for name, wanted in {**names, start: axes}.items():
-                    if name not in entry:
-                        continue
-                    value = entry[name]
-                    told = told or bool(any(value) if isinstance(value, tuple) else value)
-                    for axis in wanted:
-                        self._state(point, name, (number, axis), stated)
-        return told
-
-    def _state(
-        self, point: int, name: str, place: tuple[int, int], stated: dict[tuple[int, int], Class]
-    ) -> None:
-        where = f"nprops[{point}].{name}"
-        if place[1] not in self._axes(place[0]):
-            self.found.error(where, "no element gives the node this coordinate")
-        elif stated.get(place) == Class.FIXED:
-            self.found.error(where, "the coordinate is fixed, too: it cannot move as it is told")
-        else:
-            stated[place] = Class.INDEPENDENT
-
-    def add_masses(self) -> None:
-        """Masses of nodes."""
-        for point, entry in self.tables.nodes.items():
-            if point > len(self.tables.places):
-                continue
-            for name, number in (
-                ("mass", self.position[point]),
-                ("mominertia", self.orientation[point]),
-            ):
-                if name not in entry:
-                    continue
-                value = entry[name] if isinstance(entry[name], tuple) else (entry[name],)
-                if self._require_use(point, name, number):
-                    planar = self.draft.node_kind[number] == NodeKind.ANGLE
-                    self.draft.give_node_mass(number, value[-1:] if planar else value)
-
-    def add_loads(self) -> None:
-        """Forces and moments of nodes, and gravity."""
-        for point, entry in self.tables.nodes.items():
-            if point > len(self.tables.places):
-                continue
-            for stem, number in (
-                ("force", self.position[point]),
-                ("moment", self.orientation[point]),
-            ):
-                for kind, end in LOADS.items():
-                    name = f"{stem}{end}"
-                    if name in entry and self._require_use(point, name, number):
-                        axes = AXES[self.draft.node_kind[number]]
-                        table: dict[int, tuple[float, ...]] = getattr(self.draft, kind)
-                        table[number] = self._in_scene(entry[name], axes)
-        x, y, z = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
-        self.draft.gravity = x, y, z
-
-    def _in_scene(self, load: tuple[float, ...], axes: tuple[int, ...]) -> tuple[float, ...]:
-        """A load without what is out of a plane."""
-        made = tuple(value if axis in axes else 0.0 for axis, value in enumerate(load))
-        self.remarks.leave_out("loads out of the plane", int(made != load))
-        return made
-
-    def _require_use(self, point: int, name: str, number: int) -> bool:
-        if number in self.used:
-            return True
-        self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
-        return False
-
-
 #: What the local y axis of a beam points to where nothing is said.
 _ORIEN = (0.0, 1.0, 0.0)
 
@@ -197,7 +67,7 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     making.note_warping()
     found.require_none()
     data = data_of_draft(making.draft, tables.name)
-    return making.with_remarks(data)
+    return replace(data, besides=(*data.besides, *making.remarks.diagnostics()))
 
 
 class _Making:
@@ -208,10 +78,10 @@ class _Making:
         self.flexible = flexible
         self.found = found
         self.draft = Draft(tables.planar)
-        self.position = positions_of(tables, found)
-        self.orientation = orientations_of(tables, found)
-        self.remarks = Remarks()
-        self.remarks.left_out.update(tables.left_out)
+        #: Numbers of the position and the orientation of each point; some share one.
+        self.position = _numbers(tables, "same_pos", 1, _hinged(tables), found)
+        self.orientation = _numbers(tables, "same_orien", 2, {}, found)
+        self.remarks = Remarks(left_out=tables.left_out)
         self.used: set[int] = set()
         #: Elements with warping by the points at which they end.
         self.warping_at: dict[int, list[int]] = {}
@@ -230,12 +100,6 @@ class _Making:
             self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
             if name := one_line(self.tables.nodes.get(point, {}).get("name", "")):
                 self.draft.node_names.setdefault(number, name)
-
-    def _orientation(self, number: int, kind: int) -> int:
-        upright = 1.0 if kind == NodeKind.ORIENTATION else 0.0
-        self.draft.node_kind.setdefault(number, kind)
-        self.draft.node_value.setdefault(number, (upright, 0.0, 0.0, 0.0))
-        return number
 
     def add_element(self, element: int) -> None:
         """The beams of an element, or the one element that it is."""
@@ -283,7 +147,9 @@ class _Making:
                 if not slot:
                     slots[k] = 0
                 elif k in (1, 3):
-                    self._orientation(slots[k], slot)
+                    upright = 1.0 if slot == NodeKind.ORIENTATION else 0.0
+                    self.draft.node_kind.setdefault(slots[k], slot)
+                    self.draft.node_value.setdefault(slots[k], (upright, 0.0, 0.0, 0.0))
             self.used.update(slots)
             yield slots[0], slots[1], slots[2], slots[3]
 
@@ -328,14 +194,11 @@ class _Making:
         if shape is not None and kind.member in (Member.BAR, Member.BEAM):
             stiffness = stiffness_of(kind, shape, entry)
             if stiffness is not None and kind.member == Member.BEAM and not self.tables.planar:
-                stiffness = warped(stiffness, self._length(element), self._warp_held(element))
+                p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
+                stiffness = warped(stiffness, math.dist(p, q), self._warp_held(element))
             self.draft.give_properties(index, stiffness, mass_of(kind, shape, entry))
         elif shape is not None and "dens" in entry:
             self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
-
-    def _length(self, element: int) -> float:
-        p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
-        return math.dist(p, q)
 
     def _warp_held(self, element: int) -> int:
         """At how many ends of an element its warping is held: of what is known alone.
@@ -344,15 +207,12 @@ class _Making:
         another element with warping does there is not known.
         """
         entry = self.tables.entry_of(element)
-        if entry.get("cshape") != "rect":
+        if entry.get("cshape") != "rect" or not (entry.get("cw") or entry.get("warping")):
             return 0
         if entry.get("cw"):
             return 2
-        if not entry.get("warping"):
-            return 0
         ends = self.tables.ends[element - 1]
-        fixed = [self._holds_warping(point) for point in ends]
-        return sum(fixed) if self._meets(element) is None else 0
+        return sum(map(self._holds_warping, ends)) if self._meets(element) is None else 0
 
     def _holds_warping(self, point: int) -> bool:
         entry = self.tables.nodes.get(point, {})
@@ -386,15 +246,80 @@ class _Making:
                 self.remarks.leave_out(f"warping: nprops[{point}].fix_warp: no element warps")
 
     def give_nodes(self) -> None:
-        """Classes, masses and loads of the nodes that elements use."""
-        giver = NodeGiver(
-            *(self.tables, self.draft, self.position, self.orientation, self.used),
-            *(self.found, self.remarks),
-        )
-        giver.add_classes()
-        giver.add_masses()
-        giver.add_loads()
+        """Classes, masses and loads of the nodes that elements use, and gravity."""
+        points = {
+            point: (entry, (self.position[point], self.orientation[point]))
+            for point, entry in self.tables.nodes.items()
+            if point <= len(self.tables.places)
+        }
+        for point, (entry, own) in points.items():
+            stated = self._fixed(entry, own)
+            self.remarks.leave_out(PRESCRIBED, int(self._prescribe(point, entry, own, stated)))
+            self.draft.coordinate_class.update(stated)
+        for point, (entry, own) in points.items():
+            for name, number in zip(("mass", "mominertia"), own, strict=True):
+                if self._is_given(point, entry, name, number):
+                    value = entry[name] if isinstance(entry[name], tuple) else (entry[name],)
+                    planar = self.draft.node_kind[number] == NodeKind.ANGLE
+                    self.draft.give_node_mass(number, value[-1:] if planar else value)
+        for point, (entry, own) in points.items():
+            for (stem, number), (kind, end) in product(
+                zip(("force", "moment"), own, strict=True), LOADS.items()
+            ):
+                if self._is_given(point, entry, f"{stem}{end}", number):
+                    axes = AXES[self.draft.node_kind[number]]
+                    table: dict[int, tuple[float, ...]] = getattr(self.draft, kind)
+                    table[number] = self._in_scene(entry[f"{stem}{end}"], axes)
+        gravity = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
+        self.draft.gravity = gravity
 
-    def with_remarks(self, data: ModelData) -> ModelData:
-        """The model with what was left out among its notes."""
-        return replace(data, besides=(*data.besides, *self.remarks.diagnostics()))
+    def _axes(self, number: int) -> tuple[int, ...]:
+        """Of a node that an element uses."""
+        return AXES[self.draft.node_kind[number]] if number in self.used else ()
+
+    def _fixed(self, entry: Entry, own: tuple[int, int]) -> dict[tuple[int, int], Class]:
+        """What is fixed of a position and an orientation."""
+        return {
+            (number, axis): Class.FIXED
+            for number, whole, stem in zip(own, ("fix_pos", "fix_orien"), ("", "r"), strict=True)
+            for axis in self._axes(number)
+            if any(entry.get(name) for name in ("fix", whole, f"fix_{stem}{LETTERS[axis]}"))
+        }
+
+    def _prescribe(
+        self, point: int, entry: Entry, own: tuple[int, int], stated: dict[tuple[int, int], Class]
+    ) -> bool:
+        """Make independent what moves as it is told; whether a value was told."""
+        told = False
+        for number, stem in zip(own, ("displ", "rot"), strict=True):
+            axes = self._axes(number)
+            names: dict[str, tuple[int, ...]] = {}
+            for start in (stem, f"{stem}_initial"):
+                names |= {f"{start}_{letter}": (axis,) for axis, letter in enumerate(LETTERS)}
+                names[start] = axes
+            for name in (each for each in names if each in entry):
+                where = f"nprops[{point}].{name}"
+                told = told or bool(np.any(entry[name]))
+                for place in ((number, axis) for axis in names[name]):
+                    if place[1] not in axes:
+                        self.found.error(where, "no element gives the node this coordinate")
+                    elif stated.get(place) == Class.FIXED:
+                        words = "the coordinate is fixed, too: it cannot move as it is told"
+                        self.found.error(where, words)
+                    else:
+                        stated[place] = Class.INDEPENDENT
+        return told
+
+    def _is_given(self, point: int, entry: Entry, name: str, number: int) -> bool:
+        """Whether a field is that of a node which an element uses; else that is said."""
+        if name in entry and number not in self.used:
+            self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
+        return name in entry and number in self.used
+
+    def _in_scene(
+        self, load: tuple[float, ...], axes: tuple[int, ...]
+    ) -> tuple[float, float, float]:
+        """A load without what is out of a plane."""
+        x, y, z = (value if axis in axes else 0.0 for axis, value in enumerate(load))
+        self.remarks.leave_out("loads out of the plane", int((x, y, z) != load))
+        return x, y, z

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from json import scanner
 from types import ModuleType
@@ -19,35 +19,36 @@ from .values import TablesError, Text
 _Tree = tuple[int, int, list[Any]]
 
 
-class JsonError(ValueError):
-    """A text that is no JSON."""
+class MalformedError(ValueError):
+    """A text that is no JSON or no YAML: what is wrong, and where, from 1; 0 where unknown."""
 
     def __init__(self, message: str, line: int = 0, column: int = 0) -> None:
-        """What is wrong, and where, from 1; 0 where that is not known."""
-        super().__init__(message)
-        self.message, self.line, self.column = message, line, column
+        """Keep them."""
+        super().__init__(message, line, column)
 
 
 def value_of_json(text: str) -> Any:
     """What a text holds.
 
     Raises:
-        JsonError: it is no JSON, or an object has two entries of one name.
+        MalformedError: it is no JSON, or an object has two entries of one name.
     """
     try:
         return json.loads(text, object_pairs_hook=_once)
     except json.JSONDecodeError as error:
         words = f"this is no JSON: {error.msg[:1].lower()}{error.msg[1:]}"
-        raise JsonError(words, error.lineno, error.colno) from None
+        raise MalformedError(words, error.lineno, error.colno) from None
+    except MalformedError:
+        raise
     except ValueError as error:
-        raise error if isinstance(error, JsonError) else JsonError(str(error)) from None
+        raise MalformedError(str(error)) from None
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     made: dict[str, Any] = {}
     for key, value in pairs:
         if key in made:
-            raise JsonError(f"an object has two entries {key!r}: keep one")
+            raise MalformedError(f"an object has two entries {key!r}: keep one")
         made[key] = value
     return made
 
@@ -76,7 +77,7 @@ def spans_of_json(text: str) -> dict[str, Place]:
         end = breaks[line] if line < len(breaks) else len(text)
         return Place(line, first - before, min(behind, end) - before - 1)
 
-    return {place: span(*both) for place, *both in _places(value, roots[0], "")}
+    return {place: span(*both) for place, *both in _json_places(value, roots[0], "")}
 
 
 def _with_inner(plain: Any, scanned: Any) -> Any:
@@ -95,15 +96,15 @@ def _with_inner(plain: Any, scanned: Any) -> Any:
     return scan
 
 
-def _places(value: Any, tree: _Tree, place: str) -> Iterator[tuple[str, int, int]]:
+def _json_places(value: Any, tree: _Tree, place: str) -> Iterator[tuple[str, int, int]]:
     start, behind, parts = tree
     yield place, start, behind
     if isinstance(value, dict):
         for (key, inner), part in zip(value.items(), parts, strict=True):
-            yield from _places(inner, part, joined(place, key))
+            yield from _json_places(inner, part, joined(place, key))
     elif isinstance(value, list):
         for i, (inner, part) in enumerate(zip(value, parts, strict=True), start=1):
-            yield from _places(inner, part, f"{place}[{i}]")
+            yield from _json_places(inner, part, f"{place}[{i}]")
 
 
 def joined(place: str, key: object) -> str:
@@ -113,21 +114,12 @@ def joined(place: str, key: object) -> str:
     return f"{place}.{key}" if place else str(key)
 
 
-class YamlError(ValueError):
-    """A text that is no YAML."""
-
-    def __init__(self, message: str, line: int = 0, column: int = 0) -> None:
-        """What is wrong, and where, from 1; 0 where that is not known."""
-        super().__init__(message)
-        self.message, self.line, self.column = message, line, column
-
-
 def value_of_yaml(yaml: ModuleType, text: str) -> Any:
     """What a text holds.
 
     Raises:
-        YamlError: it is no YAML, a part stands for another one, or an object has two entries of
-            one name.
+        MalformedError: it is no YAML, a part stands for another one, or an object has two
+            entries of one name.
     """
     try:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
@@ -138,25 +130,33 @@ def value_of_yaml(yaml: ModuleType, text: str) -> Any:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         words = f"this is no YAML: {getattr(error, 'problem', None) or error}".splitlines()[0]
-        raise YamlError(words, *((mark.line + 1, mark.column + 1) if mark else (0, 0))) from None
+        raise MalformedError(words, *(_start(mark) if mark else ())) from None
+    except MalformedError:
+        raise
     except (ValueError, OverflowError) as error:
-        raise error if isinstance(error, YamlError) else YamlError(str(error)) from None
+        raise MalformedError(str(error)) from None
+
+
+def _start(mark: Any) -> tuple[int, int]:
+    """Line and column of a place in YAML, from 1."""
+    return mark.line + 1, mark.column + 1
 
 
 def _check(yaml: ModuleType, node: Any, seen: set[int]) -> None:
     """Few lines could stand for gigabytes, or for themselves."""
-    line, column = node.start_mark.line + 1, node.start_mark.column + 1
+    start = _start(node.start_mark)
     if id(node) in seen:
-        raise YamlError("a part stands for another one (&name, *name): write it out", line, column)
+        words = "a part stands for another one (&name, *name): write it out"
+        raise MalformedError(words, *start)
     seen.add(id(node))
     if isinstance(node, yaml.MappingNode):
         names = set()
         for key, value in node.value:
             if not isinstance(key, yaml.ScalarNode):
-                raise YamlError("the name of an entry is a text or a number", line, column)
+                raise MalformedError("the name of an entry is a text or a number", *start)
             if key.value in names:
-                place = key.start_mark.line + 1, key.start_mark.column + 1
-                raise YamlError(f"an object has two entries {key.value!r}: keep one", *place)
+                words = f"an object has two entries {key.value!r}: keep one"
+                raise MalformedError(words, *_start(key.start_mark))
             names.add(key.value)
             _check(yaml, value, seen)
     elif isinstance(node, yaml.SequenceNode):
@@ -164,21 +164,16 @@ def _check(yaml: ModuleType, node: Any, seen: set[int]) -> None:
             _check(yaml, each, seen)
 
 
-def spans_of_yaml(yaml: ModuleType, text: str) -> dict[str, Place]:
-    """Where each value of a sound text stands, by its place, such as nprops[3].fix."""
-    return dict(_places_of_yaml_spans(yaml, yaml.compose(text, Loader=yaml.SafeLoader), ""))
-
-
-def _places_of_yaml_spans(yaml: ModuleType, node: Any, place: str) -> Iterator[tuple[str, Place]]:
+def _yaml_places(yaml: ModuleType, node: Any, place: str) -> Iterator[tuple[str, Place]]:
     start, end = node.start_mark, node.end_mark
     last = end.column if end.line == start.line else start.column + 1
     yield place, Place(start.line + 1, start.column + 1, max(last, start.column + 1))
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
-            yield from _places_of_yaml_spans(yaml, value, joined(place, key.value))
+            yield from _yaml_places(yaml, value, joined(place, key.value))
     elif isinstance(node, yaml.SequenceNode):
         for i, each in enumerate(node.value, start=1):
-            yield from _places_of_yaml_spans(yaml, each, f"{place}[{i}]")
+            yield from _yaml_places(yaml, each, f"{place}[{i}]")
 
 
 JSON, YAML = (".json",), (".yaml", ".yml")
@@ -207,24 +202,26 @@ def read_tables(raw: bytes, name: str, suffix: str) -> tuple[Mapping[str, Any], 
         text = source.text.decode("utf-8")
     except UnicodeDecodeError as error:
         line = source.text.count(b"\n", 0, error.start) + 1
-        raise _error("this is no UTF-8 text", source, line) from None
-    value_of: Callable[[str], Any] = value_of_json
-    spans_of: Callable[[str], dict[str, Place]] = spans_of_json
-    if suffix in YAML:
-        yaml = _yaml()
-        value_of, spans_of = (lambda t: value_of_yaml(yaml, t)), (lambda t: spans_of_yaml(yaml, t))
+        raise _error(source, "this is no UTF-8 text", line) from None
+    yaml = _yaml() if suffix in YAML else None
     try:
-        value = value_of(text)
-    except (JsonError, YamlError) as error:
-        raise _error(error.message, source, error.line, error.column) from None
+        value = value_of_json(text) if yaml is None else value_of_yaml(yaml, text)
+    except MalformedError as error:
+        raise _error(source, *error.args) from None
     except RecursionError:
-        raise _error("lists or objects stand in each other too deeply", source) from None
+        raise _error(source, "lists or objects stand in each other too deeply") from None
     if not isinstance(value, Mapping):
-        raise _error("an object with nodes, elements, nprops and eprops is wanted", source)
-    return value, Text(source, lambda: spans_of(text))
+        raise _error(source, "an object with nodes, elements, nprops and eprops is wanted")
+    return value, Text(source, lambda: _spans(yaml, text))
 
 
-def _error(message: str, source: Source, line: int = 0, column: int = 0) -> TablesError:
+def _spans(yaml: ModuleType | None, text: str) -> dict[str, Place]:
+    if yaml is None:
+        return spans_of_json(text)
+    return dict(_yaml_places(yaml, yaml.compose(text, Loader=yaml.SafeLoader), ""))
+
+
+def _error(source: Source, message: str, line: int = 0, column: int = 0) -> TablesError:
     column = max(column, 1) if line else 0
     item = Diagnostic(Severity.ERROR, "bad-table", message, line, column, column)
     return TablesError(Problems.of([item]), source.name, source)

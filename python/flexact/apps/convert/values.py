@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from ...core.elements import element_kinds
@@ -18,38 +19,41 @@ from ...util.text import in_short
 LARGEST = 1e30
 
 
+def _require(is_right: bool, wanted: str) -> None:
+    if not is_right:
+        raise ValueError(wanted)
+
+
 def flag(value: Any) -> bool:
     """True or false; also 1 and 0."""
-    if isinstance(value, bool) or (isinstance(value, (int, float)) and value in (0, 1)):
-        return bool(value)
-    raise ValueError("true or false is wanted")
+    is_number = isinstance(value, (bool, int, float))
+    _require(is_number and value in (0, 1), "true or false is wanted")
+    return bool(value)
 
 
 def number(value: Any) -> float:
     """A finite number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError("a number is wanted")
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    _require(is_number, "a number is wanted")
     try:
         made = float(value)
     except OverflowError:
         made = math.inf
-    if not math.isfinite(made):
-        raise ValueError("the number is not finite")
+    _require(math.isfinite(made), "the number is not finite")
     return made
 
 
 def whole(value: Any) -> int:
     """A whole number, also one like 2.0."""
     made = number(value)
-    if made != int(made):
-        raise ValueError("a whole number is wanted")
+    _require(made == int(made), "a whole number is wanted")
     return int(made)
 
 
 def positive(value: Any) -> float:
     """A number above zero, neither tiny nor huge."""
-    if not 1.0 / LARGEST < (made := number(value)) < LARGEST:
-        raise ValueError(f"a number between 0 and {LARGEST:g} is wanted")
+    made = number(value)
+    _require(1.0 / LARGEST < made < LARGEST, f"a number between 0 and {LARGEST:g} is wanted")
     return made
 
 
@@ -60,22 +64,21 @@ def not_negative(value: Any) -> float:
 
 def count(value: Any) -> int:
     """A whole number from 1 on."""
-    if not 1 <= (made := whole(value)) < 10**6:
-        raise ValueError("a whole number from 1 on is wanted")
+    made = whole(value)
+    _require(1 <= made < 10**6, "a whole number from 1 on is wanted")
     return made
 
 
 def part(value: Any) -> float:
     """A number from 0 to 1."""
-    if not 0.0 <= (made := number(value)) <= 1.0:
-        raise ValueError("a number from 0 to 1 is wanted")
+    made = number(value)
+    _require(0.0 <= made <= 1.0, "a number from 0 to 1 is wanted")
     return made
 
 
 def text(value: Any) -> str:
     """A text on one line."""
-    if not isinstance(value, str):
-        raise ValueError("a text is wanted")
+    _require(isinstance(value, str), "a text is wanted")
     return " ".join(value.split())
 
 
@@ -89,8 +92,7 @@ def vector(*sizes: int) -> Callable[[Any], tuple[float, ...]]:
 
     def check(value: Any) -> tuple[float, ...]:
         given = value if isinstance(value, (list, tuple)) else [value]
-        if len(given) not in sizes:
-            raise ValueError(f"{' or '.join(map(str, sizes))} numbers are wanted")
+        _require(len(given) in sizes, f"{' or '.join(map(str, sizes))} numbers are wanted")
         return tuple(number(each) for each in given)
 
     return check
@@ -99,31 +101,27 @@ def vector(*sizes: int) -> Callable[[Any], tuple[float, ...]]:
 def direction(value: Any) -> tuple[float, ...]:
     """A vector that is not zero."""
     made = vector(3)(value)
-    if not any(made):
-        raise ValueError("the vector is zero")
+    _require(any(made), "the vector is zero")
     return made
 
 
 def numbers_from_one(value: Any) -> tuple[int, ...]:
     """Numbers from 1 on, each once; a single one may stand without brackets."""
     made = tuple(count(each) for each in (value if isinstance(value, (list, tuple)) else [value]))
-    if len(set(made)) < len(made):
-        raise ValueError("a number stands there twice")
+    _require(len(set(made)) == len(made), "a number stands there twice")
     return made
 
 
 def deformations(value: Any) -> tuple[int, ...]:
     """Numbers of deformations from 1 to 6, each once."""
     made = numbers_from_one(value)
-    if max(made, default=1) > 6:
-        raise ValueError("deformations have numbers from 1 to 6")
+    _require(max(made, default=1) <= 6, "deformations have numbers from 1 to 6")
     return made
 
 
 def shape(value: Any) -> str:
     """The kind of a cross-section."""
-    if value not in ("rect", "circ"):
-        raise ValueError("'rect' or 'circ' is wanted")
+    _require(value in ("rect", "circ"), "'rect' or 'circ' is wanted")
     return str(value)
 
 
@@ -146,32 +144,29 @@ COLOURS = {
 def colour(value: Any) -> tuple[float, ...]:
     """Red, green and blue from 0 to 1, or to 255 where one exceeds 1; a name, or its number."""
     if isinstance(value, str):
-        if value not in COLOURS:
-            raise ValueError(f"one of {', '.join(COLOURS)} is wanted, or three numbers")
+        _require(value in COLOURS, f"one of {', '.join(COLOURS)} is wanted, or three numbers")
         return COLOURS[value]
     if not isinstance(value, (list, tuple)):
-        if not 1 <= whole(value) <= len(COLOURS):
-            raise ValueError(f"the colours have numbers from 1 to {len(COLOURS)}")
+        words = f"the colours have numbers from 1 to {len(COLOURS)}"
+        _require(1 <= whole(value) <= len(COLOURS), words)
         return tuple(COLOURS.values())[whole(value) - 1]
     made = vector(3)(value)
-    if max(made) > 1.0:
-        made = tuple(each / 255.0 for each in made)
-    return tuple(part(each) for each in made)
+    largest = 255.0 if max(made) > 1.0 else 1.0
+    return tuple(part(each / largest) for each in made)
 
 
 def kind(value: Any) -> str:
     """The keyword of an element, in small letters."""
     known = [each.keyword.lower() for each in element_kinds()]
-    if not isinstance(value, str) or value.lower() not in known:
-        raise ValueError(f"one of {', '.join(known)} is wanted")
-    return value.lower()
+    made = value.lower() if isinstance(value, str) else ""
+    _require(made in known, f"one of {', '.join(known)} is wanted")
+    return made
 
 
 def moments(value: Any) -> tuple[float, ...]:
     """Six moments of inertia, none of them huge."""
     made = vector(6)(value)
-    if max(map(abs, made)) >= LARGEST:
-        raise ValueError(f"numbers below {LARGEST:g} are wanted")
+    _require(max(map(abs, made)) < LARGEST, f"numbers below {LARGEST:g} are wanted")
     return made
 
 
@@ -250,18 +245,6 @@ OPTIONS = (
 )
 
 
-def checked(field: Field, value: Any) -> Any:
-    """The value as it is used.
-
-    Raises:
-        ValueError: it is none of the field, in words.
-    """
-    try:
-        return field.check(value)
-    except ValueError as error:
-        raise ValueError(f"{error}, not {in_short(value)}") from None
-
-
 def is_unset(value: Any) -> bool:
     """Whether a field is there and empty, as MATLAB writes those of other entries."""
     return value is None or (isinstance(value, Sequence) and len(value) == 0)
@@ -270,6 +253,7 @@ def is_unset(value: Any) -> bool:
 LEFT_OUT, LOST, OWN_FIELD = "left-out", "lost", "own-field"
 
 
+@dataclass
 class Remarks:
     """Counts of what is left out, and of fields that only Flexact knows.
 
@@ -279,11 +263,9 @@ class Remarks:
         own: Fields of tables.
     """
 
-    def __init__(self) -> None:
-        """Nothing yet."""
-        self.left_out: Counter[str] = Counter()
-        self.lost: Counter[str] = Counter()
-        self.own: Counter[str] = Counter()
+    left_out: Counter[str] = field(default_factory=Counter)
+    lost: Counter[str] = field(default_factory=Counter)
+    own: Counter[str] = field(default_factory=Counter)
 
     def leave_out(self, what: str, times: int = 1) -> None:
         """Note something that the other format does not hold."""
@@ -292,22 +274,14 @@ class Remarks:
 
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """A warning of each thing that is lost, a note of each that is left out."""
-        made = [
-            _remark(Severity.WARNING, LOST, f"lost, though the verdict depends on it: {what} ({n})")
-            for what, n in self.lost.items()
+        words = "lost, though the verdict depends on it: "
+        own = ", ".join(f"{name} ({times})" for name, times in self.own.items())
+        said = [
+            *((Severity.WARNING, LOST, f"{words}{what} ({n})") for what, n in self.lost.items()),
+            *((Severity.NOTE, LEFT_OUT, f"{what} ({n})") for what, n in self.left_out.items()),
+            (Severity.NOTE, OWN_FIELD, f"fields that SPACAR Light does not know: {own}"),
         ]
-        made += [
-            _remark(Severity.NOTE, LEFT_OUT, f"{what} ({n})") for what, n in self.left_out.items()
-        ]
-        if self.own:
-            fields = ", ".join(f"{name} ({times})" for name, times in self.own.items())
-            words = f"fields that SPACAR Light does not know: {fields}"
-            made.append(_remark(Severity.NOTE, OWN_FIELD, words))
-        return tuple(made)
-
-
-def _remark(severity: Severity, code: str, message: str) -> Diagnostic:
-    return Diagnostic(severity, code, message)
+        return tuple(Diagnostic(*each) for each in said[: None if own else -1])
 
 
 class TablesError(ProblemsError, ValueError):
@@ -361,6 +335,14 @@ class Found:
         self._said.add(words)
         span = self._text.span_of(place)
         self._items.append(Diagnostic(Severity.ERROR, "bad-table", words, *span, help=hint))
+
+    def checked(self, place: str, check: Callable[[Any], Any], value: Any) -> Any:
+        """The value as it is used; None where the check says what is wrong with it."""
+        try:
+            return check(value)
+        except ValueError as error:
+            self.error(place, f"{error}, not {in_short(value)}")
+            return None
 
     def require_none(self) -> None:
         """Raise if anything was found.

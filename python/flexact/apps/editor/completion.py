@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from enum import Enum
-from typing import NamedTuple
+from itertools import islice
+from typing import Literal, NamedTuple
 
 from ...core.elements import element_kinds
 from ...deck.keywords import (
@@ -20,24 +20,15 @@ from ...deck.keywords import (
     operands_of,
     words_of,
 )
+from ...deck.tokens import Line, Tokens
 from ...model.attributes import CrossSection
-from .deck import ELEMENT, NODE, Deck, slots_of
+from .deck import ELEMENT, NODE, Deck
 from .document import Position, Range
 from .hover import keyword_words
 from .names import components_of_element, components_of_node, designers_words, kind_words
-from .statements import Statement
 
 #: How many numbers are offered at once.
 _MOST = 200
-
-
-class Kind(str, Enum):
-    """What is offered."""
-
-    KEYWORD = "keyword"
-    NUMBER = "number"
-    COMPONENT = "component"
-    WORD = "word"
 
 
 class Offer(NamedTuple):
@@ -52,7 +43,7 @@ class Offer(NamedTuple):
     """
 
     label: str
-    kind: Kind
+    kind: Literal["keyword", "number", "component", "word"]
     detail: str = ""
     snippet: str = ""
     about: str = ""
@@ -70,37 +61,39 @@ class Offers(NamedTuple):
 def complete_at(deck: Deck, position: Position) -> Offers:
     """What may stand at a position; nothing in a comment."""
     position = deck.document.clamped(position)
-    statement = deck.statements.at(position.line)
-    says, at = statement.says, position.character
-    place = says.word_at(at)
+    at = position.character
+    line = deck.tokens[position.line]
+    place = line.word_at(at)
     start, end = at, at
+    if at > line.mark or line.text.startswith("*"):
+        return Offers(Range.within(position.line, at, at), ())
     if place is not None:
-        start, end = says.words[place].first, says.words[place].last
+        start, end = line.words[place].first, line.words[place].behind
+    else:
+        # Where nothing stands yet, the core says what a word would be.
+        lines = list(deck.document.bare)
+        lines[position.line] = f"{line.text[:at]}0{line.text[at:]}"
+        line = Tokens("\n".join(lines))[position.line]
+        place = line.word_at(at)
     range_ = Range.within(position.line, start, end)
-    if at > says.mark or deck.document.bare[position.line].startswith("*"):
-        return Offers(range_, ())
-    before = sum(word.last < at for word in says.words)
-    if before == 0 and place in (None, 0):
-        return Offers(range_, tuple(_keywords(says.block)))
-    place = place if place is not None else before
-    typed = says.words[place].text[: at - start] if place < len(says.words) else ""
-    found = list(_operands(deck, statement, place, typed))
+    if not place:
+        return Offers(range_, tuple(_keywords(line.block)))
+    typed = line.words[place].text[: at - start]
+    found = list(islice(_operands(deck, line, place, typed), _MOST + 1))
     return Offers(range_, tuple(found[:_MOST]), len(found) <= _MOST)
 
 
 def _keywords(block: Block) -> Iterator[Offer]:
     if block is Block.KINEMATICS:
         for kind in element_kinds():
-            for name in (kind.keyword, kind.synonym):
-                if name:
-                    yield _element(name, block)
+            yield from (_element(name, block) for name in (kind.keyword, kind.synonym) if name)
         yield _element(WITH_WARPING, block)
     for keyword in keywords().values():
         if keyword.block is block and words_of(keyword).table != "uncovered":
             yield _statement(keyword)
     if block is not Block.PICTURE:
         for name in ENDINGS:
-            yield Offer(name, Kind.KEYWORD, "ends a block", about=keyword_words(name, block))
+            yield Offer(name, "keyword", "ends a block", about=keyword_words(name, block))
     if block is not Block.KINEMATICS and block is not Block.PICTURE:
         visual = keywords()[Block.PICTURE, "VISUALIZATION"]
         yield _statement(visual)
@@ -112,7 +105,7 @@ def _element(name: str, block: Block) -> Offer:
     names = operands_of(kind, name)
     required = names if kind.vector != 1 else names[:-3]
     form = form_of(kind, name).partition(" ")[2]
-    return Offer(name, Kind.KEYWORD, form, _snippet(name, required), keyword_words(name, block))
+    return Offer(name, "keyword", form, _snippet(name, required), keyword_words(name, block))
 
 
 def _statement(keyword: Keyword) -> Offer:
@@ -120,7 +113,7 @@ def _statement(keyword: Keyword) -> Offer:
     required = re.sub(r"\[[^]]*\]", "", operands).replace("…", "").split()
     return Offer(
         keyword.name,
-        Kind.KEYWORD,
+        "keyword",
         operands,
         _snippet(keyword.name, tuple(required)),
         keyword_words(keyword.name, keyword.block),
@@ -132,60 +125,44 @@ def _snippet(name: str, operands: tuple[str, ...]) -> str:
     return " ".join((name, *places)) if operands else ""
 
 
-def _operands(deck: Deck, statement: Statement, place: int, typed: str) -> Iterator[Offer]:
-    says = statement.says
-    letter = says.letter(place)
+def _operands(deck: Deck, line: Line, place: int, typed: str) -> Iterator[Offer]:
+    letter, index = line.words[place].letter, deck.index
     if letter == "E":
-        yield Offer(str(deck.index.free(ELEMENT)), Kind.NUMBER, "free for an element")
+        yield Offer(str(index.free(ELEMENT)), "number", "free for an element")
     elif letter == "n":
-        wanted = None
-        if says.element is not None:
-            slots = slots_of(says.element, says.name)
-            wanted = slots[place - 2] if place - 2 < len(slots) else None
-        yield from _nodes(deck, wanted, typed)
-        if wanted is not None:
-            free = str(deck.index.free(NODE))
-            yield Offer(free, Kind.NUMBER, f"free for {kind_words(wanted)}")
+        wanted = line.words[place].node
+        for number, kind in index.kinds.items():
+            if wanted in (0, kind) and str(number).startswith(typed):
+                comment = index.comment((NODE, number))
+                detail = f"{kind_words(kind)}{f', {comment}' if comment else ''}"
+                yield Offer(str(number), "number", detail)
+        if wanted:
+            yield Offer(str(index.free(NODE)), "number", f"free for {kind_words(wanted)}")
     elif letter == "e":
-        yield from _elements(deck, typed)
+        for number, made in index.made[ELEMENT].items():
+            if str(number).startswith(typed):
+                comment = index.comment((ELEMENT, number))
+                name = index.tokens[made].name
+                yield Offer(str(number), "number", f"{name}{f', {comment}' if comment else ''}")
     elif letter == "i":
-        yield from _components(deck, statement, place)
-    elif letter == "w" and says.name in ("CROSSTYPE", "BEAMVIS", "TRUSSVIS"):
-        kinds = (each.name for each in CrossSection if each)
-        yield from (Offer(name, Kind.WORD, "cross-section") for name in kinds)
+        taken = [line.number_of(k) for k in range(2, len(line.words)) if k != place]
+        for number, what in _components(deck, line).items():
+            if number not in taken:
+                yield Offer(str(number), "component", what)
+    elif letter == "w" and line.name in ("CROSSTYPE", "BEAMVIS", "TRUSSVIS"):
+        for section in CrossSection:
+            if section:
+                yield Offer(section.name, "word", "cross-section")
 
 
-def _nodes(deck: Deck, wanted: int | None, typed: str) -> Iterator[Offer]:
-    for number, kind in sorted(deck.index.kinds.items()):
-        if (wanted is None or kind == wanted) and str(number).startswith(typed):
-            comment = deck.index.comment((NODE, number))
-            detail = f"{kind_words(kind)}{f', {comment}' if comment else ''}"
-            yield Offer(str(number), Kind.NUMBER, detail)
-
-
-def _elements(deck: Deck, typed: str) -> Iterator[Offer]:
-    numbers = sorted(number for kind, number in deck.index.made if kind == ELEMENT)
-    for number in numbers:
-        if str(number).startswith(typed):
-            comment = deck.index.comment((ELEMENT, number))
-            name = deck.index.facts[deck.index.made[ELEMENT, number][0][0]].name
-            yield Offer(str(number), Kind.NUMBER, f"{name}{f', {comment}' if comment else ''}")
-
-
-def _components(deck: Deck, statement: Statement, place: int) -> Iterator[Offer]:
-    says, owner = statement.says, statement.says.number(1)
-    if owner is None:
-        return
-    taken = {says.number(k) for k in range(2, len(says.words)) if k != place}
-    if says.letter(1) == "n":
+def _components(deck: Deck, line: Line) -> dict[int, str]:
+    """The components of the node, or the deformations of the element, of a statement."""
+    owner = line.number_of(1)
+    if line.words[1].letter == "n":
         kind = deck.index.kinds.get(owner)
-        words = components_of_node(kind) if kind is not None else {}
-    else:
-        made = deck.index.element(owner)
-        if made is None or made.says.element is None:
-            return
-        words = components_of_element(made.says.element, made.says.name)
-        words = {k: designers_words(deck, owner, k) or each for k, each in words.items()}
-    for number, what in words.items():
-        if number not in taken:
-            yield Offer(str(number), Kind.COMPONENT, what)
+        return components_of_node(kind) if kind is not None else {}
+    made = deck.index.element(owner)
+    if made is None or made.element is None:
+        return {}
+    words = components_of_element(made.element, made.name)
+    return {k: designers_words(deck, owner, k) or each for k, each in words.items()}

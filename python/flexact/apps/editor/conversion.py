@@ -4,89 +4,82 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from lsprotocol import types as lsp
 
 from ...deck.diagnostics import Severity
-from .completion import Kind, Offer, Offers
+from .completion import Offers
 from .document import Document, Edit, Position, Range
-from .outline import Fold, Sort, Symbol
+from .outline import Symbol
 from .problems import Opinion, Problem, Remark, first_word
 
-SOURCE = "flexact"
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
     Severity.WARNING: lsp.DiagnosticSeverity.Warning,
     Severity.NOTE: lsp.DiagnosticSeverity.Information,
 }
 _SORTS = {
-    Sort.GROUP: lsp.SymbolKind.Namespace,
-    Sort.PART: lsp.SymbolKind.Class,
-    Sort.ELEMENT: lsp.SymbolKind.Object,
-    Sort.POINT: lsp.SymbolKind.Field,
-    Sort.STATEMENT: lsp.SymbolKind.Property,
+    "group": lsp.SymbolKind.Namespace,
+    "part": lsp.SymbolKind.Class,
+    "element": lsp.SymbolKind.Object,
+    "point": lsp.SymbolKind.Field,
+    "statement": lsp.SymbolKind.Property,
 }
 _KINDS = {
-    Kind.KEYWORD: lsp.CompletionItemKind.Keyword,
-    Kind.NUMBER: lsp.CompletionItemKind.Reference,
-    Kind.COMPONENT: lsp.CompletionItemKind.EnumMember,
-    Kind.WORD: lsp.CompletionItemKind.Value,
+    "keyword": lsp.CompletionItemKind.Keyword,
+    "number": lsp.CompletionItemKind.Reference,
+    "component": lsp.CompletionItemKind.EnumMember,
+    "word": lsp.CompletionItemKind.Value,
 }
 
 
-def position(document: Document, ours: Position) -> lsp.Position:
-    """A position as the editor counts."""
-    return lsp.Position(*document.given(ours))
+def position_in(document: Document, given: lsp.Position) -> Position:
+    """A position as the editor counts, as ours."""
+    return document.taken(given.line, given.character)
 
 
 def range_of(document: Document, ours: Range) -> lsp.Range:
     """A range as the editor counts."""
-    return lsp.Range(position(document, ours.start), position(document, ours.end))
+    return lsp.Range(*(lsp.Position(*document.given(each)) for each in ours))
+
+
+def locations(document: Document, ours: Iterable[Range]) -> list[lsp.Location]:
+    """Some ranges of a document."""
+    return [lsp.Location(document.uri, range_of(document, one)) for one in ours]
 
 
 def diagnostic(document: Document, one: Problem, *, with_related: bool) -> lsp.Diagnostic:
     """A problem; where the editor shows no related places, its message says them."""
+    message, related = one.message, None
+    if not with_related:
+        message = "\n".join((message, *(_remark(each, one.range) for each in one.remarks)))
+    elif one.remarks:
+        places = locations(document, (each.range for each in one.remarks))
+        related = [
+            lsp.DiagnosticRelatedInformation(place, each.text)
+            for place, each in zip(places, one.remarks, strict=True)
+        ]
     return lsp.Diagnostic(
         range=range_of(document, one.range),
         severity=_SEVERITIES[one.severity],
         code=one.code,
-        source=SOURCE,
-        message=one.message if with_related else _whole(one.message, one.range, one.remarks),
-        related_information=_related(document, one.remarks) if with_related else None,
+        source="flexact",
+        message=message,
+        related_information=related,
     )
+
+
+def _remark(one: Remark, where: Range) -> str:
+    """A remark on a problem that stands in a place."""
+    return one.text if one.range == where else f"line {one.range.start.line + 1}: {one.text}"
 
 
 def verdict(document: Document, opinion: Opinion, *, with_related: bool) -> lsp.Diagnostic:
     """The verdict, as an information on the first line."""
     where = first_word(document)
-    return lsp.Diagnostic(
-        range=range_of(document, where),
-        severity=lsp.DiagnosticSeverity.Information,
-        code="verdict",
-        source=SOURCE,
-        message=opinion.words if with_related else _whole(opinion.words, where, opinion.remarks),
-        related_information=_related(document, opinion.remarks) if with_related else None,
-    )
-
-
-def _whole(message: str, where: Range, remarks: tuple[Remark, ...]) -> str:
-    lines = (
-        one.text if one.range == where else f"line {one.range.start.line + 1}: {one.text}"
-        for one in remarks
-    )
-    return "\n".join((message, *lines))
-
-
-def _related(
-    document: Document, remarks: tuple[Remark, ...]
-) -> list[lsp.DiagnosticRelatedInformation] | None:
-    made = [
-        lsp.DiagnosticRelatedInformation(
-            lsp.Location(document.uri, range_of(document, one.range)), one.text
-        )
-        for one in remarks
-    ]
-    return made or None
+    said = Problem(where, Severity.NOTE, "verdict", opinion.words, opinion.remarks)
+    return diagnostic(document, said, with_related=with_related)
 
 
 def markup(text: str, *, is_markdown: bool) -> lsp.MarkupContent:
@@ -99,22 +92,20 @@ def markup(text: str, *, is_markdown: bool) -> lsp.MarkupContent:
 def completions(document: Document, offers: Offers, *, snippets: bool) -> lsp.CompletionList:
     """What may stand there, in the order in which it is offered."""
     where = range_of(document, offers.range)
-    items = [_item(one, k, where, snippets) for k, one in enumerate(offers.offers)]
+    items = [
+        lsp.CompletionItem(
+            label=one.label,
+            kind=_KINDS[one.kind],
+            detail=one.detail or None,
+            documentation=markup(one.about, is_markdown=True) if one.about else None,
+            sort_text=f"{order:05}",
+            filter_text=one.label,
+            insert_text_format=lsp.InsertTextFormat.Snippet if snippets and one.snippet else None,
+            text_edit=lsp.TextEdit(where, (snippets and one.snippet) or one.label),
+        )
+        for order, one in enumerate(offers.offers)
+    ]
     return lsp.CompletionList(is_incomplete=not offers.is_complete, items=items)
-
-
-def _item(one: Offer, order: int, where: lsp.Range, snippets: bool) -> lsp.CompletionItem:
-    is_snippet = bool(snippets and one.snippet)
-    return lsp.CompletionItem(
-        label=one.label,
-        kind=_KINDS[one.kind],
-        detail=one.detail or None,
-        documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, one.about) if one.about else None,
-        sort_text=f"{order:05}",
-        filter_text=one.label,
-        insert_text_format=lsp.InsertTextFormat.Snippet if is_snippet else None,
-        text_edit=lsp.TextEdit(where, one.snippet if is_snippet else one.label),
-    )
 
 
 def symbol(document: Document, one: Symbol) -> lsp.DocumentSymbol:
@@ -129,13 +120,17 @@ def symbol(document: Document, one: Symbol) -> lsp.DocumentSymbol:
     )
 
 
-def fold(one: Fold) -> lsp.FoldingRange:
-    """Lines that fold."""
-    kind = lsp.FoldingRangeKind.Comment if one.is_comment else lsp.FoldingRangeKind.Region
-    return lsp.FoldingRange(start_line=one.first, end_line=one.last, kind=kind)
+def flat_symbols(document: Document, some: Iterable[Symbol]) -> list[lsp.SymbolInformation]:
+    """Entries of the outline and those below them, for an editor that shows no levels."""
+    made = []
+    for one in some:
+        (place,) = locations(document, [one.range])
+        made.append(lsp.SymbolInformation(location=place, name=one.name, kind=_SORTS[one.sort]))
+        made += flat_symbols(document, one.inner)
+    return made
 
 
-def edits(document: Document, ours: list[Edit] | tuple[Edit, ...]) -> lsp.WorkspaceEdit:
+def edits(document: Document, ours: Iterable[Edit]) -> lsp.WorkspaceEdit:
     """Edits of one document."""
     made = [lsp.TextEdit(range_of(document, one.range), one.text) for one in ours]
     return lsp.WorkspaceEdit(changes={document.uri: made})

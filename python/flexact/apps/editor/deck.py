@@ -3,116 +3,119 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...core.elements import NodeKind
+import numpy as np
+
+from ...core.arrays import BoolArray
 from ...core.raw import ElementKind
 from ...deck.diagnostics import Problems
-from ...deck.keywords import WITH_WARPING
 from ...deck.rendering import DeckError
+from ...deck.tokens import Line, Tokens
 from ...model.data import ModelData
 from ...model.parts.condensing import Condensed, as_given
 from ...model.parts.parts import Parts
 from ...model.reading import read_bytes
 from ...util.records import cached_property
 from .document import Document, Range
-from .statements import Facts, Statement, Statements
 
 #: A node or an element by its number.
 Key = tuple[str, int]
 NODE, ELEMENT = "node", "element"
 #: What stands in the place of the kind of a node that carries warping.
-WARPING = 0
+WARPING = -1
+
+
+def keys_in(line: Line) -> Iterator[tuple[Key, Range]]:
+    """The nodes and elements that a line names, and where."""
+    for place, word in enumerate(line.words):
+        if word.number and word.letter in "nEe":
+            yield (NODE if word.letter == "n" else ELEMENT, word.number), span(line, place)
+
+
+def span(line: Line, first: int, last: int | None = None) -> Range:
+    """Where a word stands, or where words from one to another one do."""
+    word = line.words[first]
+    behind = word.behind if last is None else line.words[last].behind
+    return Range.within(line.number, word.first, behind)
 
 
 class Index:
-    """Of all lines of a document.
+    """Where a deck makes its nodes and elements, and where it names them.
 
     Attributes:
-        facts: What is known of each line.
-        made: Lines and words that make an element, or give a node its place.
-        named: Lines and words that name them otherwise.
+        tokens: The deck.
+        made: By "node" and "element", the line that gives a node its place, or makes an element,
+            by its number; the first one, where it stands twice.
         kinds: Kind of each node, by the first slot that it stands in.
     """
 
-    def __init__(self, statements: Statements) -> None:
-        """Go through all lines."""
-        self._statements = statements
-        self.facts: list[Facts] = list(statements.facts())
-        self.made: dict[Key, list[tuple[int, int]]] = {}
-        self.named: dict[Key, list[tuple[int, int]]] = {}
-        self.kinds: dict[int, int] = {}
-        for line, facts in enumerate(self.facts):
-            for kind, number, place, defines in facts.references:
-                where = self.made if defines else self.named
-                where.setdefault((kind, number), []).append((line, place))
-            if facts.element is not None:
-                slots = slots_of(facts.element, facts.name)
-                for _, number, place, defines in facts.references:
-                    if not defines:
-                        self.kinds.setdefault(number, slots[place - 2])
+    def __init__(self, tokens: Tokens) -> None:
+        """Go through all words."""
+        self.tokens = tokens
+        counted, letter = tokens.number > 0, tokens.letter
+        self._named = {
+            NODE: counted & (letter == ord("n")),
+            ELEMENT: counted & np.isin(letter, [ord("E"), ord("e")]),
+        }
+        at_x = np.isin(tokens.line, tokens.lines_of("X"))
+        self._made = {NODE: self._named[NODE] & at_x, ELEMENT: counted & (letter == ord("E"))}
+        self.made = {
+            kind: {number: int(tokens.line[word]) for number, word in self._first(words)}
+            for kind, words in self._made.items()
+        }
+        slots = self._first(counted & (tokens.node != 0))
+        self.kinds = {number: int(tokens.node[word]) for number, word in slots}
 
-    def at(self, line: int) -> Statement:
-        """What a line says."""
-        return self._statements.at(line)
+    def _first(self, words: BoolArray) -> Iterator[tuple[int, int]]:
+        """The numbers that some words are, each with the first of these words."""
+        places = np.flatnonzero(words)
+        numbers, first = np.unique(self.tokens.number[places], return_index=True)
+        return zip(numbers.tolist(), places[first].tolist(), strict=True)
 
-    def _spans(self, places: list[tuple[int, int]]) -> list[Range]:
-        return [self.at(line).span(place) for line, place in places]
+    def _spans(self, key: Key, words: dict[str, BoolArray]) -> list[Range]:
+        """Where those of some words stand that are the number of a node or an element."""
+        found = np.flatnonzero(words[key[0]] & (self.tokens.number == key[1]))
+        return [Range.within(*self.tokens.place_of(word)) for word in found.tolist()]
 
     def where(self, key: Key) -> list[Range]:
         """All places where a node or an element stands."""
-        return self._spans(sorted([*self.made.get(key, ()), *self.named.get(key, ())]))
+        return self._spans(key, self._named)
 
     def definition(self, key: Key) -> list[Range]:
         """Where an element is made; where a node has its X, else where it first stands."""
-        made = self.made.get(key, [])
-        first = self.named.get(key, [])[:1] if key[0] == NODE else []
-        return self._spans(made or first)
+        made = self._spans(key, self._made)
+        return made or (self.where(key)[:1] if key[0] == NODE else [])
 
-    def element(self, number: int) -> Statement | None:
+    def element(self, number: int) -> Line | None:
         """The statement that makes an element."""
-        made = self.made.get((ELEMENT, number))
-        return self.at(made[0][0]) if made else None
+        line = self.made[ELEMENT].get(number)
+        return None if line is None else self.tokens[line]
 
-    def kind_of_element(self, number: int | None) -> ElementKind | None:
+    def kind_of_element(self, number: int) -> ElementKind | None:
         """What an element is."""
-        made = self.element(number) if number is not None else None
-        return made.says.element if made is not None else None
+        made = self.element(number)
+        return None if made is None else made.element
 
     def comment(self, key: Key) -> str:
         """The comment behind the statement that makes it."""
-        made = self.made.get(key)
-        return self.facts[made[0][0]].comment if made else ""
+        line = self.made[key[0]].get(key[1])
+        return "" if line is None else self.tokens[line].comment
 
     def elements_on(self, node: int) -> list[int]:
         """Numbers of the elements that stand on a node."""
-        every = (self.facts[line] for line, _ in self.named.get((NODE, node), ()))
-        numbers = (
-            one.number
-            for facts in every
-            if facts.element is not None
-            for one in facts.references[:1]
-            if one.defines
-        )
-        return list(dict.fromkeys(numbers))
+        tokens = self.tokens
+        lines = tokens.line[(tokens.node != 0) & (tokens.number == node)]
+        return [number for number in dict.fromkeys(tokens.owner[lines].tolist()) if number]
+
+    def is_used(self, key: Key) -> bool:
+        """Whether a number is that of a node, or of an element."""
+        return bool((self._named[key[0]] & (self.tokens.number == key[1])).any())
 
     def free(self, kind: str) -> int:
         """The smallest number behind all that are in use."""
-        used = {number for what, number in (*self.made, *self.named) if what == kind}
-        return max(used, default=0) + 1
-
-
-def slots_of(kind: ElementKind, name: str) -> tuple[int, ...]:
-    """Kinds of the nodes of a statement, in their order; `WARPING` for nodes of warping."""
-    used = tuple(slot for slot in kind.slots if slot)
-    if name == WITH_WARPING:
-        return (*used[:2], WARPING, *used[2:], WARPING)
-    return used
-
-
-def is_position(kind: int) -> bool:
-    """Whether a node of this kind has a place."""
-    return kind in (NodeKind.POSITION, NodeKind.PLANAR_POSITION)
+        return int(self.tokens.number[self._named[kind]].max(initial=0)) + 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,14 +143,14 @@ class Deck:
     name: str = "deck"
 
     @cached_property
-    def statements(self) -> Statements:
-        """Its lines, taken apart."""
-        return Statements(self.document)
+    def tokens(self) -> Tokens:
+        """Its lines and words."""
+        return Tokens("\n".join(self.document.bare))
 
     @cached_property
     def index(self) -> Index:
         """Where its nodes and elements stand."""
-        return Index(self.statements)
+        return Index(self.tokens)
 
     @cached_property
     def _read(self) -> tuple[ModelData | None, Problems]:

@@ -8,15 +8,13 @@ units of the encoding that was agreed upon, and end lines at CR, LF and CR LF al
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 from ...util.records import cached_property
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)")
 _BYTE_MARK = "\ufeff"
-#: Lines that are remembered besides those that there are.
-_MOST_KNOWN = 10_000
 
 
 class Position(NamedTuple):
@@ -88,14 +86,12 @@ class Document:
         lines: Its lines with their ends, the last one without; there is always one.
         version: The editor's number of this state.
         encoding: In what units the editor counts characters.
-        known: What is known of lines by their text, for the next states too.
     """
 
     uri: str
     lines: list[str]
     version: int = 0
     encoding: str = "utf-16"
-    known: dict[tuple[str, int], Any] = field(default_factory=dict)
 
     @classmethod
     def of(cls, text: str, uri: str = "", version: int = 0, encoding: str = "utf-16") -> Document:
@@ -127,10 +123,9 @@ class Document:
     def clamped(self, position: Position) -> Position:
         """The nearest position that there is."""
         line = min(max(position.line, 0), len(self.lines) - 1)
-        if position.line > line:
-            return Position(line, len(self.lines[line].rstrip("\r\n")))
         length = len(self.lines[line].rstrip("\r\n"))
-        return Position(line, min(max(position.character, 0), length))
+        character = length if position.line > line else min(max(position.character, 0), length)
+        return Position(line, character)
 
     def taken(self, line: int, character: int) -> Position:
         """A position as an editor counts, as ours."""
@@ -158,8 +153,7 @@ class Document:
         if last < len(self.lines) and not pieces[-1]:
             pieces.pop()
         lines = [*self.lines[:first], *pieces, *self.lines[last:]]
-        known = self.known if len(self.known) < 2 * len(lines) + _MOST_KNOWN else {}
-        return Document(self.uri, lines, version, self.encoding, known)
+        return Document(self.uri, lines, version, self.encoding)
 
     def replaced(self, text: str, version: int) -> Document:
         """The document with all of its text anew."""

@@ -3,21 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
-
-from ...deck import keywords as numbers
+from ...core.raw import Meaning
+from ...deck import keywords as meanings
 from ...deck.keywords import (
-    ELEMENTS,
     ENDINGS,
     WITH_WARPING,
     Block,
+    element_of,
     find_keyword,
     form_of,
     operands_of,
     words_of,
 )
-from .deck import Deck, slots_of
+from ...deck.tokens import Line
+from .deck import Deck, span
 from .document import Position, Range
 from .names import (
     components_of_element,
@@ -27,122 +26,101 @@ from .names import (
     kind_words,
     node_lines,
 )
-from .statements import Statement, Words
 
 
-class Hover(NamedTuple):
-    """Words and what they are about."""
-
-    text: str
-    range: Range
-
-
-def hover_at(deck: Deck, position: Position) -> Hover | None:
-    """What is said of the word at a position; None where there is nothing to be said."""
+def hover_at(deck: Deck, position: Position) -> tuple[str, Range] | None:
+    """What is said of the word at a position, and where it stands; None where nothing is."""
     position = deck.document.clamped(position)
-    statement = deck.statements.at(position.line)
-    place = statement.says.word_at(position.character)
+    line = deck.tokens[position.line]
+    place = line.word_at(position.character)
     if place is None:
         return None
-    text = _of_keyword(statement.says) if place == 0 else _of_operand(deck, statement, place)
-    return Hover(text, statement.span(place)) if text else None
+    text = _of_operand(deck, line, place) if place else keyword_words(line.name, line.block)
+    return (text, span(line, place)) if text else None
 
 
 def keyword_words(name: str, block: Block) -> str:
     """What a keyword means and takes; empty for a word that is none."""
-    says = Words(name, block)
-    return _of_keyword(says)
-
-
-def _of_keyword(says: Words) -> str:
-    name = says.name
     if name in ENDINGS:
         return f"**{name}** {ENDINGS[name]}."
-    if says.element is not None:
-        kind = says.element
-        parts = components_of_element(kind, name)
-        about = ELEMENTS[kind.keyword]
+    kind = element_of(name)
+    if kind is not None:
         known = f"; `{name}` is another spelling" if name == kind.synonym else ""
         if name == WITH_WARPING:
             known = "; its warping is read and not analysed"
+        parts = components_of_element(kind, name)
         rows = "\n".join(f"- {k}: {words}" for k, words in parts.items())
-        form = form_of(kind, name)
-        return f"`{form}`\n\n{_capital(about)}{known}. Its deformations:\n\n{rows}"
-    keyword = find_keyword(name, says.block)
+        about = f"{_capital(kind.says)}{known}. Its deformations"
+        return f"`{form_of(kind, name)}`\n\n{about}:\n\n{rows}"
+    keyword = find_keyword(name, block)
     if keyword is None:
         return ""
     words = words_of(keyword)
-    meaning = words.says or numbers.properties_in_words(name)
-    unused = " It is read and not used." if words.table == "unused" else ""
     if words.table == "uncovered":
-        return f"**{name}** {meaning}."
-    form = f"{name} {words.operands}".strip()
-    block = f" (in the {keyword.block.words} block)" if keyword.block is not says.block else ""
-    return f"`{form}`{block}\n\n{_capital(meaning)}.{unused}"
+        return f"**{name}** {words.says}."
+    where = f" (in the {keyword.block.words} block)" if keyword.block is not block else ""
+    meaning = _capital(words.says or meanings.properties_in_words(name))
+    unused = " It is read and not used." if words.table == "unused" else ""
+    return f"`{f'{name} {words.operands}'.strip()}`{where}\n\n{meaning}.{unused}"
 
 
-def _of_operand(deck: Deck, statement: Statement, place: int) -> str:
-    say = _OF_LETTER.get(statement.says.letter(place))
-    return say(deck, statement.says, place) if say is not None else ""
-
-
-def _element(deck: Deck, says: Words, place: int) -> str:
-    number = says.number(place)
-    return "" if number is None else "  \n".join(element_words(deck, number))
-
-
-def _node(deck: Deck, says: Words, place: int) -> str:
-    number = says.number(place)
-    if number is None:
+def _of_operand(deck: Deck, line: Line, place: int) -> str:
+    letter, number = line.words[place].letter, line.words[place].number
+    if letter == "v":
+        return _vector(line, place)
+    if letter == "r":
+        return _real(deck, line, place)
+    if not number:
         return ""
-    lines = node_lines(deck, number)
-    if says.element is not None:
-        slot = operands_of(says.element, says.name)[place - 1]
-        kind = slots_of(says.element, says.name)[place - 2]
-        lines.append(f"here {slot}, {_article(kind_words(kind))}")
-    return "  \n".join(lines)
+    if letter in "Ee":
+        return "  \n".join(element_words(deck, number))
+    if letter == "n":
+        lines = node_lines(deck, number)
+        if line.element is not None:
+            noun = kind_words(line.words[place].node)
+            article = "an" if noun[0] in "aeiou" else "a"
+            slot = operands_of(line.element, line.name)[place - 1]
+            lines.append(f"here {slot}, {article} {noun}")
+        return "  \n".join(lines)
+    return _component(deck, line, number) if letter == "i" else ""
 
 
-def _component(deck: Deck, says: Words, place: int) -> str:
-    number, owner = says.number(place), says.number(1)
-    if number is None or owner is None:
-        return ""
-    if says.letter(1) == "n":
+def _component(deck: Deck, line: Line, number: int) -> str:
+    """What a component of the node, or a deformation of the element, of a statement is."""
+    owner = line.number_of(1)
+    if line.words[1].letter == "n":
         kind = deck.index.kinds.get(owner)
         words = components_of_node(kind).get(number) if kind is not None else None
         return f"**{number}**: {words} of node {owner}" if words else ""
     made = deck.index.element(owner)
-    if made is None or made.says.element is None:
+    if made is None or made.element is None:
         return ""
-    words = components_of_element(made.says.element, made.says.name).get(number)
+    words = components_of_element(made.element, made.name).get(number)
     if words is None:
         return ""
     own = designers_words(deck, owner, number)
     if not own or own == words:
         return f"**{number}**: {words} of element {owner}"
-    lines = element_words(deck, owner)[:1]
-    return "  \n".join([f"**{number}**: {own}", f"({words})", *lines])
+    return "  \n".join([f"**{number}**: {own}", f"({words})", *element_words(deck, owner)[:1]])
 
 
-def _real(deck: Deck, says: Words, place: int) -> str:
+def _real(deck: Deck, line: Line, place: int) -> str:
     """Which quantity a number is."""
-    owner = says.number(1)
-    named: tuple[numbers.Quantity, ...] = ()
+    owner, letter = line.number_of(1), line.words[1].letter
+    named: tuple[Meaning, ...] = ()
     behind = place - 2
-    if says.name == "GRAVITY":
-        named, behind = numbers.GRAVITY, place - 1
-    elif says.letter(1) == "n" and owner is not None:
-        kind = deck.index.kinds.get(owner)
-        named = numbers.of_node(says.name, kind) if kind else ()
-    elif says.letter(1) == "e":
-        of = deck.index.kind_of_element(owner)
-        named = numbers.of_element(says.name, of) if of is not None else ()
-    return f"**{says.words[place].text}**: {named[behind]}" if 0 <= behind < len(named) else ""
+    if line.name == "GRAVITY":
+        named, behind = meanings.GRAVITY, place - 1
+    elif letter == "n" and (node := deck.index.kinds.get(owner, 0)) > 0:
+        named = meanings.of_node(line.name, node)
+    elif letter == "e" and (kind := deck.index.kind_of_element(owner)) is not None:
+        named = meanings.of_element(line.name, kind)
+    return f"**{line.words[place].text}**: {named[behind]}" if 0 <= behind < len(named) else ""
 
 
-def _vector(_: Deck, says: Words, place: int) -> str:
-    assert says.element is not None
-    names = operands_of(says.element, says.name)
+def _vector(line: Line, place: int) -> str:
+    assert line.element is not None
+    names = operands_of(line.element, line.name)
     if place > len(names):
         return ""
     name = names[place - 1]
@@ -154,19 +132,5 @@ def _vector(_: Deck, says: Words, place: int) -> str:
     )
 
 
-_OF_LETTER: dict[str, Callable[[Deck, Words, int], str]] = {
-    "E": _element,
-    "e": _element,
-    "n": _node,
-    "i": _component,
-    "r": _real,
-    "v": _vector,
-}
-
-
 def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
-
-
-def _article(noun: str) -> str:
-    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"

@@ -28,6 +28,10 @@ _KINDS = {
 }
 
 
+#: Numbers of a position.
+_NUMBERS = {NodeKind.POSITION: 3, NodeKind.PLANAR_POSITION: 2}
+
+
 def kind_words(kind: int) -> str:
     """What a node is: position, orientation or warping."""
     return _KINDS[kind]
@@ -61,9 +65,9 @@ def designers_words(deck: Deck, element: int, deformation: int) -> str:
     told, index = _element(deck, element)
     if told is None or index is None:
         return ""
-    kind = told.data.arrays.element_kind[index]
-    many = element_kinds()[kind - 1].deformations
-    return deformation_words(told, index, deformation) if 1 <= deformation <= many else ""
+    kind = element_kinds()[told.data.arrays.element_kind[index] - 1]
+    is_one = 1 <= deformation <= kind.deformations
+    return deformation_words(told, index, deformation) if is_one else ""
 
 
 def _element(deck: Deck, number: int) -> tuple[Told | None, int | None]:
@@ -71,80 +75,63 @@ def _element(deck: Deck, number: int) -> tuple[Told | None, int | None]:
     return told, None if told is None else told.data.element_index.get(number)
 
 
-def part_of_element(deck: Deck, number: int) -> str:
-    """The name of the part that an element belongs to; empty where the deck has errors."""
-    told, index = _element(deck, number)
-    if told is None or index is None:
-        return ""
-    return part_words(told.parts.of_element(index))
-
-
 def element_words(deck: Deck, number: int) -> list[str]:
     """What an element is, a line each; of a deck with errors what its statement says."""
     made = deck.index.element(number)
-    if made is None:
+    if made is None or made.element is None:
         return [f"There is no element {number}."]
-    kind = made.says.element
-    assert kind is not None
-    head, comment = f"**element {number}**: {made.says.name}", made.says.facts.comment
+    head = f"**element {number}**: {made.name}"
     told, index = _element(deck, number)
     if told is None or index is None:
-        return [f"{head}{f', {comment}' if comment else ''}"]
+        return [f"{head}, {made.comment}" if made.comment else head]
     part = told.parts.of_element(index)
-    lines = [f"{head}, {part.kind} *{part.name}*" if part.is_named else f"{head}, {part.kind}"]
-    nodes = told.data.arrays.element_node[:, index]
+    nodes = told.data.arrays.element_node[:, index].tolist()
     numbers = told.data.arrays.node_number
     slots = [
         f"{slot} {numbers[node - 1]}"
-        for slot, node in zip(("p", "op", "q", "oq"), nodes.tolist(), strict=True)
+        for slot, node in zip(("p", "op", "q", "oq"), nodes, strict=True)
         if node
     ]
     length = float(told.data.frames.length[index])
-    lines.append(
-        f"nodes {', '.join(slots)}" + (f"; length {length_in_words(length)}" if length else "")
-    )
-    return [*lines, *_classes_of_element(told, index, kind)]
-
-
-def _classes_of_element(told: Told, index: int, kind: ElementKind) -> list[str]:
+    lines = [
+        f"{head}, {part.kind} *{part.name}*" if part.is_named else f"{head}, {part.kind}",
+        f"nodes {', '.join(slots)}" + (f"; length {length_in_words(length)}" if length else ""),
+    ]
     classes = told.data.arrays.deformation_class[:, index].tolist()
-    lines = []
     for wanted, word in (
         (Class.FIXED, "held"),
         (Class.DEPENDENT, "released"),
         (Class.INDEPENDENT, "independent"),
     ):
-        mine = [k for k in range(1, kind.deformations + 1) if classes[k - 1] == wanted]
-        if len(mine) == kind.deformations:
-            lines.append(f"{word}: all deformations")
-        elif mine:
-            words = [f"{k} {deformation_words(told, index, k)}" for k in mine]
+        mine = [k for k, own in enumerate(classes, start=1) if own == wanted]
+        words = [f"{k} {deformation_words(told, index, k)}" for k in mine]
+        if len(mine) == made.element.deformations:
+            words = ["all deformations"]
+        if words:
             lines.append(f"{word}: {', '.join(words)}")
     return lines
 
 
 def node_lines(deck: Deck, number: int) -> list[str]:
     """What a node is, a line each; of a deck with errors what its statements say."""
-    index = deck.index
-    kind = index.kinds.get(number)
+    kind = deck.index.kinds.get(number)
     if kind is None:
         return [f"**node {number}**: no element names it."]
     lines = [f"**node {number}**: {kind_words(kind)}"]
-    told = deck.told
-    if told is not None and number in told.data.node_index:
-        place = told.data.node_index[number]
-        lines[0] += f", {node_words(told.parts, place)}"
-        lines += [_value(told, place), _classes_of_node(told, place)]
-    on = index.elements_on(number)
-    named = [f"{one}{_name(part_of_element(deck, one))}" for one in on[:8]]
-    more = f" and {len(on) - 8} more" if len(on) > 8 else ""
-    if named:
-        lines.append(f"element{'s' * (len(on) > 1)} {', '.join(named)}{more}")
+    told, on = deck.told, deck.index.elements_on(number)
+    part_of = dict.fromkeys(on[:8], "")
+    if told is not None:
+        place, known = told.data.node_index.get(number), told.data.element_index
+        if place is not None:
+            lines[0] += f", {node_words(told.parts, place)}"
+            lines += [_value(told, place), _classes_of_node(told, place)]
+        for one in part_of.keys() & known.keys():
+            part_of[one] = f" ({part_words(told.parts.of_element(known[one]))})"
+    if on:
+        named = ", ".join(f"{one}{part}" for one, part in part_of.items())
+        more = f" and {len(on) - 8} more" if len(on) > 8 else ""
+        lines.append(f"element{'s' * (len(on) > 1)} {named}{more}")
     return lines
-
-
-def _name(words: str) -> str:
-    return f" ({words})" if words else ""
 
 
 def _value(told: Told, place: int) -> str:
@@ -152,21 +139,15 @@ def _value(told: Told, place: int) -> str:
     arrays = told.data.arrays
     kind = int(arrays.node_kind[place])
     value = arrays.node_value[:, place]
-    if kind == NodeKind.POSITION:
-        return f"at ({_coordinates(value[:3])}) m"
-    if kind == NodeKind.PLANAR_POSITION:
-        return f"at ({_coordinates(value[:2])}) m"
+    numbers = ", ".join(f"{each:.6g}" for each in value.tolist()[: _NUMBERS.get(NodeKind(kind), 4)])
+    if kind in _NUMBERS:
+        return f"at ({numbers}) m"
     at = told.parts.place_of(place)
     where = "" if at is None else f", at node {arrays.node_number[at]}"
     if kind == NodeKind.ANGLE:
         return f"turned by {value[0]:.6g} rad{where}"
     is_plain = bool(np.array_equal(value, [1.0, 0.0, 0.0, 0.0]))
-    turned = "not turned" if is_plain else f"Euler parameters ({_coordinates(value)})"
-    return f"{turned}{where}"
-
-
-def _coordinates(values: np.ndarray) -> str:
-    return ", ".join(f"{value:.6g}" for value in values.tolist())
+    return f"{'not turned' if is_plain else f'Euler parameters ({numbers})'}{where}"
 
 
 def _classes_of_node(told: Told, place: int) -> str:

@@ -5,31 +5,25 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from enum import Enum
 from functools import partial
-from typing import NamedTuple, TypeVar
+from itertools import pairwise
+from typing import Literal, NamedTuple, TypeVar
 
+import numpy as np
+
+from ...core.elements import is_position
 from ...deck.keywords import Block, words_of
+from ...deck.tokens import Line
 from ...model.names import part_name
 from ...util.text import harmless
-from .deck import ELEMENT, Deck, Key, is_position
+from .deck import ELEMENT, Deck, Key, keys_in, span
 from .document import Edit, Position, Range
 from .names import kind_words
-from .statements import Facts, Statement, plan_of
 
 One = TypeVar("One")
+Sort = Literal["group", "part", "element", "point", "statement"]
 #: Lines of one kind beyond which they are shown in stretches of so many.
 _MOST, _STRETCH = 1000, 500
-
-
-class Sort(str, Enum):
-    """What a symbol is."""
-
-    GROUP = "group"
-    PART = "part"
-    ELEMENT = "element"
-    POINT = "point"
-    STATEMENT = "statement"
 
 
 class Symbol(NamedTuple):
@@ -52,14 +46,6 @@ class Symbol(NamedTuple):
     inner: tuple[Symbol, ...] = ()
 
 
-class Fold(NamedTuple):
-    """Lines that fold, from 0, both included."""
-
-    first: int
-    last: int
-    is_comment: bool = False
-
-
 _TABLES = {
     "classes": "classes",
     "properties": "stiffness and mass",
@@ -73,23 +59,18 @@ def outline_of(deck: Deck) -> list[Symbol]:
     """Parts by name with their elements, nodes, classes, stiffness and mass, loads, pictures."""
     parts: dict[str, list[int]] = {}
     rest: dict[str, list[int]] = {name: [] for name in ("nodes", *_TABLES.values())}
-    for line, facts in enumerate(deck.index.facts):
-        if not facts.is_statement:
-            continue
-        if facts.element is not None:
-            name = harmless(part_name(facts.comment).strip()) if facts.comment else ""
-            parts.setdefault(name or f"\0{line}", []).append(line)
-        elif facts.name == "X":
-            rest["nodes"].append(line)
-        else:
-            keyword = plan_of(facts.name, deck.statements.blocks.of_line(line)).keyword
-            table = words_of(keyword).table if keyword is not None else ""
-            if table in _TABLES:
-                rest[_TABLES[table]].append(line)
+    for line in deck.tokens:
+        if line.element is not None:
+            name = harmless(part_name(line.comment).strip()) if line.comment else ""
+            parts.setdefault(name or f"\0{line.number}", []).append(line.number)
+        elif line.keyword is not None:
+            table = words_of(line.keyword).table
+            name = "nodes" if line.keyword.name == "X" else _TABLES.get(table, "")
+            if name:
+                rest[name].append(line.number)
     groups = []
     if parts:
-        named = list(parts.items())
-        groups.append(_group("parts", named, lambda one: _part(deck, *one)))
+        groups.append(_group("parts", list(parts.items()), lambda one: _part(deck, *one)))
     for name, lines in rest.items():
         if lines:
             make = _node if name == "nodes" else _statement
@@ -100,7 +81,7 @@ def outline_of(deck: Deck) -> list[Symbol]:
 def _group(name: str, entries: list[One], make: Callable[[One], Symbol]) -> Symbol:
     inner = _stretches(entries, make)
     first = min(inner, key=lambda each: each.range)
-    return Symbol(name, "", Sort.GROUP, _around(inner), first.own, tuple(inner))
+    return Symbol(name, "", "group", _around(inner), first.own, tuple(inner))
 
 
 def _stretches(entries: list[One], make: Callable[[One], Symbol]) -> list[Symbol]:
@@ -114,55 +95,48 @@ def _stretches(entries: list[One], make: Callable[[One], Symbol]) -> list[Symbol
         first, last = make(some[0]), make(some[-1])
         name = f"{first.name} to {last.name}"
         around = _around((first, last))
-        made.append(Symbol(name, f"{len(some)}", Sort.GROUP, around, _own(first, around)))
+        start = first.own if around.start <= first.own.start else Range(*[around.start] * 2)
+        made.append(Symbol(name, f"{len(some)}", "group", around, start))
     return made
 
 
-def _own(first: Symbol, around: Range) -> Range:
-    return first.own if around.start <= first.own.start else Range(around.start, around.start)
+def _symbol(line: Line, name: str, detail: str, sort: Sort) -> Symbol:
+    return Symbol(name, detail, sort, span(line, 0, -1), span(line, 0))
 
 
-def _plain(statement: Statement) -> str:
-    return " ".join(word.text for word in statement.says.words[:2])
+def _words(line: Line, first: int, behind: int | None = None) -> str:
+    return " ".join(word.text for word in line.words[first:behind])
 
 
-def _element(deck: Deck, line: int) -> Symbol:
-    statement = deck.index.at(line)
-    nodes = " ".join(word.text for word in statement.says.words[2:])
-    return Symbol(_plain(statement), nodes, Sort.ELEMENT, statement.whole, statement.span(0))
+def _element(deck: Deck, number: int) -> Symbol:
+    line = deck.tokens[number]
+    return _symbol(line, _words(line, 0, 2), _words(line, 2), "element")
 
 
 def _part(deck: Deck, name: str, lines: list[int]) -> Symbol:
     if len(lines) == 1:
-        one = _element(deck, lines[0])
-        if name.startswith("\0"):
-            return one._replace(sort=Sort.PART)
-        return one._replace(name=name, detail=one.name, sort=Sort.PART)
+        one = _element(deck, lines[0])._replace(sort="part")
+        return one if name.startswith("\0") else one._replace(name=name, detail=one.name)
     inner = tuple(_stretches(lines, partial(_element, deck)))
     first = min(inner, key=lambda each: each.range)
-    detail = f"{len(lines)} elements"
-    return Symbol(name, detail, Sort.PART, _around(inner), first.own, inner)
+    return Symbol(name, f"{len(lines)} elements", "part", _around(inner), first.own, inner)
 
 
-def _node(deck: Deck, line: int) -> Symbol:
-    statement = deck.index.at(line)
-    says, comment = statement.says, deck.index.facts[line].comment
-    number = says.number(1)
-    kind = deck.index.kinds.get(number) if number is not None else None
+def _node(deck: Deck, number: int) -> Symbol:
+    line = deck.tokens[number]
+    kind = deck.index.kinds.get(line.number_of(1))
     words = kind_words(kind) if kind is not None else "node"
-    value = " ".join(word.text for word in says.words[2:])
-    name = f"node {says.words[1].text}" if len(says.words) > 1 else "node"
-    if comment and kind is not None and is_position(kind):
-        name = f"{name}: {harmless(comment)}"
-    return Symbol(name, f"{words} {value}".strip(), Sort.POINT, statement.whole, statement.span(0))
+    name = f"node {line.words[1].text}" if len(line.words) > 1 else "node"
+    if line.comment and kind is not None and kind > 0 and is_position(kind):
+        name = f"{name}: {harmless(line.comment)}"
+    return _symbol(line, name, f"{words} {_words(line, 2)}".strip(), "point")
 
 
-def _statement(deck: Deck, line: int) -> Symbol:
-    statement = deck.index.at(line)
-    words = " ".join(word.text for word in statement.says.words)
+def _statement(deck: Deck, number: int) -> Symbol:
+    line = deck.tokens[number]
+    words = _words(line, 0)
     name = words if len(words) <= 40 else f"{words[:37]}..."
-    detail = harmless(deck.index.facts[line].comment)
-    return Symbol(name, detail, Sort.STATEMENT, statement.whole, statement.span(0))
+    return _symbol(line, name, harmless(line.comment), "statement")
 
 
 def _around(symbols: Iterable[Symbol]) -> Range:
@@ -170,32 +144,35 @@ def _around(symbols: Iterable[Symbol]) -> Range:
     return Range(min(one.start for one in every), max(one.end for one in every))
 
 
-def folds_of(deck: Deck) -> list[Fold]:
-    """Blocks, and runs of at least three lines of comment or of one keyword."""
-    document, blocks = deck.document, deck.statements.blocks
-    last = len(document.bare) - 1
-    while last > 0 and not document.bare[last].strip():
+def folds_of(deck: Deck) -> list[tuple[int, int, bool]]:
+    """First and last line of what folds, and whether it is a comment.
+
+    These are blocks, and runs of at least three lines of comment or of one keyword.
+    """
+    tokens, last = deck.tokens, len(deck.tokens) - 1
+    while last > 0 and not deck.document.bare[last].strip():
         last -= 1
-    made = []
-    edges = [*blocks.starts, last + 1]
-    for first, end, block in zip(edges, edges[1:], blocks.blocks, strict=False):
-        if block is not Block.CLOSED and end - 1 > first:
-            made.append(Fold(first, end - 1))
-    kinds = [_run(facts) for facts in deck.index.facts]
+    edges = [0, *(np.flatnonzero(np.diff(tokens.block)) + 1).tolist(), last + 1]
+    made = [
+        (first, behind - 1, False)
+        for first, behind in pairwise(edges)
+        if tokens.block[first] != Block.CLOSED and behind - 1 > first
+    ]
     start, run = 0, ""
     for line in range(last + 2):
-        kind = kinds[line] if line <= last else ""
+        kind = _run(tokens[line]) if line <= last else ""
         if kind != run:
             if run and line - start >= 3:
-                made.append(Fold(start, line - 1, run == "%"))
+                made.append((start, line - 1, run == "%"))
             start, run = line, kind
     return sorted(dict.fromkeys(made))
 
 
-def _run(facts: Facts) -> str:
-    if facts.name:
-        return "element" if facts.element is not None else facts.name
-    return "" if facts.is_blank else "%"
+def _run(line: Line) -> str:
+    """What lines of a run have in common; empty for a blank line."""
+    if line.words:
+        return "element" if line.element is not None else line.name
+    return "%" if line.mark < len(line.text) else ""
 
 
 _LARGEST = 2**31 - 1
@@ -207,28 +184,19 @@ class RenameError(ValueError):
     """A number that cannot be given."""
 
 
-class Place(NamedTuple):
-    """The node or the element at a position."""
-
-    key: Key
-    range: Range
-
-
-def place_at(deck: Deck, position: Position) -> Place | None:
+def place_at(deck: Deck, position: Position) -> tuple[Key, Range] | None:
     """The node or the element whose number stands at a position."""
     position = deck.document.clamped(position)
-    statement = deck.statements.at(position.line)
-    word = statement.says.word_at(position.character)
-    for one in statement.says.facts.references:
-        if one.place == word:
-            return Place((one.kind, one.number), statement.span(one.place))
-    return None
+    line = deck.tokens[position.line]
+    word = line.word_at(position.character)
+    where = None if word is None else span(line, word)
+    return next((found for found in keys_in(line) if found[1] == where), None)
 
 
 def definition_at(deck: Deck, position: Position) -> list[Range]:
     """Where the element at a position is made, or the node has its X."""
     place = place_at(deck, position)
-    return deck.index.definition(place.key) if place is not None else []
+    return deck.index.definition(place[0]) if place is not None else []
 
 
 def references_at(deck: Deck, position: Position, with_own: bool = True) -> list[Range]:
@@ -236,9 +204,8 @@ def references_at(deck: Deck, position: Position, with_own: bool = True) -> list
     place = place_at(deck, position)
     if place is None:
         return []
-    every = deck.index.where(place.key)
-    own = () if with_own else deck.index.definition(place.key)
-    return [one for one in every if one not in own]
+    own = () if with_own else deck.index.definition(place[0])
+    return [one for one in deck.index.where(place[0]) if one not in own]
 
 
 def rename_at(deck: Deck, position: Position, new: str) -> list[Edit]:
@@ -250,31 +217,21 @@ def rename_at(deck: Deck, position: Position, new: str) -> list[Edit]:
     place = place_at(deck, position)
     if place is None:
         raise RenameError("there is no number of a node or of an element here")
-    kind, old = place.key
+    kind, old = place[0]
+    free = deck.index.free(kind)
     if not re.fullmatch(r"[1-9]\d{0,9}", new.strip()) or int(new) > _LARGEST:
-        raise RenameError(f"a {kind} has a positive whole number, such as {deck.index.free(kind)}")
+        raise RenameError(f"a {kind} has a positive whole number, such as {free}")
     number = int(new)
     if number == old:
         return []
-    if (kind, number) in deck.index.made or (kind, number) in deck.index.named:
+    if deck.index.is_used((kind, number)):
         article = "an" if kind == ELEMENT else "a"
-        raise RenameError(
-            f"there is {article} {kind} {number} already; {deck.index.free(kind)} is free"
-        )
-    mixed = next((line for line in _mixed(deck) if _holds(deck, line, old)), None)
-    if mixed is not None:
-        name = deck.index.facts[mixed].name
-        raise RenameError(
-            f"{name} in line {mixed + 1} has the number {old}, which may be this {kind}: change "
-            "it there first"
-        )
-    return [Edit(where, str(number)) for where in deck.index.where(place.key)]
-
-
-def _mixed(deck: Deck) -> list[int]:
-    """Lines that name nodes or elements among other numbers."""
-    return [line for line, one in enumerate(deck.index.facts) if one.name in _MIXED]
-
-
-def _holds(deck: Deck, line: int, number: int) -> bool:
-    return any(word.number == number for word in deck.statements.at(line).says.words[1:])
+        raise RenameError(f"there is {article} {kind} {number} already; {free} is free")
+    for at in deck.tokens.lines_of(*_MIXED).tolist():
+        line = deck.tokens[at]
+        if any(word.number == old for word in line.words[1:]):
+            raise RenameError(
+                f"{line.name} in line {at + 1} has the number {old}, which may be this {kind}: "
+                "change it there first"
+            )
+    return [Edit(where, str(number)) for where in deck.index.where(place[0])]

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
-from ...analysis.change import Change
+from ...advice.advice import Advice, advice_of
 from ...analysis.decomposition import Asked
 from ...analysis.mode_words import (
     conflict_in_words,
@@ -21,8 +21,6 @@ from ...analysis.result import Result, result_of
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import margin_in_short, verdict_in_short, warnings_of
 from ...deck.diagnostics import Diagnostic, Place, Severity
-from ...model.data import ModelData
-from ...model.model import Model
 from ...util.errors import FlexactError
 from ...util.text import harmless
 from .deck import Deck, Key
@@ -81,16 +79,13 @@ def first_word(document: Document) -> Range:
 
 
 def _problem(document: Document, item: Diagnostic) -> Problem:
-    if item.line < 1:
-        range_ = first_line(document)
-    else:
-        range_ = _range(document, Place(item.line, item.column, item.last_column))
+    place = Place(item.line, item.column, item.last_column)
+    range_ = _range(document, place) if item.line > 0 else first_line(document)
     remarks = []
     if item.label:
         remarks.append(Remark(range_, harmless(item.label)))
     if item.other is not None:
-        is_before = item.other < (item.line, item.column)
-        other = "first here" if is_before else "and here"
+        other = "first here" if item.other < (item.line, item.column) else "and here"
         remarks.append(Remark(_range(document, item.other), other))
     if item.help:
         remarks.append(Remark(range_, f"help: {harmless(item.help)}"))
@@ -108,49 +103,6 @@ def _range(document: Document, place: Place) -> Range:
     start = document.place_of(place.line, place.column)
     end = document.place_of(place.line, max(place.last_column, place.column) + 1)
     return Range(start, max(start, Position(*end)))
-
-
-class Step(Protocol):
-    """One way to mend a mechanism, which was tried."""
-
-    @property
-    def number(self) -> int:
-        """From 1."""
-
-    @property
-    def change(self) -> Change:
-        """What is done."""
-
-    @property
-    def alternatives(self) -> tuple[Change, ...]:
-        """Other changes that symmetry makes equal to this one."""
-
-    @property
-    def pieces(self) -> Pieces:
-        """What is done, in words."""
-
-    @property
-    def outcome(self) -> str:
-        """What the mechanism is then."""
-
-    def apply(self, choice: int = 1) -> Model:
-        """The changed model; choices from 2 on are the alternatives."""
-
-
-class Advice(Protocol):
-    """All steps that were found."""
-
-    @property
-    def analysis(self) -> Result:
-        """The analysis of the mechanism as it is."""
-
-    @property
-    def steps(self) -> Sequence[Step]:
-        """By their numbers."""
-
-
-#: Gives the advice on a result.
-Advisor = Callable[[Result], Advice]
 
 
 #: Motions, and self-stresses, that are said one by one, and what takes part in each.
@@ -183,7 +135,7 @@ def opinion_on(deck: Deck) -> Opinion | None:
     if data is None:
         return None
     try:
-        result = _analysed(data)
+        result: Result = result_of(data, Asked(), "deck", None, Result)
         return Opinion(
             f"{verdict_in_short(result)}; {margin_in_short(result)}",
             result.verdict,
@@ -194,12 +146,7 @@ def opinion_on(deck: Deck) -> Opinion | None:
         return Opinion(f"no verdict: {harmless(str(error)).splitlines()[0]}", None)
 
 
-def _analysed(data: ModelData) -> Result:
-    made: Result = result_of(data, Asked(), "deck", None, Result)
-    return made
-
-
-def advice_on(opinion: Opinion, advisor: Advisor) -> Advice | None:
+def advice_on(opinion: Opinion) -> Advice | None:
     """Steps that mend the mechanism; None where nothing is to be mended, or it is too large."""
     result = opinion.result
     if result is None or result.verdict is Verdict.EXACT:
@@ -207,7 +154,7 @@ def advice_on(opinion: Opinion, advisor: Advisor) -> Advice | None:
     if result.given.arrays.element_number.size > LARGEST_FOR_STEPS:
         return None
     try:
-        advice = advisor(result)
+        advice = advice_of(result)
         _ = advice.steps
     except (FlexactError, MemoryError):
         return None

@@ -1,28 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The language server of decks, by pygls: what an editor asks, and who answers."""
+"""The language server of decks, by pygls: what an editor asks, and what it is answered."""
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import gc
 import logging
-from collections.abc import Callable, Generator, Iterator
-from typing import Any, BinaryIO, NamedTuple, TypeVar
+from collections.abc import Callable, Generator
+from functools import partial
+from typing import Any, BinaryIO, NamedTuple
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
+from ...util.errors import FlexactError
 from ...util.loading import VERSION
 from . import conversion
-from .actions import Fixes, Seen, Session, Work, beside
+from .actions import edits_of, mends_of, remedies_at
 from .completion import complete_at
+from .conversion import position_in, range_of
 from .deck import Deck
-from .document import Document, Position
+from .document import Document
 from .hover import hover_at
 from .outline import (
     RenameError,
-    Symbol,
     definition_at,
     folds_of,
     outline_of,
@@ -30,7 +34,12 @@ from .outline import (
     references_at,
     rename_at,
 )
-from .problems import Advisor
+from .session import OneAtATime, Seen, Session, beside
+
+#: A request that was understood and cannot be fulfilled.
+_FAILED = -32803
+#: Seconds to wait for steps that are asked for.
+_PATIENCE = 15.0
 
 
 class Client(NamedTuple):
@@ -69,118 +78,6 @@ class Client(NamedTuple):
         )
 
 
-#: A request that was understood and cannot be fulfilled.
-_FAILED = -32803
-Answer = Callable[[Deck, Any], Any]
-
-
-def position_in(document: Document, given: lsp.Position) -> Position:
-    """A position as an editor counts, as ours."""
-    return document.taken(given.line, given.character)
-
-
-class Answers:
-    """Those to the requests of one editor."""
-
-    def __init__(self, server: DeckServer) -> None:
-        """Of the decks that a server has."""
-        self.server = server
-
-    def table(self) -> Iterator[tuple[str, Answer, Any]]:
-        """What is answered, by whom, and what the editor is told about it."""
-        yield lsp.TEXT_DOCUMENT_HOVER, self.hover, None
-        yield lsp.TEXT_DOCUMENT_DEFINITION, self.definition, None
-        yield lsp.TEXT_DOCUMENT_REFERENCES, self.references, None
-        yield lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, self.highlights, None
-        yield lsp.TEXT_DOCUMENT_PREPARE_RENAME, self.prepare_rename, None
-        yield lsp.TEXT_DOCUMENT_RENAME, self.rename, lsp.RenameOptions(prepare_provider=True)
-        triggers = lsp.CompletionOptions(trigger_characters=[" "])
-        yield lsp.TEXT_DOCUMENT_COMPLETION, self.completion, triggers
-        yield lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL, self.symbols, None
-        yield lsp.TEXT_DOCUMENT_FOLDING_RANGE, self.folds, None
-
-    def hover(self, deck: Deck, params: lsp.HoverParams) -> lsp.Hover | None:
-        """What is said of the word at a position."""
-        document = deck.document
-        found = hover_at(deck, position_in(document, params.position))
-        if found is None:
-            return None
-        words = conversion.markup(found.text, is_markdown=self.server.client.markdown)
-        return lsp.Hover(words, conversion.range_of(document, found.range))
-
-    def definition(self, deck: Deck, params: lsp.DefinitionParams) -> list[lsp.Location]:
-        """Where a node or an element is made."""
-        document = deck.document
-        found = definition_at(deck, position_in(document, params.position))
-        return [lsp.Location(document.uri, conversion.range_of(document, one)) for one in found]
-
-    def references(self, deck: Deck, params: lsp.ReferenceParams) -> list[lsp.Location]:
-        """Where a node or an element is named."""
-        document, own = deck.document, params.context.include_declaration
-        found = references_at(deck, position_in(document, params.position), own)
-        return [lsp.Location(document.uri, conversion.range_of(document, one)) for one in found]
-
-    def highlights(
-        self, deck: Deck, params: lsp.DocumentHighlightParams
-    ) -> list[lsp.DocumentHighlight]:
-        """The same node or element elsewhere."""
-        document = deck.document
-        found = references_at(deck, position_in(document, params.position))
-        return [lsp.DocumentHighlight(conversion.range_of(document, one)) for one in found]
-
-    def prepare_rename(self, deck: Deck, params: lsp.PrepareRenameParams) -> lsp.Range | None:
-        """The number that would be changed."""
-        place = place_at(deck, position_in(deck.document, params.position))
-        return conversion.range_of(deck.document, place.range) if place is not None else None
-
-    def rename(self, deck: Deck, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
-        """Another number for a node or an element."""
-        try:
-            edits = rename_at(deck, position_in(deck.document, params.position), params.new_name)
-        except RenameError as error:
-            raise JsonRpcException(str(error), _FAILED) from None
-        return conversion.edits(deck.document, edits)
-
-    def completion(self, deck: Deck, params: lsp.CompletionParams) -> lsp.CompletionList:
-        """What may stand at a position."""
-        document, context = deck.document, params.context
-        offers = complete_at(deck, position_in(document, params.position))
-        is_typed = context and context.trigger_kind == lsp.CompletionTriggerKind.TriggerCharacter
-        if is_typed and any(one.kind == "keyword" for one in offers.offers):
-            # A blank at the start of a line asks for nothing.
-            return lsp.CompletionList(is_incomplete=False, items=[])
-        return conversion.completions(document, offers, snippets=self.server.client.snippets)
-
-    def symbols(
-        self, deck: Deck, params: lsp.DocumentSymbolParams
-    ) -> list[lsp.DocumentSymbol] | list[lsp.SymbolInformation]:
-        """The outline."""
-        document = deck.document
-        if self.server.client.outline:
-            return [conversion.symbol(document, one) for one in outline_of(deck)]
-        return [
-            lsp.SymbolInformation(
-                location=lsp.Location(document.uri, conversion.range_of(document, one.range)),
-                name=one.name,
-                kind=conversion.symbol(document, one._replace(inner=())).kind,
-            )
-            for one in _flat(outline_of(deck))
-        ]
-
-    def folds(self, deck: Deck, _: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
-        """What folds."""
-        return [conversion.fold(one) for one in folds_of(deck)]
-
-
-def _flat(symbols: tuple[Symbol, ...] | list[Symbol]) -> Iterator[Symbol]:
-    for one in symbols:
-        yield one
-        yield from _flat(one.inner)
-
-
-Made = TypeVar("Made")
-
-
 class _Protocol(LanguageServerProtocol):
     """Leaves texts to us: lines end where editors end them, and a change costs little."""
 
@@ -216,14 +113,14 @@ class _Protocol(LanguageServerProtocol):
 class DeckServer(LanguageServer):
     """The open decks of one editor."""
 
-    def __init__(self, advisor: Advisor) -> None:
-        """Nothing is open; steps are found by the advisor."""
+    def __init__(self) -> None:
+        """Nothing is open."""
         super().__init__("flexact", VERSION, protocol_cls=_Protocol)
         self.client = Client()
         self.sessions: dict[str, Session] = {}
         #: Whether the editor said that it is about to end.
         self.was_shut_down = False
-        self._work = Work(advisor)
+        self._queue = OneAtATime()
 
     def open(self, params: lsp.DidOpenTextDocumentParams) -> None:
         """A deck was opened."""
@@ -231,7 +128,7 @@ class DeckServer(LanguageServer):
         encoding = str(getattr(self.workspace.position_encoding, "value", None) or "utf-16")
         document = Document.of(item.text, item.uri, item.version, encoding)
         self.close(item.uri)
-        self.sessions[item.uri] = Session(Deck(document), self.tell, self._work)
+        self.sessions[item.uri] = Session(Deck(document), self.tell, self._queue)
 
     def change(self, params: lsp.DidChangeTextDocumentParams) -> None:
         """A deck was changed."""
@@ -242,7 +139,8 @@ class DeckServer(LanguageServer):
         document = session.deck.document
         for change in params.content_changes:
             if isinstance(change, lsp.TextDocumentContentChangePartial):
-                start, end = self._taken(document, change.range)
+                start = position_in(document, change.range.start)
+                end = position_in(document, change.range.end)
                 document = document.changed(start, end, change.text, item.version)
             else:
                 document = document.replaced(change.text, item.version)
@@ -257,109 +155,226 @@ class DeckServer(LanguageServer):
 
     def tell(self, seen: Seen) -> None:
         """Send what is known of a deck, unless it is another one by now."""
-        document = seen.deck.document
+        document, opinion, problems = seen.deck.document, seen.opinion, seen.problems or ()
         session = self.sessions.get(document.uri)
         if session is None or session.seen is not seen:
             return
         related = self.client.related
-        made = [
-            conversion.diagnostic(document, one, with_related=related)
-            for one in seen.problems or ()
-        ]
-        if seen.opinion is not None:
-            made.append(conversion.verdict(document, seen.opinion, with_related=related))
+        made = [conversion.diagnostic(document, one, with_related=related) for one in problems]
+        if opinion is not None:
+            made.append(conversion.verdict(document, opinion, with_related=related))
         self.text_document_publish_diagnostics(
             lsp.PublishDiagnosticsParams(document.uri, made, document.version)
         )
         if self.client.verdict:
-            self.protocol.notify("flexact/verdict", _verdict(seen))
+            # The words are empty while there is no verdict.
+            about = {
+                "uri": document.uri,
+                "version": document.version,
+                "words": opinion.words if opinion else "",
+                "verdict": opinion.verdict.value if opinion and opinion.verdict else None,
+                "errors": sum(one.severity.value == "error" for one in problems),
+            }
+            self.protocol.notify("flexact/verdict", about)
 
-    def deck_of(self, uri: str) -> Deck | None:
-        """An open deck as it is now."""
-        session = self.sessions.get(uri)
-        return session.deck if session is not None else None
+    def hover(self, deck: Deck, params: lsp.HoverParams) -> lsp.Hover | None:
+        """What is said of the word at a position."""
+        found = hover_at(deck, position_in(deck.document, params.position))
+        if found is None:
+            return None
+        words = conversion.markup(found[0], is_markdown=self.client.markdown)
+        return lsp.Hover(words, range_of(deck.document, found[1]))
 
-    @staticmethod
-    def _taken(document: Document, given: lsp.Range) -> tuple[Position, Position]:
-        return (
-            document.taken(given.start.line, given.start.character),
-            document.taken(given.end.line, given.end.character),
-        )
+    def completion(self, deck: Deck, params: lsp.CompletionParams) -> lsp.CompletionList:
+        """What may stand at a position."""
+        document, context = deck.document, params.context
+        offers = complete_at(deck, position_in(document, params.position))
+        is_typed = context and context.trigger_kind == lsp.CompletionTriggerKind.TriggerCharacter
+        if is_typed and any(one.kind == "keyword" for one in offers.offers):
+            # A blank at the start of a line asks for nothing.
+            return lsp.CompletionList(is_incomplete=False, items=[])
+        return conversion.completions(document, offers, snippets=self.client.snippets)
+
+    def symbols(
+        self, deck: Deck, _: lsp.DocumentSymbolParams
+    ) -> list[lsp.DocumentSymbol] | list[lsp.SymbolInformation]:
+        """The outline."""
+        found = outline_of(deck)
+        if not self.client.outline:
+            return conversion.flat_symbols(deck.document, found)
+        return [conversion.symbol(deck.document, one) for one in found]
+
+    async def actions(self, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+        """What can be done at a place."""
+        session = self.sessions.get(params.text_document.uri)
+        only = params.context.only
+        if session is None or (only and lsp.CodeActionKind.QuickFix not in only):
+            return []
+        seen = session.seen
+        if params.context.trigger_kind != lsp.CodeActionTriggerKind.Automatic:
+            with contextlib.suppress(asyncio.TimeoutError, TimeoutError):
+                await asyncio.wait_for(seen.is_done.wait(), _PATIENCE)
+        return await beside(lambda: self._fixes(seen, params.range))
+
+    def _fixes(self, seen: Seen, where: lsp.Range) -> list[lsp.CodeAction]:
+        document, related = seen.deck.document, self.client.related
+        first, last = sorted((where.start.line, where.end.line))
+        made = []
+        for problem in seen.problems or ():
+            if not first <= problem.range.start.line <= last:
+                continue
+            shown = conversion.diagnostic(document, problem, with_related=related)
+            mends = mends_of(seen.deck, problem)
+            for title, edit in mends:
+                action = _fix(title, shown)
+                action.edit = conversion.edits(document, [edit])
+                action.is_preferred = len(mends) == 1 or None
+                made.append(action)
+        if seen.advice is None or seen.opinion is None:
+            return made
+        shown = conversion.verdict(document, seen.opinion, with_related=related)
+        for remedy in remedies_at(seen.deck, seen.advice, first, last):
+            action = _fix(remedy.title, shown)
+            made.append(action)
+            if self.client.resolves:
+                action.data = {
+                    "uri": document.uri,
+                    "version": document.version,
+                    "step": remedy.step,
+                    "choice": remedy.choice,
+                }
+            else:
+                _fill(seen, action, remedy.step, remedy.choice)
+        return made
+
+    async def resolve(self, action: lsp.CodeAction) -> lsp.CodeAction:
+        """The edit of an action; none where the deck is another one by now."""
+        data: Any = action.data
+        session = self.sessions.get(str(data.get("uri"))) if isinstance(data, dict) else None
+        if session is None or session.deck.document.version != data.get("version"):
+            return action
+        seen, step, choice = session.seen, data.get("step"), data.get("choice")
+        if isinstance(step, int) and isinstance(choice, int):
+            await beside(lambda: _fill(seen, action, step, choice))
+        return action
 
 
-def _verdict(seen: Seen) -> dict[str, Any]:
-    """What flexact/verdict holds: the words are empty while there is no verdict."""
-    opinion, problems = seen.opinion, seen.problems or ()
-    errors = sum(one.severity.value == "error" for one in problems)
-    verdict = opinion.verdict.value if opinion and opinion.verdict else None
-    return {
-        "uri": seen.deck.document.uri,
-        "version": seen.deck.document.version,
-        "words": opinion.words if opinion else "",
-        "verdict": verdict,
-        "errors": errors,
-    }
+def _fix(title: str, about: lsp.Diagnostic) -> lsp.CodeAction:
+    return lsp.CodeAction(title=title, kind=lsp.CodeActionKind.QuickFix, diagnostics=[about])
 
 
-def make_server(advisor: Advisor) -> DeckServer:
+def _fill(seen: Seen, action: lsp.CodeAction, step: int, choice: int) -> None:
+    """Give an action the edit of a step of the advice."""
+    if seen.advice is None or not 1 <= step <= len(seen.advice.steps):
+        return
+    with contextlib.suppress(FlexactError):
+        edits = edits_of(seen.deck, seen.advice, step, choice)
+        action.edit = conversion.edits(seen.deck.document, edits)
+
+
+def _definition(deck: Deck, params: lsp.DefinitionParams) -> list[lsp.Location]:
+    """Where a node or an element is made."""
+    found = definition_at(deck, position_in(deck.document, params.position))
+    return conversion.locations(deck.document, found)
+
+
+def _references(deck: Deck, params: lsp.ReferenceParams) -> list[lsp.Location]:
+    """Where a node or an element is named."""
+    own = params.context.include_declaration
+    found = references_at(deck, position_in(deck.document, params.position), own)
+    return conversion.locations(deck.document, found)
+
+
+def _highlights(deck: Deck, params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
+    """The same node or element elsewhere."""
+    found = references_at(deck, position_in(deck.document, params.position))
+    return [lsp.DocumentHighlight(range_of(deck.document, one)) for one in found]
+
+
+def _prepare_rename(deck: Deck, params: lsp.PrepareRenameParams) -> lsp.Range | None:
+    """The number that would be changed."""
+    place = place_at(deck, position_in(deck.document, params.position))
+    return range_of(deck.document, place[1]) if place is not None else None
+
+
+def _rename(deck: Deck, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+    """Another number for a node or an element."""
+    try:
+        edits = rename_at(deck, position_in(deck.document, params.position), params.new_name)
+    except RenameError as error:
+        raise JsonRpcException(str(error), _FAILED) from None
+    return conversion.edits(deck.document, edits)
+
+
+def _folds(deck: Deck, _: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+    """What folds."""
+    kinds = lsp.FoldingRangeKind.Region, lsp.FoldingRangeKind.Comment
+    return [
+        lsp.FoldingRange(start_line=first, end_line=last, kind=kinds[is_comment])
+        for first, last, is_comment in folds_of(deck)
+    ]
+
+
+def make_server() -> DeckServer:
     """A server that answers, and is not started yet."""
-    server = DeckServer(advisor)
-    answers = Answers(server)
+    server = DeckServer()
 
-    @server.feature(lsp.INITIALIZE)
     def initialize(params: lsp.InitializeParams) -> None:
         server.client = Client.of(params)
 
-    @server.feature(lsp.SHUTDOWN)
-    def shutdown(*_: object) -> None:
+    def shut_down(*_: object) -> None:
         server.was_shut_down = True
 
-    @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
-    def did_open(params: lsp.DidOpenTextDocumentParams) -> None:
-        server.open(params)
-
-    @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
-    def did_change(params: lsp.DidChangeTextDocumentParams) -> None:
-        server.change(params)
-
-    @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
-    def did_close(params: lsp.DidCloseTextDocumentParams) -> None:
+    def close(params: lsp.DidCloseTextDocumentParams) -> None:
         server.close(params.text_document.uri)
 
-    # pygls says of a request that nobody answers that it fails; of these there is nothing to do.
-    for quiet in (lsp.WORKSPACE_DID_CHANGE_CONFIGURATION, lsp.TEXT_DOCUMENT_DID_SAVE):
-        server.feature(quiet)(_ignore)
-    fixes = Fixes(server)
-    kinds = lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix], resolve_provider=True)
+    def ignore(*_: object) -> None:
+        """Nothing is to be done; pygls says of a request that nobody answers that it fails."""
 
-    @server.feature(lsp.TEXT_DOCUMENT_CODE_ACTION, kinds)
-    async def code_action(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
-        return await fixes.actions(params)
-
-    @server.feature(lsp.CODE_ACTION_RESOLVE)
-    async def resolve(action: lsp.CodeAction) -> lsp.CodeAction:
-        return await fixes.resolve(action)
-
-    for method, answer, options in answers.table():
-        server.feature(method, options)(_answering(server, answer))
+    fixes = lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix], resolve_provider=True)
+    handlers: list[tuple[str, Callable[..., Any], Any]] = [
+        (lsp.INITIALIZE, initialize, None),
+        (lsp.SHUTDOWN, shut_down, None),
+        (lsp.TEXT_DOCUMENT_DID_OPEN, lambda params: server.open(params), None),
+        (lsp.TEXT_DOCUMENT_DID_CHANGE, lambda params: server.change(params), None),
+        (lsp.TEXT_DOCUMENT_DID_CLOSE, close, None),
+        (lsp.WORKSPACE_DID_CHANGE_CONFIGURATION, ignore, None),
+        (lsp.TEXT_DOCUMENT_DID_SAVE, ignore, None),
+        (lsp.TEXT_DOCUMENT_CODE_ACTION, partial(DeckServer.actions, server), fixes),
+        (lsp.CODE_ACTION_RESOLVE, partial(DeckServer.resolve, server), None),
+    ]
+    blank = lsp.CompletionOptions(trigger_characters=[" "])
+    answers: list[tuple[str, Callable[[Deck, Any], Any], Any]] = [
+        (lsp.TEXT_DOCUMENT_HOVER, server.hover, None),
+        (lsp.TEXT_DOCUMENT_DEFINITION, _definition, None),
+        (lsp.TEXT_DOCUMENT_REFERENCES, _references, None),
+        (lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, _highlights, None),
+        (lsp.TEXT_DOCUMENT_PREPARE_RENAME, _prepare_rename, None),
+        (lsp.TEXT_DOCUMENT_RENAME, _rename, lsp.RenameOptions(prepare_provider=True)),
+        (lsp.TEXT_DOCUMENT_COMPLETION, server.completion, blank),
+        (lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL, server.symbols, None),
+        (lsp.TEXT_DOCUMENT_FOLDING_RANGE, _folds, None),
+    ]
+    handlers += [(method, _answering(server, give), options) for method, give, options in answers]
+    for method, handler, options in handlers:
+        server.feature(method, options)(handler)
     return server
-
-
-def _ignore(*_: object) -> None:
-    """Nothing is to be done."""
 
 
 def _answering(server: DeckServer, answer: Callable[[Deck, Any], Any]) -> Callable[[Any], Any]:
     """Answer in a thread, of the deck as it is when it is asked."""
 
     async def answered(params: Any) -> Any:
-        deck = server.deck_of(params.text_document.uri)
-        return None if deck is None else await beside(lambda: answer(deck, params))
+        session = server.sessions.get(params.text_document.uri)
+        if session is None:
+            return None
+        deck = session.deck
+        return await beside(lambda: answer(deck, params))
 
     return answered
 
 
-def serve(stdin: BinaryIO, stdout: BinaryIO, advisor: Advisor) -> bool:
+def serve(stdin: BinaryIO, stdout: BinaryIO) -> bool:
     """Talk with an editor until it ends, or leaves; whether it said that it would."""
     # What pygls has to say of editors is for those who look for it.
     logging.getLogger("pygls").addHandler(logging.NullHandler())
@@ -367,6 +382,6 @@ def serve(stdin: BinaryIO, stdout: BinaryIO, advisor: Advisor) -> bool:
     # A long deck is a million values that live as long as the deck: no garbage.
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
-    server = make_server(advisor)
+    server = make_server()
     server.start_io(stdin, stdout)
     return server.was_shut_down

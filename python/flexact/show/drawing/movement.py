@@ -32,17 +32,16 @@ def poses_with_inner_nodes(condensed: Condensed, poses: Iterable[Pose]) -> tuple
     """
     if not condensed.chains:
         return tuple(poses)
-    return tuple(_whole(condensed, pose) for pose in poses)
-
-
-def _whole(condensed: Condensed, pose: Pose) -> Pose:
-    nodes = condensed.given.arrays.node_number.size
-    position, rotation = np.zeros((nodes, 3)), np.broadcast_to(np.eye(3), (nodes, 3, 3)).copy()
-    position[condensed.nodes], rotation[condensed.nodes] = pose.position, pose.rotation
-    for inner in condensed.inner:
-        place, turned = _between(inner, position[inner.ends[[0, 2]]], rotation[inner.ends[[1, 3]]])
-        position[inner.positions], rotation[inner.orientations] = place, turned
-    return Pose(position, rotation)
+    nodes, made = condensed.given.arrays.node_number.size, []
+    for pose in poses:
+        position, rotation = np.zeros((nodes, 3)), np.broadcast_to(np.eye(3), (nodes, 3, 3)).copy()
+        position[condensed.nodes], rotation[condensed.nodes] = pose.position, pose.rotation
+        for inner in condensed.inner:
+            ends, turns = position[inner.ends[[0, 2]]], rotation[inner.ends[[1, 3]]]
+            place, turned = _between(inner, ends, turns)
+            position[inner.positions], rotation[inner.orientations] = place, turned
+        made.append(Pose(position, rotation))
+    return tuple(made)
 
 
 def _between(
@@ -92,11 +91,6 @@ class Path(Frozen):
     deviation: float
 
 
-def has_path(data: ModelData) -> bool:
-    """Whether a model is small enough for its motions to be followed in a drawing."""
-    return is_followed(data, _MOST_COORDINATES)
-
-
 def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
     """The poses at shares of a motion that grow from the reference on.
 
@@ -140,23 +134,29 @@ def moved_by_screws(motion: Velocities, shares: Iterable[float]) -> tuple[Pose, 
     node of no body moves straight and turns about its own axis.
     """
     reference, moves = reference_pose(motion.data.arrays), BodyMoves(motion.data.arrays)
-    return tuple(_moved(motion, share, reference, moves) for share in shares)
-
-
-def _moved(motion: Velocities, share: float, reference: Pose, moves: BodyMoves) -> Pose:
-    moved, turned = share * motion.displacement, share * motion.rotation
-    rotation = matrix_of(turned)
-    position = moves.carried(reference.position, reference.position + moved, turned)
-    rotation[motion.data.arrays.node_kind <= NodeKind.POSITION] = np.eye(3)
-    return Pose(position, rotation)
+    placed, made = motion.data.arrays.node_kind <= NodeKind.POSITION, []
+    for share in shares:
+        moved, turned = share * motion.displacement, share * motion.rotation
+        rotation = matrix_of(turned)
+        rotation[placed] = np.eye(3)
+        position = moves.carried(reference.position, reference.position + moved, turned)
+        made.append(Pose(position, rotation))
+    return tuple(made)
 
 
 class BodyMoves:
     """How the position nodes of rigid bodies move with them."""
 
     def __init__(self, arrays: ModelArrays) -> None:
-        """Find the bodies."""
-        self._centre, self._turn = _bodies(arrays)
+        """Find of each position node of a body a position node and an orientation node of it.
+
+        Both are -1 of nodes of no body.
+        """
+        self._centre, self._turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
+        for body in bodies_of(arrays):
+            p, op = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
+            rows = [node for node in body.positions if self._centre[node] < 0]
+            self._centre[rows], self._turn[rows] = p, op
 
     def carried(self, start: FloatArray, moved: FloatArray, turned: FloatArray) -> FloatArray:
         """Positions (nodes, 3) after velocities that last for a time of one.
@@ -173,20 +173,6 @@ class BodyMoves:
         arm = np.einsum("kxy,ky->kx", matrix_of(about), start[body] - start[centre])
         made[body] = start[centre] + gone + arm
         return made
-
-
-def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
-    """Of each position node of a rigid body, a position node and an orientation node of it.
-
-    (nodes,) indices, -1 for nodes of no body.
-    """
-    centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
-    for body in bodies_of(arrays):
-        p, op = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
-        for node in body.positions:
-            if centre[node] < 0:
-                centre[node], turn[node] = p, op
-    return centre, turn
 
 
 #: More motions that nothing determines are not looked at together.
@@ -352,7 +338,7 @@ class Movement(Frozen):
     @property
     def remark(self) -> str:
         """What is to be said of the poses, sentences."""
-        told = [self._path]
+        told = [self.about or self._path]
         if self.part < 1.0:
             told.append("Drawn to the size of the part that moves.")
         if self.natural:
@@ -361,9 +347,7 @@ class Movement(Frozen):
 
     @property
     def _path(self) -> str:
-        if self.about:
-            return self.about
-        if self.true_path:
+        if self.deviation <= _TRUE:
             return "On its path: no held deformation changes."
         if np.isnan(self.deviation):
             return "A large model: drawn along its velocities, rigid bodies on screws."
@@ -390,10 +374,13 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
     farthest displacements is a tenth of the drawing's size, unless rotations are too large.
     """
     far, part = amplitude_of(drawing, motion.displacement, motion.rotation)
-    scale = reach = scale_of(drawing, motion)
+    scale = reach = scale_of(drawing, motion.displacement, motion.rotation, far)
     sides, deviation = _swung(motion, reach, drawing.size)
     for _ in range(_MOST_FITS):
-        factor = _factor(drawing, [side[-1] for side in sides], far)
+        # By how much poses are too near to the reference, to be as far as they may.
+        largest, turned = reach_of(drawing, [side[-1] for side in sides])
+        factor = _least(far, largest, _LARGEST_ROTATION, turned)
+        factor = min(max(factor, 0.5), 2.0) if factor > 0.0 else 1.0
         if abs(factor - 1.0) < _FITS:
             break
         reach *= factor
@@ -412,7 +399,7 @@ def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, 
     """The poses to both sides, up to the motion times `reach`; the deviation."""
     shares = reach * np.arange(1, _STEPS + 1) / _STEPS
     analysed = motion.analysed
-    followed = has_path(analysed.data)
+    followed = is_followed(analysed.data, _MOST_COORDINATES)
     if followed:
         sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
         found = [side for side in sides if side is not None and side.deviation <= _UNSEEN]
@@ -422,13 +409,6 @@ def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, 
     swings = [moved_by_screws(analysed, (sign * shares).tolist()) for sign in (-1.0, 1.0)]
     whole = [poses_with_inner_nodes(motion.condensed, swing) for swing in swings]
     return whole, np.inf if followed else np.nan
-
-
-def _factor(drawing: Drawing, ends: list[Pose], far: float) -> float:
-    """By how much poses are too near to the reference, to be as far as they may."""
-    largest, turned = reach_of(drawing, ends)
-    factor = _least(far, largest, _LARGEST_ROTATION, turned)
-    return min(max(factor, 0.5), 2.0) if factor > 0.0 else 1.0
 
 
 def reach_of(drawing: Drawing, poses: Sequence[Pose]) -> tuple[float, float]:
@@ -443,17 +423,29 @@ def reach_of(drawing: Drawing, poses: Sequence[Pose]) -> tuple[float, float]:
     return float(np.concatenate(ways).max()), float(np.concatenate(angles).max())
 
 
-def scale_of(drawing: Drawing, motion: Moving) -> float:
-    """What a motion is multiplied by when it is drawn, to first order."""
-    far, _ = amplitude_of(drawing, motion.displacement, motion.rotation)
-    along = field_along(drawing.members, motion.displacement, motion.rotation)
-    largest = max(
-        (float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along),
-        default=0.0,
-    )
-    largest = max(largest, float(np.linalg.norm(motion.displacement, axis=1).max(initial=0.0)))
-    turned = float(np.linalg.norm(motion.rotation, axis=1).max(initial=0.0))
-    return _least(far, largest, _LARGEST_ROTATION, turned)
+def scale_of(
+    drawing: Drawing,
+    displacement: FloatArray,
+    rotation: FloatArray,
+    far: float | None = None,
+    angle: float = _LARGEST_ROTATION,
+) -> float:
+    """What a motion is multiplied by when it is drawn, to first order; 0 of one without any.
+
+    Args:
+        drawing: The drawing.
+        displacement: (nodes, 3) of the motion.
+        rotation: (nodes, 3) likewise.
+        far: The largest displacement that is drawn [m]; by default as of `amplitude_of`.
+        angle: The largest rotation [rad].
+    """
+    if far is None:
+        far, _ = amplitude_of(drawing, displacement, rotation)
+    along = field_along(drawing.members, displacement, rotation)
+    ways = [float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along]
+    largest = max([*ways, float(np.linalg.norm(displacement, axis=1).max(initial=0.0))])
+    turned = float(np.linalg.norm(rotation, axis=1).max(initial=0.0))
+    return _least(far, largest, angle, turned)
 
 
 def amplitude_of(
@@ -514,7 +506,7 @@ def swing(
     placed = (arrays.node_kind <= NodeKind.POSITION)[:, None]
     moved, turned = np.where(placed, displacement, 0.0), np.where(placed, 0.0, displacement)
     amplitude, part = amplitude_of(drawing, moved, turned)
-    scale = _scale(drawing, moved, turned, amplitude)
+    scale = scale_of(drawing, moved, turned, amplitude, _SWING_LARGEST_ROTATION)
     start, bodies = pose_of(arrays, state), BodyMoves(arrays)
     phases = np.linspace(-1.0, 1.0, _POSES)
 
@@ -525,13 +517,3 @@ def swing(
 
     poses = tuple(pose(scale * phase) for phase in phases.tolist())
     return Movement(scale, np.nan, phases, poses, about, part)
-
-
-def _scale(drawing: Drawing, moved: FloatArray, turned: FloatArray, amplitude: float) -> float:
-    """What the shape is multiplied by; 0 of one that does not move."""
-    along = field_along(drawing.members, moved, turned)
-    ways = [float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along]
-    far = max([*ways, float(np.linalg.norm(moved, axis=1).max(initial=0.0))])
-    angle = float(np.linalg.norm(turned, axis=1).max(initial=0.0))
-    wanted = ((amplitude, far), (_SWING_LARGEST_ROTATION, angle))
-    return min((most / found for most, found in wanted if found > 0.0), default=0.0)

@@ -3,16 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from enum import Enum
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...core.arrays import FloatArray
 from ...util.records import Frozen
 from ...util.rotations import frames_along, unit
+
+if TYPE_CHECKING:
+    from ...advice.holding import Hold
+    from ...advice.spaces.screws import Family
 
 #: Half the length of a line, and of an arrow from the middle: parts of the drawing's size.
 _REACH, _ARROW = 0.42, 0.26
@@ -24,38 +27,6 @@ _FAN, _ROUND = 8, 40
 _BESIDE = np.linspace(-0.75, 0.75, 5)
 #: Of a helix: radius, at most so many turns, and points of each.
 _HELIX, _TURNS, _POINTS = 0.045, 8.0, 24
-
-
-class FamilyLike(Protocol):
-    """A family of lines, directions or screws; see `flexact.advice.spaces.screws`."""
-
-    @property
-    def kind(self) -> Enum:
-        """What it is, by the name of the member."""
-
-    @property
-    def point(self) -> FloatArray:
-        """(3,) [m]."""
-
-    @property
-    def direction(self) -> FloatArray:
-        """(3,) unit vector, or zero."""
-
-    @property
-    def normal(self) -> FloatArray:
-        """(3,) unit vector, or zero."""
-
-    @property
-    def pitch(self) -> float:
-        """[m/rad]."""
-
-    @property
-    def points(self) -> FloatArray:
-        """(n, 3) of lines [m]."""
-
-    @property
-    def directions(self) -> FloatArray:
-        """(n, 3) unit vectors along them."""
 
 
 #: Lines, faces and arrows, as of `SpaceShape`.
@@ -95,25 +66,17 @@ def _sides(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
     return frame[:, 1], frame[:, 2]
 
 
-def _nearest(family: FamilyLike, middle: FloatArray) -> FloatArray:
-    """(n, 3) the point of each line of a family that is nearest to the middle."""
-    arm = middle - family.points
-    along = np.sum(arm * family.directions, axis=1)[:, None]
-    made: FloatArray = family.points + along * family.directions
-    return made
-
-
-def _line(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _line(family: Family, middle: FloatArray, size: float) -> _Parts:
     return _segments(family.point, family.direction, _REACH * size), [], []
 
 
-def _pencil(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _pencil(family: Family, middle: FloatArray, size: float) -> _Parts:
     half = _REACH * size
     lines = _segments(family.point, _fan(family.normal), half)
     return lines, [disc(family.point, family.normal, half)], []
 
 
-def _parallels_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _parallels_in_plane(family: Family, middle: FloatArray, size: float) -> _Parts:
     half = _REACH * size
     across = unit(np.cross(family.normal, family.direction))
     points = family.point + half * _BESIDE[:, None] * across
@@ -121,12 +84,12 @@ def _parallels_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> 
     return _segments(points, family.direction, half), [face], []
 
 
-def _bundle(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _bundle(family: Family, middle: FloatArray, size: float) -> _Parts:
     every = np.array([each for each in np.ndindex(3, 3, 3) if each > (1, 1, 1)]) - 1.0
     return _segments(family.point, unit(every), _REACH * size), [], []
 
 
-def _parallels(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _parallels(family: Family, middle: FloatArray, size: float) -> _Parts:
     one, other = _sides(family.direction)
     half, beside = _REACH * size, 0.6 * _REACH * size
     places = [middle + beside * (i * one + j * other) for i in (-1, 0, 1) for j in (-1, 0, 1)]
@@ -135,10 +98,6 @@ def _parallels(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
         _square(middle + end * half * family.direction, one, other, 1.3 * beside) for end in (-1, 1)
     ]
     return lines, faces, []
-
-
-def _plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return *_flat(family.point, family.normal, _REACH * size), []
 
 
 def _flat(
@@ -152,11 +111,15 @@ def _flat(
     return lines + _segments(point, diagonals, half), [_square(point, one, other, half)]
 
 
-def _some(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return _segments(_nearest(family, middle), family.directions, _REACH * size), [], []
+def _some(family: Family, middle: FloatArray, size: float) -> _Parts:
+    # About the point of each that is nearest to the middle.
+    arm = middle - family.points
+    along = np.sum(arm * family.directions, axis=1)[:, None]
+    points = family.points + along * family.directions
+    return _segments(points, family.directions, _REACH * size), [], []
 
 
-def _meeting_two(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _meeting_two(family: Family, middle: FloatArray, size: float) -> _Parts:
     """Lines from one to the other: the two themselves are lines of the reciprocal space."""
     two, _, _ = _some(family, middle, size)
     first, second = (
@@ -165,7 +128,7 @@ def _meeting_two(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
     return [np.stack((one, other)) for one in first for other in second], [], []
 
 
-def _meeting_across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _meeting_across(family: Family, middle: FloatArray, size: float) -> _Parts:
     """Pencils in parallel planes, round points of the line, which is of the reciprocal space."""
     axis = _some(family, middle, size)[0][0]
     half = 0.6 * _REACH * size
@@ -176,7 +139,7 @@ def _meeting_across(family: FamilyLike, middle: FloatArray, size: float) -> _Par
     return lines, faces, []
 
 
-def _meeting(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _meeting(family: Family, middle: FloatArray, size: float) -> _Parts:
     lines, _, _ = _line(family, middle, size)
     one, other = _sides(family.direction)
     slant = np.array([one, other, one + family.direction, other - family.direction])
@@ -186,7 +149,7 @@ def _meeting(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
     return lines, [], []
 
 
-def _across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _across(family: Family, middle: FloatArray, size: float) -> _Parts:
     lines, faces = [], []
     for share in (-0.55, 0.0, 0.55):
         place = middle + share * _REACH * size * family.direction
@@ -196,13 +159,13 @@ def _across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
     return lines, faces, []
 
 
-def _every(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _every(family: Family, middle: FloatArray, size: float) -> _Parts:
     faces = [disc(middle, axis, _REACH * size) for axis in np.eye(3)]
     lines = [_segments(middle, _fan(axis), _REACH * size) for axis in np.eye(3)]
     return [each for some in lines for each in some], faces, []
 
 
-def _screw(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _screw(family: Family, middle: FloatArray, size: float) -> _Parts:
     half = _REACH * size
     turns = min(half / abs(family.pitch) / np.pi, _TURNS) if family.pitch else _TURNS
     share = np.linspace(-1.0, 1.0, max(int(turns * _POINTS), 2))[:, None]
@@ -214,7 +177,7 @@ def _screw(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
     return [*_segments(family.point, family.direction, half), helix], [], []
 
 
-def _complex(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _complex(family: Family, middle: FloatArray, size: float) -> _Parts:
     """Lines round the axis, the steeper the nearer, and those that meet it at right angles."""
     half, lines = _REACH * size, []
     for distance in (0.25 * half, 0.75 * half):
@@ -236,27 +199,19 @@ def _arrows(directions: FloatArray, middle: FloatArray, size: float) -> list[Flo
     ]
 
 
-def _direction(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return [], [], _arrows(family.direction, middle, size)
-
-
-def _directions_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+def _directions_in_plane(family: Family, middle: FloatArray, size: float) -> _Parts:
     face = disc(middle, family.normal, _ARROW * size)
     return [], [face], _arrows(_fan(family.normal, 4), middle, size)
 
 
-def _every_direction(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return [], [], _arrows(np.eye(3), middle, size)
-
-
 #: By the name of the kind.
-MADE_BY: dict[str, Callable[[FamilyLike, FloatArray, float], _Parts]] = {
+MADE_BY: dict[str, Callable[[Family, FloatArray, float], _Parts]] = {
     "LINE": _line,
     "PENCIL": _pencil,
     "PARALLELS_IN_PLANE": _parallels_in_plane,
     "BUNDLE": _bundle,
     "PARALLELS": _parallels,
-    "PLANE": _plane,
+    "PLANE": lambda family, _, size: (*_flat(family.point, family.normal, _REACH * size), []),
     "REGULUS": _some,
     "MEETING_TWO": _meeting_two,
     "MEETING_ACROSS": _meeting_across,
@@ -265,9 +220,9 @@ MADE_BY: dict[str, Callable[[FamilyLike, FloatArray, float], _Parts]] = {
     "ACROSS": _across,
     "COMPLEX": _complex,
     "EVERY": _every,
-    "DIRECTION": _direction,
+    "DIRECTION": lambda family, *place: ([], [], _arrows(family.direction, *place)),
     "DIRECTIONS_IN_PLANE": _directions_in_plane,
-    "EVERY_DIRECTION": _every_direction,
+    "EVERY_DIRECTION": lambda _, *place: ([], [], _arrows(np.eye(3), *place)),
     "SCREW": _screw,
 }
 
@@ -310,7 +265,7 @@ class SpaceShape(Frozen):
 
 
 def shape_of_space(
-    families: Iterable[FamilyLike],
+    families: Iterable[Family],
     middle: FloatArray,
     size: float,
     *,
@@ -369,31 +324,7 @@ def dashes(ends: FloatArray, size: float) -> FloatArray:
 _OF_PART, _LEAST, _MOST = 1.7, 0.35, 1.0
 
 
-class SpaceLike(Protocol):
-    """A space of wrenches; see `flexact.advice.spaces.screws`."""
-
-    @property
-    def families(self) -> Sequence[FamilyLike]:
-        """What it is made of."""
-
-    @property
-    def about(self) -> FloatArray:
-        """(3,) the middle of the flexure [m]."""
-
-
-class HoldLike(Protocol):
-    """What a flexure holds; see `flexact.advice.holding`."""
-
-    @property
-    def space(self) -> SpaceLike:
-        """The wrenches that it carries."""
-
-    @property
-    def extent(self) -> float:
-        """Its size [m]."""
-
-
-def shape_of_hold(hold: HoldLike, size: float, *, planar: bool) -> SpaceShape:
+def shape_of_hold(hold: Hold, size: float, *, planar: bool) -> SpaceShape:
     """What is drawn of what a flexure holds.
 
     Args:

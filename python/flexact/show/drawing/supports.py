@@ -259,6 +259,56 @@ class Supports(Frozen):
         """How many there are."""
         return int(self.node.size)
 
+    def solids(
+        self, row: int, node: FloatArray, corners: int, tip: float = 0.0
+    ) -> list[tuple[FloatArray, float]]:
+        """The solids of a symbol: rings (r, c, 3) [m], and of a block of ground how thick it is.
+
+        Args:
+            row: Which symbol.
+            node: (3,) where its node is [m].
+            corners: Of round rings.
+            tip: Radius of a tip, a part of the symbol's size.
+        """
+        place, frame, size = node + self.offset[row], self.frame[row], float(self.size[row])
+        kind = self.kind[row]
+        if kind == Support.CLAMP:
+            thick = float(self.depth[row])
+            return [(_block_rings(place, frame, self.extent[row], thick), thick)]
+        if kind == Support.PIN:
+            thick, half = 0.28 * size, np.full(2, 0.85 * size)
+            ground = _block_rings(place - size * frame[:, 0], frame, half, thick)
+            return [
+                (rings_about(place, frame, ((-1.0, 0.75), (0.0, tip)), size, 4), 0.0),
+                (ground, thick),
+            ]
+        rings: tuple[tuple[float, float], ...] = ((-0.7, 0.4), (0.0, tip), (0.7, 0.4))
+        if kind == Support.SLIDE:
+            rings = ((-1.1, 0.45), (0.0, tip))
+        return [(rings_about(place, frame, rings, size, corners), 0.0)]
+
+
+def rings_about(
+    place: FloatArray,
+    frame: FloatArray,
+    rings: tuple[tuple[float, float], ...],
+    size: float,
+    corners: int,
+) -> FloatArray:
+    """(r, c, 3) rings about ex of a frame: place along it and radius of each, parts of the size."""
+    angle = 2 * np.pi * (np.arange(corners) + 0.5 * (corners == 4)) / corners
+    circle = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
+    return np.stack([place + size * (x * frame[:, 0] + r * circle) for x, r in rings])
+
+
+def _block_rings(
+    place: FloatArray, frame: FloatArray, half: FloatArray, thick: float
+) -> FloatArray:
+    """(2, 4, 3) a block of ground whose upper face lies at the place."""
+    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
+    upper = place + corner @ frame[:, 1:].T
+    return np.stack((upper - thick * frame[:, 0], upper))
+
 
 @dataclass(frozen=True, eq=False)
 class Arrows(Frozen):

@@ -37,6 +37,7 @@ from ..drawing import (
 from ..drawing.movement import scale_of
 from ..drawing.pose import by_shape
 from ..drawing.selection import select_motion
+from ..drawing.supports import rings_about
 
 if TYPE_CHECKING:
     import meshio
@@ -115,12 +116,6 @@ ROTATION = TRANSLATION + 1
 _ROUND = 12
 #: What stands for a point, so that all faces are quads: a part of the size.
 _TIP = 0.02
-#: Thickness of the plate below a pyramid, a part of a support's size.
-_PLATE = 0.28
-#: Rings of a symbol: place along its axis and radius, parts of its size.
-_PYRAMID = ((-1.0, 0.75), (0.0, _TIP))
-_CONE = ((-1.1, 0.45), (0.0, _TIP))
-_CONES = ((-0.7, 0.4), (0.0, _TIP), (0.7, 0.4))
 #: Of arrows, parts of the drawing's size: length, and where the head begins; radii.
 _LENGTH, _HEAD, _SHAFT, _WIDE = 0.13, 0.095, 0.004, 0.012
 _ARROW = ((0.0, _SHAFT), (_HEAD, _SHAFT), (_HEAD, _WIDE), (_LENGTH, _SHAFT * _TIP))
@@ -149,11 +144,6 @@ class Symbols(Frozen):
     form: Integers
     node_of: Integers
 
-    def points_in(self, pose: Pose, reference: Pose) -> FloatArray:
-        """(n, 3) where the points are in a pose [m]: symbols go with their nodes."""
-        moved: FloatArray = pose.position[self.node] - reference.position[self.node]
-        return self.points + moved
-
     def in_words(self, node_names: Sequence[str]) -> list[str]:
         """What each symbol is called."""
         forms = np.zeros(len(self.node_of), np.int64)
@@ -172,37 +162,41 @@ _WORDS = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class _Tube(Frozen):
-    """Rings (r, c, 3) about an axis, closed at both ends."""
+def _tube_quads(rings: FloatArray) -> Integers:
+    """(k, 4) corners of the faces of rings (r, c, 3) that are closed at both ends.
 
-    rings: FloatArray
-
-    @property
-    def quads(self) -> Integers:
-        """(k, 4) corners of its faces, seen from outside against the clock."""
-        r, c, _ = self.rings.shape
-        corner = np.arange(c)
-        side = np.stack((corner, (corner + 1) % c, (corner + 1) % c + c, corner + c), axis=-1)
-        sides = (side + c * np.arange(r - 1)[:, None, None]).reshape(-1, 4)
-        fan = np.arange(1, c // 2)
-        end = np.stack((fan - 1, fan, c - 1 - fan, c - fan), axis=-1)
-        return np.concatenate((sides, end[:, ::-1], end + c * (r - 1)))
+    Seen from outside they go against the clock.
+    """
+    r, c, _ = rings.shape
+    corner = np.arange(c)
+    side = np.stack((corner, (corner + 1) % c, (corner + 1) % c + c, corner + c), axis=-1)
+    sides = (side + c * np.arange(r - 1)[:, None, None]).reshape(-1, 4)
+    fan = np.arange(1, c // 2)
+    end = np.stack((fan - 1, fan, c - 1 - fan, c - fan), axis=-1)
+    return np.concatenate((sides, end[:, ::-1], end + c * (r - 1)))
 
 
 def symbols_of(drawing: Drawing) -> Symbols:
     """The symbols of a drawing."""
-    made = [*_supports(drawing), *_arrows(drawing)]
+    supports, position = drawing.supports, drawing.reference.position
+    made = [
+        (node, SUPPORT + kind, rings)
+        for row, (node, kind) in enumerate(
+            zip(supports.node.tolist(), supports.kind.tolist(), strict=True)
+        )
+        for rings, _ in supports.solids(row, position[node], _ROUND, _TIP)
+    ]
+    made += _arrows(drawing)
     points, quads, behind = [np.zeros((0, 3))], [np.zeros((0, 4), np.int64)], 0
     nodes, owners, forms = [], [], []
-    for number, (node, form, tube) in enumerate(made):
-        corners = tube.rings.reshape(-1, 3)
+    for number, (node, form, rings) in enumerate(made):
+        corners, faces = rings.reshape(-1, 3), _tube_quads(rings)
         points.append(corners)
-        quads.append(behind + tube.quads)
+        quads.append(behind + faces)
         behind += len(corners)
         nodes += [node] * len(corners)
-        owners += [number] * len(tube.quads)
-        forms += [form] * len(tube.quads)
+        owners += [number] * len(faces)
+        forms += [form] * len(faces)
     return Symbols(
         np.concatenate(points),
         np.array(nodes, np.int64),
@@ -213,26 +207,7 @@ def symbols_of(drawing: Drawing) -> Symbols:
     )
 
 
-def _supports(drawing: Drawing) -> Iterator[tuple[int, int, _Tube]]:
-    supports = drawing.supports
-    for row in range(len(supports)):
-        node, kind = int(supports.node[row]), Support(int(supports.kind[row]))
-        place = drawing.reference.position[node] + supports.offset[row]
-        frame = supports.frame[row]
-        size, half = float(supports.size[row]), supports.extent[row]
-        form = SUPPORT + kind
-        if kind is Support.CLAMP:
-            yield node, form, _block(place, frame, half, float(supports.depth[row]))
-        elif kind is Support.PIN:
-            yield node, form, _turned(place, frame, _PYRAMID, size, 4)
-            ground = place - size * frame[:, 0]
-            yield node, form, _block(ground, frame, np.full(2, 0.85 * size), _PLATE * size)
-        else:
-            rings = _CONE if kind is Support.SLIDE else _CONES
-            yield node, form, _turned(place, frame, rings, size, _ROUND)
-
-
-def _arrows(drawing: Drawing) -> Iterator[tuple[int, int, _Tube]]:
+def _arrows(drawing: Drawing) -> Iterator[tuple[int, int, FloatArray]]:
     arrows = drawing.arrows
     frames = frames_along(arrows.direction)
     for row in range(len(arrows)):
@@ -241,30 +216,10 @@ def _arrows(drawing: Drawing) -> Iterator[tuple[int, int, _Tube]]:
         if arrows.turning[row]:
             yield node, ROTATION, _bent(place, frames[row], drawing.size)
         else:
-            yield node, TRANSLATION, _turned(place, frames[row], _ARROW, drawing.size, _ROUND)
+            yield node, TRANSLATION, rings_about(place, frames[row], _ARROW, drawing.size, _ROUND)
 
 
-def _block(place: FloatArray, frame: FloatArray, half: FloatArray, thick: float) -> _Tube:
-    """A block of ground whose upper face lies at the place."""
-    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
-    upper = place + corner @ frame[:, 1:].T
-    return _Tube(np.stack((upper - thick * frame[:, 0], upper)))
-
-
-def _turned(
-    place: FloatArray,
-    frame: FloatArray,
-    rings: tuple[tuple[float, float], ...],
-    size: float,
-    corners: int,
-) -> _Tube:
-    """Rings about ex of a frame."""
-    angle = 2 * np.pi * (np.arange(corners) + 0.5 * (corners == 4)) / corners
-    circle = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
-    return _Tube(np.stack([place + size * (x * frame[:, 0] + r * circle) for x, r in rings]))
-
-
-def _bent(place: FloatArray, frame: FloatArray, size: float) -> _Tube:
+def _bent(place: FloatArray, frame: FloatArray, size: float) -> FloatArray:
     """An arrow round ex of a frame."""
     start, head, end = _ANGLES
     along = np.linspace(start, head, _BENDS)
@@ -275,7 +230,7 @@ def _bent(place: FloatArray, frame: FloatArray, size: float) -> _Tube:
     # Against the clock about the way that it goes.
     across = np.cos(corner)[:, None] * outwards[:, None] - np.sin(corner)[:, None] * frame[:, 0]
     middle = place + _CIRCLE * size * outwards
-    return _Tube(middle[:, None] + radius[:, None, None] * across)
+    return np.asarray(middle[:, None] + radius[:, None, None] * across)
 
 
 NO_SYMBOLS = Symbols(
@@ -596,7 +551,7 @@ class Meshes:
             shown = None if chosen is None else chosen.motion
         moved, turned = np.zeros((2, len(self.reference.points) + len(self.symbols.points), 3))
         if shown is not None:
-            scale = scale_of(self.drawn, shown)
+            scale = scale_of(self.drawn, shown.displacement, shown.rotation)
             moved, turned = self._motion(shown.displacement, shown.rotation)
             moved, turned = scale * moved, scale * turned
         points = np.concatenate((self.reference.points, self.symbols.points))
@@ -606,7 +561,9 @@ class Meshes:
         """The mesh in a pose: `displacement` and `rotation` are finite, since the reference."""
         here, start = layout_of(self.drawing, pose, self.skinned), self.reference
         turned = vector_of(here.frame @ np.swapaxes(start.frame, -1, -2))[start.axis_point]
-        symbols = self.symbols.points_in(pose, self.drawing.reference)
+        # Symbols go with their nodes.
+        node, start_of = self.symbols.node, self.drawing.reference.position
+        symbols = self.symbols.points + (pose.position[node] - start_of[node])
         points = np.concatenate((here.points, symbols))
         away = points - np.concatenate((start.points, self.symbols.points))
         return self._made(points, away, np.concatenate((turned, np.zeros_like(symbols))))

@@ -7,7 +7,6 @@ import base64
 import contextlib
 import gzip
 import hashlib
-import io
 import json
 import re
 import sys
@@ -23,7 +22,8 @@ from ...analysis.verdict_words import margin_in_short
 from ...util.partial import attempted
 from ..page.assets import SCRIPTS, asset, image, text
 from ..page.content import content_of
-from ..picture import has_packages, picture_bytes
+from ..picture import still_of
+from ..picture.files import fewer_colours
 from ..writers import as_bytes
 
 #: What starts a page from disk is left out.
@@ -106,7 +106,10 @@ def is_wanted() -> bool:
         # Each output has a page of its own there.
         return True
     shell = _shell()
-    who, cell = _asked_by(shell)
+    # Who asked for what runs, and the cell, as far as they are known.
+    parent = _parent(shell)
+    who = str(parent.get("header", {}).get("session", ""))
+    cell = parent.get("metadata", {}).get("cellId")
     if who in _given:
         return False
     if shell is not None and shell not in _told:
@@ -123,7 +126,8 @@ def begin() -> None:
 
 def _forget(info: Any) -> None:
     """A cell runs, so that its output goes; or the notebook says which cells are deleted."""
-    gone = {getattr(info, "cell_id", None), *_deleted(_shell())} - {None}
+    deleted = _parent(_shell()).get("metadata", {}).get("deletedCells", ())
+    gone = {getattr(info, "cell_id", None), *deleted} - {None}
     for who, cell in list(_given.items()):
         if cell in gone:
             del _given[who]
@@ -134,17 +138,6 @@ def _shell() -> Any:
     module = sys.modules.get("IPython")
     shell = None if module is None else module.get_ipython()
     return shell if hasattr(shell, "get_parent") else None
-
-
-def _asked_by(shell: Any) -> tuple[str, str | None]:
-    """Who asked for what runs, and the cell, as far as they are known."""
-    parent = _parent(shell)
-    who = parent.get("header", {}).get("session", "")
-    return str(who), parent.get("metadata", {}).get("cellId")
-
-
-def _deleted(shell: Any) -> list[str]:
-    return list(_parent(shell).get("metadata", {}).get("deletedCells", ()))
 
 
 def _parent(shell: Any) -> dict[str, Any]:
@@ -170,31 +163,16 @@ def still(analysis: Result, size: tuple[int, int], words: str, **chosen: Any) ->
         words: What the picture shows.
         chosen: As of `flexact.show.picture.draw`.
     """
-    if not has_packages():
-        return ""
-    content = attempted(
-        words, lambda: picture_bytes(analysis, ".png", size=size, plain=True, **chosen), None, None
-    )
+    content = still_of(analysis, words, size=size, plain=True, **chosen)
     return "" if content is None else shown(content, size, words)
 
 
 def shown(content: bytes, size: tuple[int, int], words: str) -> str:
     """A picture as HTML, in few colours, at half its size."""
-    made = image(lighter(content, _COLOURS[size]), words)
+    made = image(fewer_colours(content, _COLOURS[size]), words)
     width = f"{size[0] // 2}px" if size == SMALL else "100%"
     style = f"width:{width};max-width:{size[0]}px;height:auto;background:#fff;border-radius:6px"
     return made.replace("<img ", f'<img width="{size[0] // 2}" style="{style}" ', 1)
-
-
-def lighter(content: bytes, colours: int) -> bytes:
-    """A PNG in few colours, which takes a third of the room."""
-    from PIL import Image
-
-    with Image.open(io.BytesIO(content)) as picture:
-        few = picture.convert("RGB").quantize(colours, dither=Image.Dither.NONE)
-    buffer = io.BytesIO()
-    few.save(buffer, "PNG", optimize=True)
-    return buffer.getvalue()
 
 
 _CELL = "text-align:left;vertical-align:top;padding:6px 10px;white-space:normal"
@@ -210,7 +188,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], title: str = "") 
     """
     head = "".join(f"<th style='{_CELL}'>{text(each)}</th>" for each in heads)
     body = "".join(
-        f"<tr>{''.join(f'<td style={_quoted(_CELL)}>{cell}</td>' for cell in row)}</tr>"
+        "<tr>" + "".join(f"<td style='{_CELL}'>{cell}</td>" for cell in row) + "</tr>"
         for row in rows
     )
     told = f"<p>{title}</p>" if title else ""
@@ -227,10 +205,6 @@ def verdict(colour: str, sign: str, words: str) -> str:
         f"background:{colour};color:#fff;text-align:center'>{sign}</span>"
     )
     return f"{mark} {text(words)}"
-
-
-def _quoted(words: str) -> str:
-    return f"'{words}'"
 
 
 _HOW = (

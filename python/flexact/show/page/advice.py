@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
+import contextlib
+
 from ...advice.advice import Advice
-from ...advice.spaces.spaces import Spaces, spaces_of
+from ...advice.spaces.spaces import spaces_of
 from ...advice.words import sections_of
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.naming import Pieces
 from ...analysis.result import Result, result_of
 from ...deck.rendering import ModelError, model_error
-from ...util.partial import attempted
-from ..picture import has_packages, picture_bytes
+from ..picture import picture_bytes, still_of
 from ..writers import as_bytes
 from . import before_and_after, page
 
@@ -31,16 +32,19 @@ def page_of(advice: Advice, change: Change, words: Pieces) -> bytes:
         model.data, Asked(asked.method, asked.tolerance, asked.prove, asked.accuracy), before.name
     )
     told = (each.line for section in sections_of(advice) for each in section)
-    stills = _still(before), _still(after)
-    spaces = advice.spaces, _spaces_after(advice, after)
-    made = before_and_after(before, after, words, told, stills, spaces=spaces)
-    return as_bytes(made)
+    stills = still_of(before), still_of(after)
+    body = None
+    if advice.spaces is not None:
+        # It may have another name now, or none.
+        with contextlib.suppress(ModelError):
+            body = spaces_of(after, advice.spaces.subject.name, wires=False)
+    spaces = advice.spaces, body
+    return as_bytes(before_and_after(before, after, words, told, stills, spaces=spaces))
 
 
 def page_as_it_is(advice: Advice) -> bytes:
     """The page of a mechanism alone, with freedom and constraint to be switched on."""
-    made = page(advice.analysis, _still(advice.analysis), advice.spaces)
-    return as_bytes(made)
+    return as_bytes(page(advice.analysis, still_of(advice.analysis), advice.spaces))
 
 
 def picture_of(advice: Advice, suffix: str) -> bytes:
@@ -58,20 +62,3 @@ def picture_of(advice: Advice, suffix: str) -> bytes:
     if spaces is None:
         raise model_error("no-body", "nothing in this mechanism has a freedom space to be drawn")
     return picture_bytes(advice.analysis, suffix, spaces=spaces)
-
-
-def _spaces_after(advice: Advice, after: Result) -> Spaces | None:
-    """Freedom and constraint of the same body in the changed mechanism."""
-    if advice.spaces is None:
-        return None
-    try:
-        return spaces_of(after, advice.spaces.subject.name, wires=False)
-    except ModelError:
-        # It has another name now, or none.
-        return None
-
-
-def _still(result: Result) -> bytes | None:
-    if not has_packages():
-        return None
-    return attempted("", lambda: picture_bytes(result, ".png"), None, None)

@@ -59,7 +59,11 @@ def before_and_after(
     results = (before, after)
     frames = frames_of(*(drawing_of(each.given) for each in results))
     one, two = (viewer_data(*each) for each in zip(results, frames, spaces, strict=True))
-    one["first"] = _chosen(first) or _everything(one)
+    if first:
+        kinds = {"motion": "movement", "self-stress": "stress"}
+        one["first"] = [(kinds[kind], str(number - 1)) for kind, number in first]
+    elif one["first"] == [("movement", "0")] and one["stresses"]:
+        one["first"] = [*one["first"], ("stress", "0")]
     name = file_name(before.name)
     title = f"{name or 'model'}: before and after"
     heads = "<b>As it is</b>", f"<b>Changed:</b> {linked(changed)}"
@@ -92,19 +96,6 @@ def _side(
         f"{drawing_part(data, still, words, left_out=left_out(analysis, data), mark=mark)}"
         f"{choices_part(data, stuck_in(analysis), mark=mark)}</div>"
     )
-
-
-def _chosen(first: tuple[tuple[str, int], ...]) -> list[tuple[str, str]]:
-    kinds = {"motion": "movement", "self-stress": "stress"}
-    return [(kinds[kind], str(number - 1)) for kind, number in first]
-
-
-def _everything(data: dict[str, Any]) -> list[tuple[str, str]]:
-    """The first motion and the first self-stress, where there are both."""
-    first: list[tuple[str, str]] = list(data["first"])
-    if first == [("movement", "0")] and data["stresses"]:
-        first.append(("stress", "0"))
-    return first
 
 
 STYLES = ("style.css", "index.css", "compare.css")
@@ -166,8 +157,14 @@ def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
     kinds = [(kind, f"{counts[kind]} {words[kind]}") for kind in words if counts[kind]]
     summary = "".join(f'<span class="fact">{text(each)}</span> ' for _, each in kinds)
     title = f"{runs[0]} \N{RIGHTWARDS ARROW} {runs[1]}"
-    folder = sorted(enumerate(pairs), key=lambda each: -_gravity(each[1]))
-    cards = "".join(_card(number, k, pair, runs) for number, (k, pair) in enumerate(folder))
+
+    def gravity(place: int) -> int:
+        """A deck that is in one run only changed more than any in both."""
+        change = pairs[place].change
+        return max(Gravity) + 1 if change is None else int(change.gravity)
+
+    order = sorted(range(len(pairs)), key=lambda place: -gravity(place))
+    cards = "".join(_card(number, k, pairs[k], runs) for number, k in enumerate(order))
     body = (
         f'<header class="verdict index"><h1><span><b>{breakable(title)}</b></span></h1>'
         f'<p class="about">{summary}</p>'
@@ -186,7 +183,9 @@ def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
         below_verdicts: Whether both verdicts stand above, so that they need not be said again.
     """
     is_said = below_verdicts and change.gravity is Gravity.VERDICT
-    told = "".join(f"<li>{_sentence(each)}</li>" for each in change.told[is_said:])
+    told = "".join(
+        f"<li>{text(each[:1].upper() + each[1:])}</li>" for each in change.told[is_said:]
+    )
     modes = "".join(
         f'<li class="{kind}"><span class="mark">{word}</span> {text(each)}</li>'
         for kind, word, each in (
@@ -199,10 +198,6 @@ def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
         nothing = '<p class="note">The result is as before.</p>'
     told = f'<ul class="told-changes">{told}{modes}</ul>' if told or modes else nothing
     return told + _statements(change)
-
-
-def _sentence(words: str) -> str:
-    return text(words[:1].upper() + words[1:])
 
 
 def _statements(change: Change) -> str:
@@ -223,11 +218,6 @@ def _statements(change: Change) -> str:
     )
 
 
-def _gravity(pair: Pair) -> int:
-    """A deck that is in one run only changed more than any in both."""
-    return max(Gravity) + 1 if pair.change is None else int(pair.change.gravity)
-
-
 def _card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> str:
     last = pair.after or pair.before
     assert last is not None
@@ -243,27 +233,21 @@ def _card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> str:
     name = breakable(pair.name)
     if pair.page:
         name = f'<a href="{escape(quote(pair.page))}">{name}</a>'
+    captions = ("before", "after") if pair.kind == "changed" else ("", "")
+    pictures = "".join(
+        f"<figure>{image(picture, '', late=True)}<figcaption>{words}</figcaption></figure>"
+        for picture, words in zip(pair.pictures, captions, strict=True)
+        if picture is not None
+    )
+    pictures = f'<div class="two">{pictures}</div>' if pictures else ""
     if pair.change is None:
         changes = f'<p class="note">Only in {text(runs[pair.after is not None])}.</p>'
     else:
         changes = changes_part(pair.change, below_verdicts=True)
     return (
-        f'<li class="card pair {pair.kind}"{told}>{_pictures(pair)}<div class="said">'
+        f'<li class="card pair {pair.kind}"{told}>{pictures}<div class="said">'
         f'<p class="name">{name}</p>{_verdicts(pair)}{changes}</div></li>\n'
     )
-
-
-def _pictures(pair: Pair) -> str:
-    made = "".join(
-        f"<figure>{image(picture, '', late=True)}<figcaption>{words}</figcaption></figure>"
-        for picture, words in zip(pair.pictures, _captions(pair), strict=True)
-        if picture is not None
-    )
-    return f'<div class="two">{made}</div>' if made else ""
-
-
-def _captions(pair: Pair) -> tuple[str, str]:
-    return ("before", "after") if pair.kind == "changed" else ("", "")
 
 
 def _verdicts(pair: Pair) -> str:

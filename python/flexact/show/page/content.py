@@ -17,7 +17,7 @@ from ...advice.spaces.spaces import Spaces
 from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
 from ...analysis.naming import Line, Named, Pieces
-from ...analysis.result import Motion, Result, SelfStress
+from ...analysis.result import Result
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import (
     decision,
@@ -112,7 +112,12 @@ def deck_of_model(data: ModelData) -> tuple[bytes, bool]:
 
 def _line(number: int, line: str, diagnostics: Sequence[Diagnostic]) -> str:
     cut = line[:_LONGEST]
-    shown = _with_marks(cut, diagnostics)
+    shown = _shown(cut)
+    if diagnostics and diagnostics[0].column >= 1:
+        # The place of the first one is marked.
+        first = diagnostics[0].column - 1
+        last = max(diagnostics[0].last_column, first + 1)
+        shown = f"{_shown(cut[:first])}<mark>{_shown(cut[first:last])}</mark>{_shown(cut[last:])}"
     rest = "\N{HORIZONTAL ELLIPSIS}" if len(line) > _LONGEST else ""
     told = "".join(_told(item) for item in diagnostics)
     kind = f" {diagnostics[0].severity}" if diagnostics else ""
@@ -120,15 +125,6 @@ def _line(number: int, line: str, diagnostics: Sequence[Diagnostic]) -> str:
         f'<div class="line{kind}" id="line-{number}"><span class="no">{number}</span>'
         f"<code>{shown or ' '}{rest}</code></div>{told}"
     )
-
-
-def _with_marks(line: str, diagnostics: Sequence[Diagnostic]) -> str:
-    """The line, in which the first diagnostic's place is marked."""
-    if not diagnostics or diagnostics[0].column < 1:
-        return _shown(line)
-    first = diagnostics[0].column - 1
-    last = max(diagnostics[0].last_column, first + 1)
-    return f"{_shown(line[:first])}<mark>{_shown(line[first:last])}</mark>{_shown(line[last:])}"
 
 
 def _shown(words: str) -> str:
@@ -194,20 +190,24 @@ _OPEN = 2
 
 
 def motions_part(analysis: Result, drawn: int) -> str:
-    """The motions; the first `drawn` of them can be seen in the drawing."""
-    parts = [
-        _mode(f"Motion {k}", f"movement {k - 1}" if k <= drawn else "", _of_motion(motion), k)
-        for k, motion in enumerate(analysis.motions[:MOST_MODES], start=1)
-    ]
+    """The motions, a row for all that moves as one; the first `drawn` are in the drawing."""
+    parts = []
+    for k, motion in enumerate(analysis.motions[:MOST_MODES]):
+        rows = [_row(pieces) for pieces in motion_in_parts(motion, MOST_PARTS)[:MOST_PARTS]]
+        content = table(("what moves", "how"), rows, kind="parts")
+        parts.append(_mode(f"Motion {k + 1}", f"movement {k}" if k < drawn else "", content, k))
     return _modes("Motion", "s", analysis.under_constrained, parts)
 
 
 def stresses_part(analysis: Result) -> str:
-    """The self-stresses."""
-    parts = [
-        _mode(f"Self-stress {k}", f"stress {k - 1}", _of_stress(stress), k)
-        for k, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1)
-    ]
+    """The self-stresses: which parts fight, and a row for each part that carries something."""
+    parts = []
+    for k, stress in enumerate(analysis.self_stresses[:MOST_MODES]):
+        conflict = conflict_in_words(stress)
+        start = f"<p>{flowing(Line(conflict))}.</p>" if conflict else ""
+        rows = [_row(pieces) for pieces in stress_in_parts(stress, MOST_PARTS)[:MOST_PARTS]]
+        content = start + table(("what is stressed", "with"), rows, kind="parts")
+        parts.append(_mode(f"Self-stress {k + 1}", f"stress {k}", content, k))
     return _modes("Self-stress", "es", analysis.over_constrained, parts)
 
 
@@ -237,25 +237,11 @@ def _mode(title: str, shown_by: str, content: str, place: int) -> str:
         if shown_by
         else ""
     )
-    opened = " open" if place <= _OPEN else ""
+    opened = " open" if place < _OPEN else ""
     return (
         f'<div class="mode">{show}<details{opened}><summary>{title}</summary>{content}'
         "</details></div>"
     )
-
-
-def _of_motion(motion: Motion) -> str:
-    """A row for all that moves as one."""
-    rows = [_row(pieces) for pieces in motion_in_parts(motion, MOST_PARTS)[:MOST_PARTS]]
-    return table(("what moves", "how"), rows, kind="parts")
-
-
-def _of_stress(stress: SelfStress) -> str:
-    """Which parts fight, and a row for each part that carries something."""
-    conflict = conflict_in_words(stress)
-    start = f"<p>{flowing(Line(conflict))}.</p>" if conflict else ""
-    rows = [_row(pieces) for pieces in stress_in_parts(stress, MOST_PARTS)[:MOST_PARTS]]
-    return start + table(("what is stressed", "with"), rows, kind="parts")
 
 
 def _row(pieces: Pieces) -> str:
@@ -281,11 +267,8 @@ BROKEN = ("broken", "\N{MULTIPLICATION X}")
 _WAYS = 2
 
 
-class Advised(NamedTuple):
-    """What can be done about motions and about self-stresses, the best first."""
-
-    motions: tuple[Line, ...]
-    stresses: tuple[Line, ...]
+#: What can be done about motions and about self-stresses, the best first.
+Advised = tuple[tuple[Line, ...], tuple[Line, ...]]
 
 
 def kind_of(analysis: Result) -> tuple[str, str]:
@@ -297,7 +280,7 @@ def kind_of(analysis: Result) -> tuple[str, str]:
 
 def advised(analysis: Result) -> Advised:
     """What can be done; nothing where nothing need be."""
-    return Advised(lines_on_motions(analysis), lines_on_self_stresses(analysis))
+    return lines_on_motions(analysis), lines_on_self_stresses(analysis)
 
 
 def head(
@@ -363,8 +346,11 @@ def _certainty(analysis: Result) -> str:
 
 def _todo(advice: Advised) -> str:
     """The first ways to fix it, and where the others are."""
-    kinds = (("Motion", advice.motions), ("Self-stress", advice.stresses))
-    told = [(f"<b>{kind}:</b> ", sentences[0]) for kind, sentences in kinds if sentences]
+    told = [
+        (f"<b>{kind}:</b> ", sentences[0])
+        for kind, sentences in zip(("Motion", "Self-stress"), advice, strict=True)
+        if sentences
+    ]
     shown = "".join(
         f"<li>{kind if len(told) > 1 else ''}{flowing(first.shortened(_WAYS))}</li>"
         for kind, first in told
@@ -374,11 +360,9 @@ def _todo(advice: Advised) -> str:
 
 def advice_part(advice: Advised) -> str:
     """All that can be done."""
-    kinds = (("About motions", advice.motions), ("About self-stresses", advice.stresses))
-    both = all(sentences for _, sentences in kinds)
     parts = [
-        (f"<h3>{kind}</h3>" if both else "") + paragraphs(sentences)
-        for kind, sentences in kinds
+        (f"<h3>{kind}</h3>" if all(advice) else "") + paragraphs(sentences)
+        for kind, sentences in zip(("About motions", "About self-stresses"), advice, strict=True)
         if sentences
     ]
     return section("remedies", "What can be done", *parts)
@@ -459,9 +443,8 @@ def content_of(
     warnings = [item for item in every if item.line == 0]
     in_deck = [item for item in every if item.line > 0]
     words = str(verdict_in_words(analysis))
-    advice = attempted("What can be done", lambda: advised(analysis), Advised((), ()), told)
-    movements = [] if data is None else data["movements"]
-    moving = sum(movement["kind"] == "motion" for movement in movements)
+    advice = attempted("What can be done", lambda: advised(analysis), ((), ()), told)
+    moving = sum(each["kind"] == "motion" for each in ([] if data is None else data["movements"]))
     tables: tuple[str, ...] = (
         advice_part(advice),
         section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
@@ -476,10 +459,9 @@ def content_of(
     if is_short:
         tables = (folded("What can be done, tables, decision", *tables),)
         origin = (folded("Deck and versions", *origin),)
-    drawing, choices = "", ""
+    choices = ""
     if data is not None:
-        scrolls = f'<p class="keys">{_SCROLLS}</p>' * is_short
-        below = toolbar(data) + keys(data) + scrolls
+        below = toolbar(data) + keys(data) + f'<p class="keys">{_SCROLLS}</p>' * is_short
         others = left_out(analysis, data)
         drawing = drawing_part(data, still, words, below, " ".join([*told, others]).strip())
         choices = choices_part(data, stuck_in(analysis), layers(data))

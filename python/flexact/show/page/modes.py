@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from functools import partial
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -153,14 +151,23 @@ def movements(analysis: Result, tracks: Tracks, missing: list[str]) -> list[dict
     size, drawing = 0, tracks.frame.drawing
     without: set[str] = set()
 
-    def drawn(motion: Callable[[], Moving | None]) -> tuple[dict[str, Any], int] | None:
-        if (found := motion()) is None:
+    def drawn(shown: Moving | Freedom) -> tuple[dict[str, Any], int] | None:
+        found = way_of(shown) if isinstance(shown, Freedom) else shown
+        if found is None:
             return None
         movement = move(drawing, found)
         data, added = tracks.movement(movement)
         return {"note": _note(drawing, movement), **data}, added
 
-    for kind, label, title, motion in chain(_motions(analysis), _freedoms(analysis)):
+    is_large = analysis.given.arrays.element_number.size > MANY_ELEMENTS
+    motions = analysis.motions[: FEW_MODES if is_large else MOST_MODES]
+    chosen: list[tuple[str, str, str, Moving | Freedom]] = [
+        ("motion", f"Motion {k}", f"Motion {k}", each) for k, each in enumerate(motions, start=1)
+    ]
+    for freedom in looked_at(analysis):
+        words = plain(freedom_in_words(freedom))
+        chosen.append(("freedom", words, f"Degree of freedom: {words}", freedom))
+    for kind, label, title, motion in chosen:
         if kind == "motion" and kind in without:
             continue
         before = len(missing)
@@ -174,26 +181,6 @@ def movements(analysis: Result, tracks: Tracks, missing: list[str]) -> list[dict
             break
         made.append({"kind": kind, "label": label, "title": title, **data[0]})
     return made
-
-
-_Named = tuple[str, str, str, Callable[[], Moving | None]]
-
-
-def _motions(analysis: Result) -> Iterator[_Named]:
-    is_large = analysis.given.arrays.element_number.size > MANY_ELEMENTS
-    most = FEW_MODES if is_large else MOST_MODES
-    for number, motion in enumerate(analysis.motions[:most], start=1):
-        yield "motion", f"Motion {number}", f"Motion {number}", partial(_itself, motion)
-
-
-def _itself(motion: Moving) -> Moving:
-    return motion
-
-
-def _freedoms(analysis: Result) -> Iterator[_Named]:
-    for freedom in looked_at(analysis):
-        words = plain(freedom_in_words(freedom))
-        yield "freedom", words, f"Degree of freedom: {words}", partial(way_of, freedom)
 
 
 def looked_at(analysis: Result) -> tuple[Freedom, ...]:

@@ -3,18 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import reduce
-from operator import add
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...advice.holding import hold_in_words, holds_in_words, holds_of, number_of
 from ...advice.spaces.spaces import Spaces
-from ...advice.spaces.words import body_words, dashed_in_words, spaces_lines
 from ...analysis.freedoms import Freedom
-from ...analysis.naming import plain
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
@@ -22,8 +17,8 @@ from ...model.data import ModelData
 from ...model.parts.parts import Parts
 from ...util.partial import attempted
 from ...util.text import harmless
-from ..drawing import Drawing, SpaceShape, dashes, reach_of, shape_of_space, swing
-from ..drawing.spaces import shape_of_hold
+from ..drawing import Drawing, SpaceShape, dashes, reach_of, swing
+from ..spaces import holds_shown, spaces_shown
 from .assets import MOST_MEMBERS, MOST_MODES, MOST_POSES, MOST_SHAPES, floats, integers
 from .drawing import Frame, static_data
 from .modes import Tracks, looked_at, movements, stresses
@@ -36,52 +31,30 @@ def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[d
     """The freedom space and the constraint space; nothing where none are to be shown."""
     if spaces is None:
         return []
-    lines = spaces_lines(analysis, spaces)
-    made = []
-    for label, space, line in zip(
-        ("Freedom", "Constraint"), (spaces.freedom, spaces.constraint), lines, strict=False
-    ):
-        is_freedom = not space.of_wrenches
-        shape = shape_of_space(
-            space.families, space.about, frame.size, is_freedom=is_freedom, planar=frame.planar
-        )
-        wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
-        words = harmless(plain(line.head) + "; ".join(map(plain, line.items)))
-        words += dashed_in_words(len(wires))
-        made.append(
-            {
-                "label": harmless(f"{label} space of {body_words(analysis, spaces)}"),
-                "title": f"{words}.",
-                "freedom": is_freedom,
-                **_drawn(shape, frame),
-                "wires": floats(frame.places(dashes(wires, frame.size))),
-            }
-        )
-    return made
+    return [
+        {
+            "label": harmless(each.title),
+            "title": harmless(f"{each.words}."),
+            "freedom": each.shape.is_freedom,
+            **_drawn(each.shape, frame),
+            "wires": floats(frame.places(dashes(each.wires, frame.size))),
+        }
+        for each in spaces_shown(analysis, spaces, frame.size, frame.planar)
+    ]
 
 
 def holds_data(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
     """What each flexure of an exactly constrained mechanism holds: all together, then each."""
-    holds = holds_of(analysis)
-    if not holds:
-        return []
-    shapes = [shape_of_hold(each, frame.size, planar=frame.planar) for each in holds]
-    every = reduce(add, shapes)
-    made = [("What each flexure holds", holds_in_words(holds), every)]
-    if 1 < len(holds) <= _MOST_HOLDS:
-        for hold, shape in zip(holds, shapes, strict=True):
-            label = f"{hold.name}: {number_of(hold)}"
-            made.append((label, hold_in_words(analysis, hold), shape))
     return [
         {
-            "label": harmless(label),
-            "title": harmless(words),
+            "label": harmless(each.title),
+            "title": harmless(each.words),
             "freedom": False,
             "held": True,
-            **_drawn(shape, frame),
-            "wires": floats(np.zeros((0, 2, 3))),
+            **_drawn(each.shape, frame),
+            "wires": floats(each.wires),
         }
-        for label, words, shape in made
+        for each in holds_shown(analysis, frame.size, frame.planar, _MOST_HOLDS)
     ]
 
 
@@ -212,15 +185,11 @@ def viewer_data(
         "spaces": shown + held,
         **({"missing": missing} if missing else {}),
     }
-    return {**data, "first": _first_of_viewer_data(data)}
-
-
-def _first_of_viewer_data(data: dict[str, Any]) -> list[tuple[str, str]]:
-    """What the verdict says: a motion, else a self-stress, else a degree of freedom."""
+    # What the verdict says: a motion, else a self-stress, else a degree of freedom.
     moves = any(movement["kind"] == "motion" for movement in data["movements"])
-    if data["stresses"] and not moves:
-        return [("stress", "0")]
-    return [("movement", "0")] if data["movements"] else []
+    first = [("stress", "0")] if data["stresses"] and not moves else [("movement", "0")]
+    has_any = data["stresses"] or data["movements"]
+    return {**data, "first": first if has_any else []}
 
 
 def stuck_in(analysis: Result) -> list[Freedom]:
@@ -230,21 +199,18 @@ def stuck_in(analysis: Result) -> list[Freedom]:
 
 def left_out(analysis: Result, data: dict[str, Any]) -> str:
     """Sentences on what of a large result is not in its drawing."""
-    return " ".join(_left_out(analysis, data))
-
-
-def _left_out(analysis: Result, data: dict[str, Any]) -> Iterator[str]:
-    yield from data.get("missing", ())
+    told = list(data.get("missing", ()))
     members = int((analysis.given.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
     if members > MOST_MEMBERS:
-        yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
+        told.append(f"Of {members} members the first {MOST_MEMBERS} are drawn.")
     kinds = [movement["kind"] for movement in data["movements"]]
     moved = kinds.count("motion")
     if moved < analysis.under_constrained:
-        yield f"Of {analysis.under_constrained} motions the first {moved} can be shown."
+        told.append(f"Of {analysis.under_constrained} motions the first {moved} can be shown.")
     if (shown := len(data["stresses"])) < analysis.over_constrained:
-        yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
+        told.append(f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown.")
     # Those inside of what is taken as one beam move nothing by themselves.
     freedom, free = int(analysis.raw.counts[:, -1].sum()), kinds.count("freedom")
     if free + len(stuck_in(analysis)) < freedom:
-        yield f"Of {freedom} declared degrees of freedom {free} can be shown."
+        told.append(f"Of {freedom} declared degrees of freedom {free} can be shown.")
+    return " ".join(told)

@@ -15,6 +15,7 @@ from .make import (
     model_bytes,
     picture_bytes,
     shape_bytes,
+    still_of,
 )
 from .subject import SubjectError
 
@@ -31,4 +32,5 @@ __all__ = [
     "model_bytes",
     "picture_bytes",
     "shape_bytes",
+    "still_of",
 ]

@@ -3,23 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import reduce
-from operator import add
-
 import numpy as np
 
-from ...advice.holding import holds_in_words, holds_of, number_of
-from ...advice.spaces.spaces import Spaces
-from ...advice.spaces.words import body_words, dashed_in_words, spaces_lines
-from ...analysis.naming import plain
-from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...util.rotations import frames_along, matrix_of, unit, vector_of
-from ..drawing import Drawing, Pose, SpaceShape, dashes, reach_of, shape_of_space
+from ..drawing import Drawing, Pose, dashes, reach_of
 from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE
-from ..drawing.spaces import shape_of_hold
+from ..spaces import SpaceShown
 from .canvas import OVER, Canvas
 
 #: Displacements below this part of the largest get no arrow, and no more than so many get one.
@@ -45,8 +35,11 @@ _MOST_FREEDOMS = 60
 
 def add_displacements(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Arrows from where nodes were to where they are, of the largest displacements."""
-    start, end = _largest(drawing, pose)
-    add_straight(canvas, start, end, ARROW, drawing.size)
+    shown = np.unique(drawing.members.nodes[:, [0, 2]])
+    start, end = drawing.reference.position[shown], pose.position[shown]
+    length = np.linalg.norm(end - start, axis=1)
+    chosen = _apart(start, _by_size(length, drawing.size), _APART * drawing.size, _MOST)
+    add_straight(canvas, start[chosen], end[chosen], ARROW, drawing.size)
 
 
 def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> None:
@@ -60,7 +53,11 @@ def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> No
     """
     if reach_of(drawing, [end])[0] >= _STILL * drawing.size:
         return
-    node, turn = _turned_places(drawing)
+    # Position nodes and orientation nodes there, of members and of hinges.
+    members, hinges = drawing.members.nodes, drawing.hinges.nodes
+    pairs = (members[:, :2], members[:, 2:], hinges[:, [0, 1]], hinges[:, [0, 2]])
+    every = np.unique(np.concatenate(pairs), axis=0)
+    node, turn = every[np.all(every >= 0, axis=1)].T
     farthest = np.linalg.norm(vector_of(end.rotation[turn]), axis=1)
     order = _by_size(farthest, 1.0)
     place = drawing.reference.position[node]
@@ -70,15 +67,6 @@ def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> No
         if share > _LEAST_TURNING:
             axis = unit(rotation[row])
             _add_turning(canvas, place[row], axis, drawing.size, ARROW, share)
-
-
-def _turned_places(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
-    """(n,) position nodes and (n,) orientation nodes there, of members and of hinges."""
-    members, hinges = drawing.members.nodes, drawing.hinges.nodes
-    pairs = (members[:, :2], members[:, 2:], hinges[:, [0, 1]], hinges[:, [0, 2]])
-    every = np.unique(np.concatenate(pairs), axis=0)
-    known = every[np.all(every >= 0, axis=1)]
-    return known[:, 0], known[:, 1]
 
 
 def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
@@ -93,15 +81,6 @@ def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
     add_straight(canvas, start, end, FREEDOM, drawing.size)
     for row in np.flatnonzero(arrows.turning).tolist():
         _add_turning(canvas, place[row], arrows.direction[row], drawing.size, FREEDOM)
-
-
-def _largest(drawing: Drawing, pose: Pose) -> tuple[FloatArray, FloatArray]:
-    """Starts and ends (n, 3) of the arrows of the largest displacements, not too close."""
-    shown = np.unique(drawing.members.nodes[:, [0, 2]])
-    start, end = drawing.reference.position[shown], pose.position[shown]
-    length = np.linalg.norm(end - start, axis=1)
-    chosen = _apart(start, _by_size(length, drawing.size), _APART * drawing.size, _MOST)
-    return start[chosen], end[chosen]
 
 
 def _by_size(sizes: FloatArray, unit_size: float) -> np.ndarray:
@@ -205,52 +184,6 @@ _BOLD, _SPACES_WIDTH, _THIN, _EDGE, _DASH = 2.6, 1.5, 0.8, 0.7, 2.6
 _OPACITY = 0.16
 #: Where the second head of a couple is, along its arrow.
 _SECOND = 0.84
-
-
-@dataclass(frozen=True)
-class SpaceShown:
-    """A space in a panel.
-
-    Attributes:
-        shape: What is drawn of it.
-        words: What it is.
-        wires: (w, 2, 3) ends of wires that may be added [m].
-        labels: Places (3,) [m], each with what stands there.
-    """
-
-    shape: SpaceShape
-    words: str
-    wires: FloatArray
-    labels: tuple[tuple[FloatArray, str], ...] = ()
-
-
-def holds_shown(result: Result, drawing: Drawing) -> SpaceShown | None:
-    """What each flexure holds, with how well at each; None where that is not known."""
-    holds = holds_of(result)
-    if not holds:
-        return None
-    shapes = [shape_of_hold(each, drawing.size, planar=drawing.planar) for each in holds]
-    labels = tuple((each.space.about, number_of(each)) for each in holds)
-    none = np.zeros((0, 2, 3))
-    return SpaceShown(reduce(add, shapes), holds_in_words(holds), none, labels)
-
-
-def spaces_shown(
-    result: Result, drawing: Drawing, spaces: Spaces
-) -> Iterator[tuple[str, SpaceShown]]:
-    """The freedom space and the constraint space of a body, each with a title."""
-    lines = spaces_lines(result, spaces)
-    for which, space, line in zip(
-        ("Freedom", "Constraint"), (spaces.freedom, spaces.constraint), lines, strict=False
-    ):
-        is_freedom = not space.of_wrenches
-        shape = shape_of_space(
-            space.families, space.about, drawing.size, is_freedom=is_freedom, planar=drawing.planar
-        )
-        wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
-        words = plain(line.head) + "; ".join(map(plain, line.items))
-        words += dashed_in_words(len(wires))
-        yield f"{which} space of {body_words(result, spaces)}", SpaceShown(shape, words, wires)
 
 
 def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:

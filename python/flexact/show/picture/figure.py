@@ -20,7 +20,8 @@ from ..drawing.members import diverging
 from ..drawing.movement import AMPLITUDE
 from ..drawing.view import View
 from .canvas import Box, Canvas
-from .panel import Panel, is_simplified, paint
+from .members import detail_of
+from .panel import Panel, paint
 from .stress import Stress
 from .subject import Subject
 
@@ -299,7 +300,7 @@ def caption(drawing: Drawing, subject: Subject) -> str:
     hinges = drawing.hinges
     if len(hinges) and not len(drawing.members) and not np.any(hinges.nodes[:, 0] >= 0):
         return "Nothing can be placed: the hinges stand at no node whose position is known."
-    simply = f" {len(drawing.members)} members, drawn simply." if is_simplified(drawing) else ""
+    simply = f" {len(drawing.members)} members, drawn simply." if detail_of(drawing) is None else ""
     return f"{_about(drawing, subject)}{simply}".strip()
 
 

@@ -20,6 +20,7 @@ from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
 from ...model.data import ModelData
 from ...util.errors import BatchError, require_kind
+from ...util.partial import attempted
 from ...util.text import harmless, in_short
 from ..drawing import drawing_of, swing
 from ..drawing.view import view_of
@@ -202,6 +203,22 @@ def picture_bytes(
             shown = analysis, drawing, subject, seen, kind, words[0]
             return moving_bytes(*shown, size=size, plain=plain, progress=progress)
         return still_bytes(_figure(analysis, asked, view, 1.0, size, plain), kind, *words)
+
+
+def still_of(
+    analysis: Result, what: str = "", missing: list[str] | None = None, **chosen: Any
+) -> bytes | None:
+    """A picture of a result as PNG, where the packages are there and it can be made.
+
+    Args:
+        analysis: The result.
+        what: What cannot be made otherwise, as of `attempted`.
+        missing: Gets a sentence on that.
+        chosen: As of `picture_bytes`.
+    """
+    if not has_packages():
+        return None
+    return attempted(what, lambda: picture_bytes(analysis, ".png", **chosen), None, missing)
 
 
 def _words(analysis: Result) -> tuple[str, str]:

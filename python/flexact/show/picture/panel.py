@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ..drawing import Drawing, Pose, Support, axes_of, cylinders, joints_of, stations
+from ..drawing import Drawing, Pose, axes_of, cylinders, joints_of, stations
 from ..drawing.members import SUPPORT
 from ..drawing.view import View
 from . import members as flat
@@ -36,20 +36,13 @@ _HATCH = (0.36, 0.38, 0.41)
 def add_supports(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Draw the supports; those that let a node slide go with it."""
     supports = drawing.supports
-    place = pose.position[supports.node] + supports.offset
     for row in range(len(supports)):
-        kind, size = supports.kind[row], float(supports.size[row])
-        frame, half = supports.frame[row], supports.extent[row]
-        if kind == Support.CLAMP:
-            depth = float(supports.depth[row])
-            _add_box(canvas, place[row], frame, (half[0], half[1]), depth)
-        elif kind == Support.PIN:
-            _add_pin(canvas, place[row], frame, size)
-        elif kind == Support.SLIDE:
-            _add_turned(canvas, place[row], frame, ((-1.1, 0.45), (0.0, 0.0)), size)
-        else:
-            rings = ((-0.7, 0.4), (0.0, 0.0), (0.7, 0.4))
-            _add_turned(canvas, place[row], frame, rings, size)
+        node = pose.position[supports.node[row]]
+        for rings, thick in supports.solids(row, node, _ROUND):
+            colour = np.array([[_GROUND]]) if thick else np.array([[SUPPORT]]) * 1.35
+            add_grid(canvas, Grid(rings[None], colour, np.ones(1), _edge()))
+            if thick:
+                _add_hatches(canvas, rings, supports.frame[row], thick)
 
 
 def add_hinges(
@@ -84,45 +77,11 @@ def _edge() -> FloatArray:
     return np.array([OUTLINE])
 
 
-def _add_turned(
-    canvas: Canvas,
-    place: FloatArray,
-    frame: FloatArray,
-    rings: tuple[tuple[float, float], ...],
-    size: float,
-    corners: int = _ROUND,
-) -> None:
-    """Rings about ex of a frame: place along it and radius of each, parts of the size."""
-    angle = 2 * np.pi * (np.arange(corners) + 0.5 * (corners == 4)) / corners
-    circle = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
-    points = np.stack([place + size * (x * frame[:, 0] + r * circle) for x, r in rings])[None]
-    grid = Grid(points, np.array([[SUPPORT]]) * 1.35, np.ones(1), _edge())
-    add_grid(canvas, grid)
-
-
-def _add_pin(canvas: Canvas, place: FloatArray, frame: FloatArray, size: float) -> None:
-    """A pyramid on a plate of ground."""
-    _add_turned(canvas, place, frame, ((-1.0, 0.75), (0.0, 0.0)), size, corners=4)
-    half = 0.85 * size
-    _add_box(canvas, place - size * frame[:, 0], frame, (half, half), 0.28 * size)
-
-
-def _add_box(
-    canvas: Canvas,
-    place: FloatArray,
-    frame: FloatArray,
-    half: tuple[float, float],
-    thick: float,
-) -> None:
-    """A block of ground whose upper face lies at the place; its sides are hatched."""
-    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.array(half)
-    upper = place + corner @ frame[:, 1:].T
-    points = np.stack((upper - thick * frame[:, 0], upper))[None]
-    grid = Grid(points, np.array([[_GROUND]]), np.ones(1), _edge())
-    add_grid(canvas, grid)
+def _add_hatches(canvas: Canvas, rings: FloatArray, frame: FloatArray, thick: float) -> None:
+    """Slanting lines over the sides of a block of ground that are seen."""
     towards = canvas.view.axes[2]
     for side in range(4):
-        first, last = points[0, :, side], points[0, :, (side + 1) % 4]
+        first, last = rings[:, side], rings[:, (side + 1) % 4]
         normal = np.cross(last[0] - first[0], frame[:, 0])
         if normal @ towards > 0.0:
             _add_hatch(canvas, first, last, thick)
@@ -139,14 +98,12 @@ def _add_hatch(canvas: Canvas, first: FloatArray, last: FloatArray, thick: float
         # From (start, 0) to (start + lean, 1), cut at the edges.
         low, high = max(0.0, -start / lean), min(1.0, (1.0 - start) / lean)
         if high - low > 0.05:
-            ends = [(start + share * lean, share) for share in (low, high)]
-            lines.append([_on(first, last, u, v) for u, v in ends])
+            ends = []
+            for share in (low, high):
+                lower, upper = (edge[0] + share * (edge[1] - edge[0]) for edge in (first, last))
+                ends.append(lower + (start + share * lean) * (upper - lower))
+            lines.append(ends)
     canvas.lines(np.array(lines), np.array(_HATCH), 0.5)
-
-
-def _on(first: FloatArray, last: FloatArray, u: float, v: float) -> FloatArray:
-    lower, upper = (edge[0] + v * (edge[1] - edge[0]) for edge in (first, last))
-    return np.asarray(lower + u * (upper - lower))
 
 
 #: Of more members no bending diagrams are drawn.
@@ -217,11 +174,6 @@ def _add_pale_bodies(canvas: Canvas, drawing: Drawing) -> None:
         layer=GHOST,
         shade=1.0,
     )
-
-
-def is_simplified(drawing: Drawing) -> bool:
-    """Whether there are too many members to draw them as solids."""
-    return detail_of(drawing) is None
 
 
 def _paint_flat(

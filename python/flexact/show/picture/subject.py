@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from operator import index
-from typing import SupportsIndex
 
 from ...advice.spaces.spaces import Spaces
 from ...analysis.naming import motion_in_words
@@ -19,7 +18,6 @@ from ..drawing import (
     QUANTITIES,
     Drawing,
     Movement,
-    Resultants,
     drawing_of,
     move,
     names_in,
@@ -27,7 +25,7 @@ from ..drawing import (
     resultants,
 )
 from ..drawing.selection import Selection, require_there, select_motion
-from .arrows import SpaceShown, holds_shown, spaces_shown
+from ..spaces import SpaceShown, holds_shown, spaces_shown
 from .stress import Stress, stress_of
 
 
@@ -52,13 +50,6 @@ class Subject:
     space: SpaceShown | None = None
 
 
-def _require_whole(number: SupportsIndex, name: str) -> None:
-    try:
-        index(number)
-    except TypeError:
-        raise TypeError(f"{name} is a number from 1, not {type(number).__name__}") from None
-
-
 @dataclass(frozen=True)
 class Chosen:
     """What was asked for; numbers from 1, a freedom also by its name."""
@@ -80,8 +71,13 @@ class Chosen:
             raise SubjectError("a picture shows what flexures hold alone")
         for name in ("motion", "freedom", "stress"):
             number = getattr(self, name)
-            if number is not None and not (name == "freedom" and isinstance(number, str)):
-                _require_whole(number, name)
+            if number is None or (name == "freedom" and isinstance(number, str)):
+                continue
+            try:
+                index(number)
+            except TypeError:
+                kind = type(number).__name__
+                raise TypeError(f"{name} is a number from 1, not {kind}") from None
         if self.quantity is not None:
             require_kind(self.quantity, str, "a quantity is given by its name")
         if self.quantity is not None and quantity_named(self.quantity) is None:
@@ -114,16 +110,16 @@ def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subj
     if chosen.moves or chosen.is_stressed:
         return _asked_for(analysis, drawing, chosen)
     if chosen.held:
-        held = holds_shown(analysis, drawing)
-        if held is None:
+        held = holds_shown(analysis, drawing.size, drawing.planar)
+        if not held:
             raise SubjectError(
                 "what each flexure holds is shown of mechanisms that are exactly constrained, "
                 "whose flexures each stand between two bodies"
             )
-        return [Subject("What each flexure holds, and how well", space=held)]
+        return [Subject("What each flexure holds, and how well", space=held[0])]
     if chosen.spaces is not None:
-        shown = spaces_shown(analysis, drawing, chosen.spaces)
-        return [Subject(_heading(title), space=space) for title, space in shown]
+        shown = spaces_shown(analysis, chosen.spaces, drawing.size, drawing.planar)
+        return [Subject(_heading(each.title), space=each) for each in shown]
     made: list[Subject] = []
     missing: list[str] = []
     if len(analysis.motions) or not len(analysis.self_stresses):
@@ -218,20 +214,14 @@ def refuse_zero(analysis: Result, number: int | None, quantity: str | None) -> N
     drawing = drawing_of(analysis.given)
     values = resultants(drawing, analysis.self_stresses[number - 1])
     known = quantity_named(quantity)
-    if known is not None and not values.largest(known) > 0.0:
-        raise SubjectError(_zero(drawing, values, quantity, number))
-
-
-def _zero(drawing: Drawing, values: Resultants, asked: str, number: int) -> str:
-    """What to say of a quantity that is zero everywhere, and which are not."""
-    short = {"n", "t", "my", "mz"}
-    name = asked if asked.lower() in short else names_in(drawing)[str(quantity_named(asked))]
-    others = [name for each, name in names_in(drawing).items() if values.largest(each) > 0.0]
-    start = f"{harmless(name)} is zero everywhere in self-stress {number}"
-    if not others:
-        return start
+    if known is None or values.largest(known) > 0.0:
+        return
+    names = names_in(drawing)
+    name = quantity if quantity.lower() in {"n", "t", "my", "mz"} else names[known]
+    others = [name for each, name in names.items() if values.largest(each) > 0.0]
     are = "is" if len(others) == 1 else "are"
-    return f"{start}; {listed(others)} {are} not"
+    rest = f"; {listed(others)} {are} not" if others else ""
+    raise SubjectError(f"{harmless(name)} is zero everywhere in self-stress {number}{rest}")
 
 
 def _heading(words: str) -> str:
