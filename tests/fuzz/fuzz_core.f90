@@ -11,8 +11,6 @@ program fuzz_core
    !> Larger models are read, but not analysed.
    integer, parameter :: most_deformations = 300
    integer, parameter :: methods = 4
-   external :: read_deck, check_model, count_model, find_frames, assemble, analyse_model, find_sensitivities, find_echelon, &
-      analyse_variants, find_stiffness, follow_path, study_state
 
    call main()
 
@@ -111,7 +109,7 @@ contains
       integer(c_int), allocatable :: index(:, :), place(:), pair(:, :), owner(:, :)
       real(c_double), allocatable :: value(:), by_size(:, :), effect(:, :)
       real(c_double) :: facts(48)
-      integer(c_int) :: stage(2), used
+      integer(c_int) :: stage(3), used
       integer :: most, room, i, pairs
 
       stage = 0
@@ -205,4 +203,7 @@ contains
                           [real(c_double) :: task, asked, gravity(:, 2)], given, answer, found)
       end do
    end subroutine take_elastic
+
+   ! Here, so that the compiler holds the calls above against them.
+   include '../../fortran/boundary/bindings.f90'
 end program fuzz_core
