@@ -35,11 +35,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--sample",
         action="store_true",
-        help="of a grid of cases always the same few, and nothing that is marked as nightly",
+        help="of what is marked as a grid always the same few cases, and nothing that is nightly",
     )
 
 
-#: Of a test with more cases than this, `make test` takes so many.
+#: Of a grid `make test` takes so many cases.
 FEW = 20
 
 
@@ -48,11 +48,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if not config.getoption("--sample"):
         return
     grids: dict[str, list[pytest.Item]] = defaultdict(list)
-    for item in items:
-        grids[item.nodeid.partition("[")[0]].append(item)
     kept = set()
+    for item in items:
+        if item.get_closest_marker("grid"):
+            grids[item.nodeid.partition("[")[0]].append(item)
+        elif not item.get_closest_marker("nightly"):
+            kept.add(item)
     for name, cases in grids.items():
-        cases = [case for case in cases if not case.get_closest_marker("nightly")]
         # The seed is the name, so that workers agree and a run is like the last.
         kept.update(random.Random(name).sample(cases, min(FEW, len(cases))))
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])

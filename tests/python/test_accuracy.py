@@ -292,6 +292,7 @@ def stated(name: str, analysis: Analysis) -> dict[str, str]:
     return found
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("accuracy", [None, 1e-2, (10.0, 1.0)])
 @pytest.mark.parametrize("name", STATED)
 def test_every_place_states_the_verdict_in_one_sentence(name: str, accuracy: object) -> None:

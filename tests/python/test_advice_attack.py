@@ -21,6 +21,7 @@ FOUND = (139, 154, 167, 295, 335, 869, 994)
 CASES = [*((SEED, number) for number in range(24)), *((28, number) for number in FOUND)]
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize(("seed", "number"), CASES)
 def test_no_advice_is_false(seed: int, number: int) -> None:
     """Steps and statements give the counts that they say, hardware likewise; causes are enough."""

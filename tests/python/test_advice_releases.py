@@ -434,6 +434,7 @@ def words_of(analysis: Analysis) -> list[str]:
     return [str(releases.count), *(re.sub(r" \(RLSE[^)]*\)", "", each) for each in told)]
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES[1::3])
 def test_words_depend_neither_on_units_nor_on_how_elements_are_told(name: str) -> None:
     analysis = of_deck(name)

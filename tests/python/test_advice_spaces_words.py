@@ -55,6 +55,7 @@ def wires(place: Place) -> Model:
     return made.model
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("place", PLACES.values(), ids=PLACES)
 @pytest.mark.parametrize("make", [guide, cross_hinge, wires_on_a_helix, wires])
 def test_words_are_the_same_in_every_place(make: Callable[[Place], Model], place: Place) -> None:

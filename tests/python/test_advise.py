@@ -191,6 +191,7 @@ def test_a_notebook_shows_the_verdict_and_the_words() -> None:
 # JSON
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_advice_keeps_what_it_promises(name: str) -> None:
     """JSON is what the schema says, and of each kind of step the first does what is said.

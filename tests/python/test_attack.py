@@ -73,12 +73,14 @@ def claims() -> list[object]:
     ]
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize(("family", "method", "offence"), claims())
 def test_no_answer_offends(family: str, method: str, offence: Judgement) -> None:
     """No wrong count is called certain, and what is not certain has the truth among it."""
     assert offending(family, method, offence) == []
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("method", methods())
 @pytest.mark.parametrize(
     "path", sorted((ROOT / "tests/attack/decks").glob("*.dat")), ids=lambda path: path.stem

@@ -406,6 +406,7 @@ CRAFTED: dict[str, Any] = {
 }
 
 
+@pytest.mark.nightly
 def test_crafted_records_count_as_if_they_were_not_there(
     decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

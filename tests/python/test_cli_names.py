@@ -26,6 +26,7 @@ def assert_harmless(text: str) -> None:
     assert [c for c in text if not c.isprintable() and c != "\n"] == []
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("content", [DECKS["exact"], BROKEN, "", None])
 @pytest.mark.parametrize(

@@ -55,6 +55,7 @@ CASES = [
 # Verdict, words and margin
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize(("name", "shape"), CASES)
 def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> None:
     make, how = MAKERS[name], SHAPES[shape]

@@ -126,6 +126,7 @@ def members_of(analysis: flexact.Analysis) -> np.ndarray:
     return made
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", CASES)
 def test_moments_do_not_depend_on_widths_or_ends(name: str) -> None:
     data = turned_once(name)
@@ -154,6 +155,7 @@ def by_place(analysis: flexact.Analysis) -> dict[str, np.ndarray]:
     return {name: values[point][order] for name, values in mesh.point_data.items()}
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", CASES)
 def test_meshes_hold_the_same_at_every_place(name: str) -> None:
     data = turned_once(name)
@@ -163,6 +165,7 @@ def test_meshes_hold_the_same_at_every_place(name: str) -> None:
             np.testing.assert_allclose(values, expected[array], atol=1e-9, err_msg=array)
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", CASES)
 def test_a_page_holds_the_same_at_every_place(name: str) -> None:
     data = turned_once(name)

@@ -75,6 +75,7 @@ def test_shapes_turn_with_the_mechanism() -> None:
             )
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_stiff_members_keep_their_length_and_all_start_in_the_reference(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
@@ -95,6 +96,7 @@ def test_stiff_members_keep_their_length_and_all_start_in_the_reference(name: st
         np.testing.assert_array_equal(middle.position, drawing.reference.position)
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_the_largest_displacement_is_a_tenth_of_the_size(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))

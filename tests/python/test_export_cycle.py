@@ -72,6 +72,7 @@ def test_a_cycle_has_all_steps_from_0_to_1(
         assert found.names == still.names
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("paper/")])
 def test_a_cycle_goes_there_and_back(
     name: str, play: Callable[[flexact.Analysis], Path], tmp_path: Path

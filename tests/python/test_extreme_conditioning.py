@@ -249,6 +249,7 @@ def residuals(analysis: Analysis) -> tuple[float, float]:
     return max(right, default=0.0), max(left, default=0.0)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("columns", [100, 200, 400, 800])
 def test_random_removal_is_right_or_nearly(columns: int) -> None:
     for seed in range(1, 6):

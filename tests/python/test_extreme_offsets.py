@@ -22,6 +22,7 @@ def direction_of(model: Model) -> np.ndarray:
     return np.array([0.7310585786300049, -0.5963, 0.0 if model.planar else 0.4123105625617661])
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("far", [1e4, 1e8])
 @pytest.mark.parametrize("name", NAMES)
 def test_every_method_far_from_the_origin(name: str, far: float) -> None:
@@ -35,6 +36,7 @@ def test_every_method_far_from_the_origin(name: str, far: float) -> None:
             assert analysis.nearly is None or analysis.nearly[:2] == truth_of(name)
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("factor", [1e-9, 1e9])
 @pytest.mark.parametrize("name", NAMES)
 def test_far_from_the_origin_in_other_units(name: str, factor: float) -> None:

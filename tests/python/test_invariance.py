@@ -46,6 +46,7 @@ def test_units_do_not_matter(name: str, factor: float) -> None:
     assert_same_counts(transform.scaled(text_of(name), factor), name)
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_a_turn_does_not_matter(name: str) -> None:
     """The singular values stay too, for every turn that the deck's statements allow."""

@@ -95,6 +95,7 @@ def test_results_of_models_are_valid_and_hold_what_the_text_says(name: str) -> N
     assert_all_told(without_costs(analysis.describe()), made)
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_results_of_decks_are_valid_and_hold_what_the_text_says(path: Path) -> None:
     for chosen in ({}, {"accuracy": (20e-6, 1e-4)}, {"prove": False}):

@@ -201,6 +201,7 @@ def all_pasted(given: Model | str) -> list[Pasted]:
     return [*analysis_pasted(given, result), *steps_pasted(given, result.advice())]
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_statements_and_calls_of_decks_do_what_is_said(name: str) -> None:
     text = text_of(name)

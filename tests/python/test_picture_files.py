@@ -54,6 +54,7 @@ def test_each_deck_of_the_paper_makes_its_pictures(name: str) -> None:
     assert np.any(frames[0] != frames[9])
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in PAPER])
 def test_every_other_deck_makes_a_small_picture(name: str) -> None:
     content = picture_bytes(deck(name), ".PNG", size=SMALL, plain=True)

@@ -14,6 +14,7 @@ import flexact
 from flexact import Model
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_a_result_is_told_in_the_same_words(name: str) -> None:
     data = flexact.read_text(text_of(name), name).data

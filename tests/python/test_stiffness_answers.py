@@ -30,6 +30,7 @@ def oracle(answer: Answer) -> Any:
     return np.asarray(answer.ask(model), dtype=float)
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("answer", ANSWERS, ids=[answer.id for answer in ANSWERS])
 def test_closed_form_is_met(answer: Answer) -> None:
     found = package(answer)

@@ -97,6 +97,7 @@ def called(given: ModelData, calls: list[str]) -> ModelData:
     return model.data
 
 
+@pytest.mark.grid
 @pytest.mark.parametrize("name", NAMES)
 def test_an_edit_is_the_deck_with_its_lines_and_the_model_after_its_calls(name: str) -> None:
     board = board_of(name)

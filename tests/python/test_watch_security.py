@@ -282,6 +282,7 @@ def test_a_file_leads_a_browser_to_the_page(shared: Path, deck: Path, chromium: 
         secrets.close()
 
 
+@pytest.mark.nightly
 @pytest.mark.posix("linux")
 @pytest.mark.parametrize("is_other", [False, True])
 def test_silent_connections_stop_neither_the_page_nor_a_script(
@@ -321,6 +322,7 @@ def test_silent_connections_stop_neither_the_page_nor_a_script(
             attacker.stdout.close()
 
 
+@pytest.mark.nightly
 def test_a_page_is_not_closed_for_those_who_say_nothing(shared: Path, deck: Path) -> None:
     with watching(deck, shared / "state") as watched:
         events = Events(watched.address)
