@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can be done about motions and self-stresses, as values; uses `result` and below."""
+"""What is wrong and why, and steps that mend it, in words and as JSON."""

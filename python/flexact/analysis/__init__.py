@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frozen result of an analysis, and what follows from it; uses `model` and below."""
+"""The frozen result of an analysis, what follows from it, and its words and JSON."""

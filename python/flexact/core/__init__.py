@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one door to the extension: calls, arrays, element table; uses `base`."""
+"""The one door to the extension: calls, arrays, element table."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What over-constraint costs, and what each release gains; uses `picture`, `stiffness`, below."""
+"""What over-constraint costs, and what each release gains."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a file or a text to a model; uses `model` and below."""
+"""Problems of a deck with their places, and its words: tokens, keywords, comments."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The model: arrays, builder, configurations, its deck; uses `diagnostics` and below."""
+"""The model: arrays, builder, configurations, its deck."""

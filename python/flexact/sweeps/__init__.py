@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Many mechanisms: sweeps, tolerances, batches, their tables; uses results and the engine."""
+"""Many mechanisms: sweeps, tolerances, batches, their tables."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The path of a motion, both ways, with its dead points; uses `picture`, `mesh` and below."""
+"""The path of a motion, both ways, with its dead points."""

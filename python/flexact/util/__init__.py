@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What everything may use: errors, frozen values, memory, signals; uses numpy alone."""
+"""What everything may use: errors, frozen values, memory, signals."""

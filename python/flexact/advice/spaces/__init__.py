@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Freedom and constraint spaces of a body, and wires to add; uses `result` and `advice`."""
+"""Freedom and constraint spaces of a body, and wires to add."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stored answers, and what differs from them; uses `result`, `files` and below."""
+"""Stored answers, what differs from them, and findings as services want them."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command ``flexact``, a module a verb, loaded by name; uses all but `flexact.api`."""
+"""The command ``flexact``, a module a verb, loaded by name."""

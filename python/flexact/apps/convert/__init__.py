@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models in other formats: tables as of SPACAR Light, line meshes; uses `deck` and below."""
+"""Models in other formats: tables as of SPACAR Light, line meshes."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks in an editor: answers to what a language client asks; uses `text` and below."""
+"""Decks in an editor: answers to what a language client asks."""

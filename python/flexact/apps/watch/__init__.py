@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page in a browser, at once and whenever a file is saved; uses `page`, `deck` and below."""
+"""The page in a browser, at once and whenever a file is saved."""

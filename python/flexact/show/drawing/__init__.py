@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is drawn of a result, as numbers; uses `base`, `core`, `model` and `result` alone.
+"""What is drawn of a result, as numbers.
 
 Members with their sizes, symbols, poses, shapes, resultants and views; `picture`, `mesh` and
 `page` put them down.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A result as a mesh, for ParaView and its like; uses `drawing`, `files` and below.
+"""A result as a mesh, for ParaView and its like.
 
 Every element that has two ends is a row of lines along its axis, eight where it can bend and one
 where not; an element without extent (a hinge) is a vertex where its orientation nodes stand. The

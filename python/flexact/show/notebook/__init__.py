@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results in notebooks; uses `page`, `picture`, `text` and below."""
+"""Results in notebooks."""

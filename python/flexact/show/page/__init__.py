@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
+"""A result as one HTML file that opens offline."""
 
 from .compare import Pair, before_and_after, changes_part, compare_page
 from .content import Content, broken_content, broken_page, content_of, page, reason_in_words

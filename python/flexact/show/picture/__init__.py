@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of results; uses what `drawing` and `text` may, and `drawing` and `text`.
+"""Pictures of results.
 
 matplotlib and pillow are imported only when one is drawn.
 """
