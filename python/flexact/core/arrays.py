@@ -60,6 +60,22 @@ class ModelArrays(NamedTuple):
     deformation_class: IntArray
     """(6, ne): 0 none, 1 fixed, 2 released, 3 independent."""
 
+    def of(self, nodes: NDArray[np.integer], elements: NDArray[np.integer]) -> ModelArrays:
+        """The model of some nodes and elements alone, in Fortran order.
+
+        Args:
+            nodes: (k,) their indices; all that the elements have are among them.
+            elements: (m,) likewise.
+        """
+        place = np.zeros(self.node_number.size + 1, np.int32)
+        place[nodes + 1] = np.arange(1, nodes.size + 1, dtype=np.int32)
+        whole = self._replace(element_node=place[self.element_node])
+        chosen = {"nn": nodes, "ne": elements}
+        return ModelArrays._make(
+            np.asfortranarray(getattr(whole, name)[..., chosen[last]])
+            for name, (_, last, _) in _LAYOUT.items()
+        )
+
 
 #: Leading size (None: one dimension), last size and type of every array of a model.
 _LAYOUT: dict[str, tuple[int | None, str, type[np.int32] | type[np.float64]]] = {

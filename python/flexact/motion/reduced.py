@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..analysis.decomposition import column_weights, row_weights
 from ..analysis.limits import ROUNDING
 from ..analysis.result import Result
-from ..core.arrays import Basis, FloatArray, ModelArrays
+from ..core.arrays import Basis, FloatArray
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
 from ..util.groups import least_of_groups
@@ -263,21 +263,9 @@ def _alone(
     node_place[nodes] = np.arange(nodes.size)
     element_place = np.full(arrays.element_number.size, -1)
     element_place[elements] = np.arange(elements.size)
-    renumbered = np.where(slots > 0, node_place[slots - 1] + 1, 0)
-    made = ModelArrays(
-        node_number=arrays.node_number[nodes],
-        node_kind=arrays.node_kind[nodes],
-        node_value=arrays.node_value[:, nodes],
-        coordinate_class=arrays.coordinate_class[:, nodes],
-        element_number=arrays.element_number[elements],
-        element_kind=arrays.element_kind[elements],
-        element_node=renumbered.astype(np.int32),
-        element_vector=arrays.element_vector[:, elements],
-        deformation_class=arrays.deformation_class[:, elements],
-    )
     whole = replace(
         data,
-        arrays=ModelArrays._make(np.asfortranarray(each) for each in made),
+        arrays=arrays.of(nodes, elements),
         element_names=("",) * elements.size,
         node_names=(),
         given_appearance=None,

@@ -227,18 +227,8 @@ def condensed(data: ModelData) -> Condensed:
         vector[:, first] = _vector_of(data, chain)
         names[first] = next((part_name(n) for e in chain.elements if (n := names[e])), "")
     nodes, elements = every_node[left_nodes], every_element[left_elements]
-    place = np.zeros(arrays.node_number.size + 1, np.int32)
-    place[nodes + 1] = np.arange(1, nodes.size + 1, dtype=np.int32)
-    made = ModelArrays(
-        node_number=arrays.node_number[nodes],
-        node_kind=arrays.node_kind[nodes],
-        node_value=arrays.node_value[:, nodes],
-        coordinate_class=arrays.coordinate_class[:, nodes],
-        element_number=arrays.element_number[elements],
-        element_kind=arrays.element_kind[elements],
-        element_node=place[element_node[:, elements]],
-        element_vector=vector[:, elements],
-        deformation_class=classes[:, elements],
+    made = arrays._replace(
+        element_node=element_node, element_vector=vector, deformation_class=classes
     )
     looks = data.given_appearance
     if looks is not None:
@@ -248,7 +238,7 @@ def condensed(data: ModelData) -> Condensed:
         data,
         replace(
             data,
-            arrays=ModelArrays._make(np.asfortranarray(each) for each in made),
+            arrays=made.of(nodes, elements),
             element_names=tuple(names[i] for i in elements.tolist()),
             found=data.problems,
             node_names=tuple(data.node_names[i] for i in nodes.tolist()),
