@@ -9,27 +9,22 @@ of the line nearest to c is c + w x v/w.w.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray, floats
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen, Word, cached_property
 from .limits import NO_SENSE, ROUNDING
 
 
-class ScrewKind(str, Enum):
+class ScrewKind(Word):
     """What the motion of a body is."""
 
     NONE = "none"
     TRANSLATION = "translation"
     ROTATION = "rotation"
     SCREW = "screw"
-
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -144,17 +139,13 @@ def in_words(vector: FloatArray, length: float = 0.0) -> str:
     return f"({', '.join(f'{part:.4g}' for part in parts)})"
 
 
-class WrenchKind(str, Enum):
+class WrenchKind(Word):
     """What a wrench is."""
 
     NONE = "none"
     FORCE = "force"
     COUPLE = "couple"
     WRENCH = "wrench"
-
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
 
 _KINDS = {

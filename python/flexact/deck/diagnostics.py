@@ -5,14 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.raw import RawDiagnostics
-from ..util.records import cached_property
+from ..util.records import Word, cached_property
 
 _LINE_FEED = 10
 
@@ -64,16 +63,12 @@ class Source:
         return start, max(start, len(raw[:last].decode(codec, "replace")))
 
 
-class Severity(str, Enum):
+class Severity(Word):
     """How grave a diagnostic is: an error leaves nothing to analyse."""
 
     ERROR = "error"
     WARNING = "warning"
     NOTE = "note"
-
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
 
 _SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.NOTE)

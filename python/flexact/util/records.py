@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a frozen result or model does about the arrays that it holds."""
+"""Kinds of records: frozen ones that hold arrays, words of enumerations, what is found once."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
+from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,6 +41,14 @@ def _freeze(values: Iterable[object], *, every: bool = False) -> None:
             value.setflags(write=False)
         elif isinstance(value, tuple) and (every or not hasattr(value, "is_read_only")):
             _freeze(value, every=every)
+
+
+class Word(str, Enum):
+    """Base of enumerations whose values are words, which they are in texts."""
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return str(self.value)
 
 
 if TYPE_CHECKING or sys.version_info >= (3, 12):

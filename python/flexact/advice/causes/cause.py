@@ -4,17 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import Enum
 
 import numpy as np
 
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
-from ...util.records import Frozen
+from ...util.records import Frozen, Word
 from ..step import Step
 
 
-class CauseKind(str, Enum):
+class CauseKind(Word):
     """Why a motion or a self-stress is there."""
 
     GENERIC = "generic"
@@ -23,10 +22,6 @@ class CauseKind(str, Enum):
     """This geometry: almost every other one has it not."""
     UNKNOWN = "not looked at"
     """No other geometry could be analysed."""
-
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
 
 @dataclass(frozen=True)
@@ -50,7 +45,7 @@ class Lift(Frozen):
         return self.node is not None or self.element is not None
 
 
-class RelationKind(str, Enum):
+class RelationKind(Word):
     """What lines, points or members have in common that others have not."""
 
     ONE_LINE = "lie along one line"
@@ -70,12 +65,8 @@ class RelationKind(str, Enum):
     REFLECTION = "a reflection takes them to each other"
     POSITION = "stand in a special position"
 
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
-
-class LineKind(str, Enum):
+class LineKind(Word):
     """What the lines of a relation are."""
 
     FORCE = "line of force"
@@ -83,10 +74,6 @@ class LineKind(str, Enum):
     SHEET = "plane of a sheet"
     MEMBER = "member"
     JOINT = "joint"
-
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
 
 @dataclass(frozen=True, eq=False)

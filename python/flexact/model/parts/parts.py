@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
-from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from ...core.arrays import IntArray, ModelArrays
 from ...core.elements import Class, Member, NodeKind
 from ...deck.rendering import model_error
 from ...util.groups import groups_of
-from ...util.records import cached_property
+from ...util.records import Word, cached_property
 from ...util.text import harmless, in_short
 from ..data import ModelData
 from ..names import grouped, own_number, part_name
@@ -66,7 +65,7 @@ def bodies_of(arrays: ModelArrays) -> tuple[Body, ...]:
     return tuple(sorted(made))
 
 
-class PartKind(str, Enum):
+class PartKind(Word):
     """What a part is; the word that stands for its name where it has none."""
 
     SHEET = "sheet"
@@ -75,10 +74,6 @@ class PartKind(str, Enum):
     BEAM = "beam"
     BODY = "body"
     HINGE = "hinge"
-
-    def __str__(self) -> str:
-        """The word itself."""
-        return self.value
 
 
 _KIND_OF_FORM = {
