@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from ..show.charts import BarChart, Chart, Key, KeyRow, style_of
 from ..show.picture.charts import BETWEEN, INK, ROW, SOFT, draw_bars, draw_chart, width_of, written
-from ..show.picture.files import load_matplotlib, png_bytes, still_bytes
-from ..show.picture.make import check_packages
+from ..show.picture.files import still_bytes
+from ..show.picture.make import shown_figure
 from ..util.text import file_name, harmless
 from .charts import bars_of, charts_of, choices_of, key_of, typeset
 from .designs import CostValues
@@ -194,18 +194,9 @@ def plot_of(cost: CostValues) -> Any:
     Raises:
         FlexactError: matplotlib is missing.
     """
-    check_packages()
-    load_matplotlib()
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    class Shown(Figure):
-        def _repr_png_(self) -> bytes:
-            return png_bytes(self)
-
+    # Words are measured before there is a figure with room for them.
+    measure = shown_figure(dpi=_DPI)
     charts, bars = charts_of(cost), bars_of(cost)
-    measure: Any = Figure(dpi=_DPI)
-    FigureCanvasAgg(measure)
     table = table_of(measure, key_of(cost), typeset(first_line(cost)))
     rows = max((each.height(ROW, BETWEEN) for each in bars), default=0.0)
     notes = notes_of(measure, cost)
@@ -215,8 +206,7 @@ def plot_of(cost: CostValues) -> Any:
         (_ABOVE + _ROW * rows + _END) * bool(bars),
     )
     below = (_SECOND * len(notes) + _ROOM) * bool(notes)
-    figure: Any = Shown(figsize=(_WIDTH, sum(heights) + below), dpi=_DPI, facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = shown_figure(figsize=(_WIDTH, sum(heights) + below), dpi=_DPI)
     draw_head(figure, cost, table)
     _draw_charts(figure, charts, heights[0])
     _draw_bars(figure, bars, heights[0] + heights[1])

@@ -16,8 +16,8 @@ import numpy as np
 from ..analysis.naming import length_in_words
 from ..analysis.verdict import Verdict
 from ..core.arrays import BoolArray, FloatArray
-from ..show.picture.files import load_matplotlib, png_bytes, still_bytes
-from ..show.picture.make import PictureError, check_packages
+from ..show.picture.files import still_bytes
+from ..show.picture.make import PictureError, shown_figure
 from ..show.writers import STILLS
 from ..util.outputs import write_together
 from ..util.text import harmless
@@ -63,16 +63,8 @@ def figure_of(panels: int = 1) -> Any:
     Raises:
         FlexactError: matplotlib is missing.
     """
-    check_packages()
-    load_matplotlib()
-    from matplotlib.figure import Figure
-
-    class Shown(Figure):
-        def _repr_png_(self) -> bytes:
-            return png_bytes(self)
-
     height = _SIZE[1] if panels == 1 else 1.0 + _PANEL * panels
-    return Shown(figsize=(_SIZE[0], height), dpi=_DPI, layout="constrained", facecolor="white")
+    return shown_figure(figsize=(_SIZE[0], height), dpi=_DPI, layout="constrained")
 
 
 def smallest_values(table: Rows) -> FloatArray:
@@ -341,26 +333,26 @@ def _note(axes: Any, place: float, words: str, **look: Any) -> None:
 
 _BINS = 48
 #: What is smaller than this part of the median is zero: it stands in the first bin.
-_HISTOGRAM_ZERO = 1.0e-6
+_NONE_BELOW = 1.0e-6
 
 
 def histograms(table: Rows, nominal: Rows, below: float | None) -> Any:
     """The figure; see `Tolerances.plot`."""
     figure = figure_of(2)
     value, margin = figure.subplots(2, 1)
-    _draw_of_histogram(
+    _draw_histogram(
         value, table, smallest_values(table), [(smallest_values(nominal)[0], "as designed")]
     )
     label(value, "smallest singular value (scaled)", "samples")
     lines = [(nominal["margin"][0], "as designed")]
     lines += [] if below is None else [(below, "asked about")]
-    _draw_of_histogram(margin, table, table["margin"], lines)
+    _draw_histogram(margin, table, table["margin"], lines)
     label(margin, "margin [m]", "samples")
     add_legend(value, table, has_singular=False, marks=False)
     return figure
 
 
-def _draw_of_histogram(
+def _draw_histogram(
     axes: Any, table: Rows, values: FloatArray, lines: list[tuple[float, str]]
 ) -> None:
     there = np.isfinite(values)
@@ -368,7 +360,7 @@ def _draw_of_histogram(
     positive = values[there & (values > 0.0)]
     low = 0.0
     if positive.size:
-        low = max(positive.min(), _HISTOGRAM_ZERO * np.median(positive))
+        low = max(positive.min(), _NONE_BELOW * np.median(positive))
         drawn = [place for place, _ in lines if np.isfinite(place) and place > low]
         high = max([positive.max() * 1.0001, *drawn])
         edges = np.geomspace(low, max(high, 1.001 * low), _BINS + 1)

@@ -27,7 +27,7 @@ from ..drawing.view import view_of
 from ..writers import MOVING, PICTURES, VIDEOS
 from .animation import check_encoder, moving_bytes
 from .figure import compose
-from .files import load_matplotlib, still_bytes
+from .files import load_matplotlib, png_bytes, still_bytes
 from .subject import Chosen, Subject, moving_subject, subjects_of
 
 if TYPE_CHECKING:
@@ -66,6 +66,29 @@ def check_packages(suffix: str = "") -> None:
         raise PictureError(f"pictures need the package {missing[0]}: pip install matplotlib pillow")
     if suffix.lower() in VIDEOS:
         check_encoder(suffix.lower())
+
+
+def shown_figure(**options: Any) -> Any:
+    """An empty figure of matplotlib that shows itself in a notebook.
+
+    Args:
+        **options: As of `matplotlib.figure.Figure`.
+
+    Raises:
+        FlexactError: matplotlib is missing.
+    """
+    check_packages()
+    load_matplotlib()
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    class Shown(Figure):
+        def _repr_png_(self) -> bytes:
+            return png_bytes(self)
+
+    made: Any = Shown(facecolor="white", **options)
+    FigureCanvasAgg(made)
+    return made
 
 
 def has_packages() -> bool:
