@@ -847,7 +847,7 @@ class State(Frozen):
 
 
 #: How many eigenvalues are told.
-_WORDS_MOST = 6
+_MOST_TOLD = 6
 #: An uncertainty below this part of the value is not told.
 _SHOWN = 1.0e-6
 
@@ -866,7 +866,7 @@ def describe(state: State) -> str:
         lines.append("Buckled: this state is unstable.")
     elif state.loose:
         several = "s" * (len(state.loose) > 1)
-        motions = "; ".join(map(str, state.loose[:_WORDS_MOST]))
+        motions = "; ".join(map(str, state.loose[:_MOST_TOLD]))
         lines.append(f"{len(state.loose)} motion{several} without stiffness: {motions}.")
     else:
         lines.append("Stable.")
@@ -889,7 +889,7 @@ def _listed(state: State, name: str) -> str:
     match = matched_by_sign if name == "multipliers" else matched_by_order
     found = Estimate.of(*match(*every)) if len(every) > 1 else Estimate.fixed(every[0])
     least = _SHOWN * np.abs(found.value)
-    nearest = np.argsort(np.abs(found.value), kind="stable")[:_WORDS_MOST]
+    nearest = np.argsort(np.abs(found.value), kind="stable")[:_MOST_TOLD]
     chosen = sorted(nearest.tolist(), key=lambda k: float(found.value[k]))
     return ", ".join(
         f"{found.value[k]:.5g}"

@@ -252,7 +252,7 @@ def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:
 
 
 #: Part of the compliance of all elements in parallel that is rounding.
-_SOLVER_ROUNDING = 1.0e-6
+_ROUNDED_COMPLIANCE = 1.0e-6
 
 Held = frozenset[Coordinate]
 
@@ -344,7 +344,7 @@ class Solver:
         """What is more compliant than this [m/N] is so for a reason; 0 without any stiffness."""
         stiffness = np.diagonal(self.elastic[0], axis1=1, axis2=2)
         whole = float(stiffness[self.is_elastic.T].sum())
-        return _SOLVER_ROUNDING / whole if whole > 0.0 else 0.0
+        return _ROUNDED_COMPLIANCE / whole if whole > 0.0 else 0.0
 
     def loads(self, factor: float) -> tuple[FloatArray, FloatArray]:
         """(3, nodes) forces and (3,) gravity of the deck, times a factor."""
@@ -359,7 +359,7 @@ class Solver:
 #: How many frequencies and multipliers are computed.
 FREQUENCIES, MULTIPLIERS = 10, 20
 #: Multipliers so many times the nearest are those of stresses that are rounding.
-_SOLUTION_ROUNDING = 1.0e10
+_ROUNDED_MULTIPLIER = 1.0e10
 
 
 class Solution:
@@ -488,7 +488,7 @@ class Solution:
             s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
         )
         size = np.abs(found.values)
-        some = size < _SOLUTION_ROUNDING * size.min(initial=math.inf)
+        some = size < _ROUNDED_MULTIPLIER * size.min(initial=math.inf)
         return found._replace(values=found.values[some], modes=found.modes[:, :, some])
 
     @cached_property

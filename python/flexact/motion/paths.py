@@ -202,9 +202,9 @@ _AWAY = 0.15
 #: Where all paths begin with one motion, how far off, too.
 _NEARER = (0.01, 0.003)
 #: How far other motions may have gone beside those that are given, as a part of them.
-_PATHS_BESIDE = 0.3
+_OTHERS_BESIDE = 0.3
 #: Strains up to here are rounding.
-_PATHS_ROUNDING = 1.0e-14
+_ROUNDED_STRAIN = 1.0e-14
 #: Directions are independent where a singular value is above the second part of the largest.
 _DEPENDENT, _INDEPENDENT = 0.03, 0.2
 #: About so many positions it is measured; in components of more motions nowhere.
@@ -233,7 +233,7 @@ def is_without_strain(reduced: Reduced, cone: FloatArray) -> bool:
         found = reduced.least(start, base, share)
         if found is None or found.strain > TRUE / 10.0:
             return False
-        if _norm(found.shares - start) > _PATHS_BESIDE * share:
+        if _norm(found.shares - start) > _OTHERS_BESIDE * share:
             return False
     return True
 
@@ -257,7 +257,7 @@ def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -
     for start in starts:
         found = reduced.least(_OFF * start / np.linalg.norm(start), np.eye(many), _OFF)
         far = np.inf if found is None else _norm(found.shares) / _OFF
-        if found is None or found.strain > _PATHS_ROUNDING or far <= _AWAY:
+        if found is None or found.strain > _ROUNDED_STRAIN or far <= _AWAY:
             continue
         if looked_at == _MOST_LOOKED_AT:
             break
@@ -280,7 +280,7 @@ def _along(reduced: Reduced, unit: FloatArray) -> Near:
     """Where all paths begin with one motion: whether there is one, to one side at least."""
     for sign in (1.0, -1.0):
         every = [least_along(reduced, unit, sign * share) for share in _NEARER]
-        if all(found is not None and found.strain <= _PATHS_ROUNDING for found in every):
+        if all(found is not None and found.strain <= _ROUNDED_STRAIN for found in every):
             return Near(1, (unit,))
     fits = [fit_of(measured(reduced, unit, sign, 0.0)) for sign in (1.0, -1.0)]
     return Near(None if None in fits else 0, ())
@@ -289,8 +289,8 @@ def _along(reduced: Reduced, unit: FloatArray) -> Near:
 def _refined(reduced: Reduced, gone: FloatArray) -> FloatArray:
     """(N,) the direction in which a path begins that has gone somewhere, of unit norm."""
     for share in (0.1, 0.1, 0.1):
-        found = reduced.least(share * gone, np.eye(gone.size), _PATHS_BESIDE * _norm(share * gone))
-        if found is None or _norm(found.shares - share * gone) > _PATHS_BESIDE * _norm(
+        found = reduced.least(share * gone, np.eye(gone.size), _OTHERS_BESIDE * _norm(share * gone))
+        if found is None or _norm(found.shares - share * gone) > _OTHERS_BESIDE * _norm(
             share * gone
         ):
             break
@@ -306,7 +306,7 @@ def _dimension_at(reduced: Reduced, here: Here, random: np.random.Generator) -> 
         off = random.standard_normal(many)
         off *= _PATHS_NEAR / np.linalg.norm(off)
         found = reduced.least(here.shares + off, np.eye(many), _PATHS_NEAR)
-        if found is None or found.strain > _PATHS_ROUNDING:
+        if found is None or found.strain > _ROUNDED_STRAIN:
             return None
         ways.append((found.shares - here.shares) / _PATHS_NEAR)
     values = np.linalg.svd(np.array(ways), compute_uv=False)

@@ -79,11 +79,6 @@ def points_of(data: ModelData) -> IntArray:
     return made.astype(np.int32)
 
 
-def inner_nodes(data: ModelData) -> set[int]:
-    """Nodes inside divided sheets and wires."""
-    return {node for chain in data.chains for node in chain.positions[1:-1]}
-
-
 def _inner(data: ModelData, positions: FloatArray) -> list[tuple[list[int], FloatArray]]:
     """Of each divided sheet or wire its nodes, and the share of its length up to each inner one."""
     made = []

@@ -140,7 +140,7 @@ def _capital(words: str) -> str:
 
 
 #: Of so many points, and so many bodies, the places stand in a table at most.
-_ROWS_MOST = 400
+_MOST_PLACES = 400
 
 Cell = str | int | float
 
@@ -166,16 +166,16 @@ def header(trace: Traced) -> list[str]:
         *(f"sigma {k + 1}" for k in range(kept)),
         *("under_constrained", "over_constrained", "verdict", "dead_point"),
         *([] if drive is None else [f"{drive.label} [{drive_unit(drive)}]"]),
-        *(f"{point.name} {axis} [m]" for point in names.points(_ROWS_MOST) for axis in axes),
-        *(f"{body.name} {turn} [rad]" for body in names.bodies(_ROWS_MOST) for turn in turns),
+        *(f"{point.name} {axis} [m]" for point in names.points(_MOST_PLACES) for axis in axes),
+        *(f"{body.name} {turn} [rad]" for body in names.bodies(_MOST_PLACES) for turn in turns),
     ]
 
 
 def rows(trace: Traced) -> Iterator[list[Cell]]:
     """A row a step; the reference is step 0."""
     names, planar = Names(trace.result), trace.result.given.planar
-    points = [point.node for point in names.points(_ROWS_MOST)]
-    bodies = [body.node for body in names.bodies(_ROWS_MOST)]
+    points = [point.node for point in names.points(_MOST_PLACES)]
+    bodies = [body.node for body in names.bodies(_MOST_PLACES)]
     kept = max(step.values.size for step in trace.steps)
     first = trace.reference
     for number, step in enumerate(trace.steps):

@@ -409,12 +409,12 @@ def _normals(site: Site, space: ScrewSpace, place: FloatArray) -> Iterator[Float
         elif family.kind is FamilyKind.ACROSS:
             yield family.direction
         elif family.kind is FamilyKind.MEETING:
-            yield from _through_of_sheets(family, site, place)
+            yield from _through_sheet(family, site, place)
         elif family.kind is FamilyKind.EVERY:
             yield from site.directions
 
 
-def _through_of_sheets(family: Family, site: Site, place: FloatArray) -> Iterator[FloatArray]:
+def _through_sheet(family: Family, site: Site, place: FloatArray) -> Iterator[FloatArray]:
     """Normals of planes through a line and a point, or if it is on it all that are known."""
     across = np.cross(family.direction, place - family.point)
     size = float(np.linalg.norm(across))

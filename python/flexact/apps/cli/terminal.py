@@ -328,13 +328,13 @@ def discard(stream: TextIO | None) -> None:
 
 
 #: A terminal of fewer columns is taken for one of so many.
-_FITTING_LEAST = 32
+_NARROWEST = 32
 
 
 def columns_to_fill() -> int | None:
     """How many columns a table may have: those stated, those of the terminal, or any number."""
     wide = columns_of(sys.stdout)
-    return max(wide, _FITTING_LEAST) if wide else None
+    return max(wide, _NARROWEST) if wide else None
 
 
 def padded(text: str, width: int, *, right: bool = False) -> str:

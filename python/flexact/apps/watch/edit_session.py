@@ -41,7 +41,7 @@ from .scene import Stage
 from .worker import shown_of
 
 #: How many steps can be undone.
-_HISTORY_MOST = 200
+_MOST_EDITS = 200
 
 
 class History:
@@ -77,7 +77,7 @@ class History:
         """Take a new state; what was undone is gone."""
         if edits == self.now:
             return
-        self._states = [*self._states[: self._at + 1], edits][-_HISTORY_MOST - 1 :]
+        self._states = [*self._states[: self._at + 1], edits][-_MOST_EDITS - 1 :]
         self._at = len(self._states) - 1
 
     def undo(self) -> None:

@@ -84,7 +84,7 @@ def add_grid(canvas: Canvas, grid: Grid, *, layer: int = SOLID, shade: float = S
     joined = np.zeros((k, 2), bool) if grid.joined is None else grid.joined
     for end, turn in ((0, -1), (-1, 1)):
         ring = grid.points[:, end]
-        cap = _normal_of_rings(ring[:, ::turn])
+        cap = _ring_normal(ring[:, ::turn])
         faces = cap @ canvas.view.axes[2] > 1.0e-9
         shaded = colour[faces, end] * lit(cap[faces], canvas.view, shade)
         canvas.polygons(ring[faces], shaded, opacity=opacity[faces], layer=layer)
@@ -96,7 +96,7 @@ def add_grid(canvas: Canvas, grid: Grid, *, layer: int = SOLID, shade: float = S
     canvas.lines(np.concatenate(edges), every, OUTLINE_WIDTH, layer=layer)
 
 
-def _normal_of_rings(ring: FloatArray) -> FloatArray:
+def _ring_normal(ring: FloatArray) -> FloatArray:
     """(k, 3) unit normals of rings (k, c, 3); zero where a ring is one point."""
     centred = ring - ring.mean(axis=1, keepdims=True)
     area = np.cross(centred, np.roll(centred, -1, axis=1)).sum(axis=1)
