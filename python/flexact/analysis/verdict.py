@@ -4,25 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import Enum
 from typing import NamedTuple
 
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from ..util.errors import FlexactError
+from ..util.records import Word
 
 
-class Verdict(str, Enum):
+class Verdict(Word):
     """What Table 1 of the paper says about rows, columns and rank of D(c)."""
 
     EXACT = "exactly constrained"
     UNDER = "under-constrained"
     OVER = "over-constrained"
     BOTH = "under-constrained and over-constrained"
-
-    def __str__(self) -> str:
-        """The words themselves."""
-        return self.value
 
     @property
     def word(self) -> str:
@@ -87,7 +83,7 @@ class Gap(NamedTuple):
         return self.largest_zero / self.smallest_nonzero
 
 
-class Certainty(str, Enum):
+class Certainty(Word):
     """Whether the geometry could be meant with another rank than was decided.
 
     This is about the arithmetic alone. How far the machine may be out of alignment is the
@@ -96,10 +92,6 @@ class Certainty(str, Enum):
 
     CERTAIN = "numerically certain"
     DOUBTFUL = "doubtful"
-
-    def __str__(self) -> str:
-        """The words themselves."""
-        return self.value
 
 
 class Alternative(NamedTuple):

@@ -127,7 +127,7 @@ def write_text(target: Path, content: bytes) -> None:
             write_together({target: content})
 
 
-#: Those of `mesh.file`, which takes a while to load.
+#: Those of `flexact.show.mesh.file`, which takes a while to load.
 FORMATS = ("vtu", "vtk", "xdmf")
 
 
