@@ -60,7 +60,7 @@ def draw_wrong_and_mended() -> None:
         both = Image.new("RGB", (left.width + right.width, left.height), "white")
         both.paste(left, (0, 0))
         both.paste(right, (left.width, 0))
-        both.quantize(128).save(DOCS / "wrong_and_mended.png", optimize=True)
+        both.save(DOCS / "wrong_and_mended.png", optimize=True)
         os.chdir(ROOT)
 
 
