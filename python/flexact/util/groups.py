@@ -9,22 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def groups_of(count: int, pairs: Iterable[tuple[int, int]]) -> np.ndarray:
-    """(count,) of each thing one of its group, the same for all of the group.
-
-    Of very many pairs `least_of_groups` is faster.
-    """
-    owner = list(range(count))
-
-    def root(i: int) -> int:
-        while owner[i] != i:
-            owner[i] = owner[owner[i]]
-            i = owner[i]
-        return i
-
-    for i, j in pairs:
-        owner[root(i)] = root(j)
-    return np.array([root(i) for i in range(count)], dtype=np.int64)
+def groups_of(count: int, pairs: Iterable[tuple[int, int]]) -> NDArray[np.int64]:
+    """(count,) the least of the group of each thing, of pairs that are joined."""
+    ends = np.array(list(pairs), np.int64).reshape(-1, 2)
+    return least_of_groups(count, ends[:, 0], ends[:, 1])
 
 
 def least_of_groups(
