@@ -2,6 +2,7 @@
 """Sets of releases: their number, and that those listed work, by routes that share nothing."""
 
 import math
+import random
 import re
 import sys
 from fractions import Fraction
@@ -462,3 +463,28 @@ def test_parts_are_named_and_statements_given() -> None:
     model = folded_sheet(clamped=True)
     made = analyse(model)
     assert "model.release(" in plain(releases_of(made).sets[0].words())
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_numbers_of_shear_that_are_not_given_are_zero(seed: int) -> None:
+    """ESTIFF of four numbers ranks the releases as ESTIFF of six of which the last two are zero."""
+    dice = random.Random(seed)
+    name = dice.choice([name for name in NAMES if "BEAM" in text_of(name)])
+    kinematics = text_of(name).partition("\nEND")[0]
+    beams = [words[1] for words in map(str.split, kinematics.splitlines()) if words[:1] == ["BEAM"]]
+    chosen = dice.sample(beams, dice.randint(min(1, len(beams)), len(beams)))
+    releases = [
+        line
+        for line in kinematics.splitlines()
+        if not (line.startswith("RLSE") and line.split()[1] in chosen and dice.random() < 0.5)
+    ]
+    short, long = (
+        "\n".join(
+            [*releases, "END", "HALT"]
+            + [f"ESTIFF {beam} 4E5 0.5 0.02 8.0{more}" for beam in chosen]
+            + ["END", "END", ""]
+        )
+        for more in ("", " 0.0 0.0")
+    )
+    ranked = [analyse(flexact.read_text(text)).advice().to_dict() for text in (short, long)]
+    assert ranked[0]["releases"] == ranked[1]["releases"]

@@ -147,7 +147,8 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
     for k in np.flatnonzero(stressed).tolist():
         e, role = int(element[k]), int(roles[k])
         given = int(result.condensed.elements[e])
-        numbers = properties.stiffness[given].tolist()
+        # What was not said of shear is none.
+        numbers = np.nan_to_num(properties.stiffness[given]).tolist()
         value = numbers[_STIFFNESS.get(role, int(deformation[k]))]
         if not value > 0.0:
             if result.parts.of_element(given).kind is PartKind.BODY:
