@@ -181,21 +181,30 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
    call give_jacobian(nodes, places, elements, vectors, configuration, c_t, deformation, place, value, used)
 end subroutine assemble
 
-! Rank, motions and self-stresses in the reference configuration; what comes back, and what
-! wishes are, as run_with_blas says. n: rows and columns, at least 1. stage: work, per cent, not 0 to stop it.
-subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
+! Rank, motions and self-stresses in the reference configuration. n: rows and columns of D(c), at
+! least 1. method, prove: as flexact_names has them; tolerance: negative for that of the data;
+! memory: bytes that may be used; only_plain_values: 1 if only the singular values of D(c) itself
+! are wanted (by sparse the smallest), which come as scaled_value then; as_stored: 1 if numbers
+! are no decimals. stage: work, per cent, not 0 to stop it. label: owner and part of each row of
+! D(c), then of each column, from 1. Of motions, then of self-stresses, vector k begins at
+! first(k) of place (from 0) and value. scale: of each row, then of each column; scaled_value:
+! singular values; pair_vector: of each pair the left vector, then the right one. facts: as
+! flexact_names has them; pair_value: singular values of pairs.
+subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, method, tolerance, memory, only_plain_values, prove, &
+                         as_stored, stage, label, first, place, value, scale, scaled_value, pair_vector, facts, pair_value)
    use iso_c_binding
    use flexact_result_exchange, only: run
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(6)
+   integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne), method, only_plain_values, prove, as_stored
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), tolerance, memory
    integer(c_int), intent(inout), target :: stage(3)
-   integer(c_int), intent(inout) :: index(3, n + 1), place(room)
-   real(c_double), intent(inout) :: value(room), by_size(n, 8)
-   real(c_double), intent(out) :: facts(48)
+   integer(c_int), intent(inout) :: label(2, n), first(n + 1), place(room)
+   real(c_double), intent(inout) :: value(room), scale(n), scaled_value(n), pair_vector(n, 6)
+   real(c_double), intent(out) :: facts(37), pair_value(6)
 
-   call run(nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
+   call run(nodes, places, elements, vectors, method, tolerance, memory, only_plain_values > 0, prove, as_stored > 0, stage, &
+            label, first, place, value, scale, scaled_value, pair_vector, facts, pair_value)
 end subroutine analyse_model
 
 ! What small changes of the geometry make of the singular values of pairs of vectors of D(c)
@@ -216,73 +225,174 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    call give_sensitivities(nodes, places, elements, vectors, modes, pair, effect, place, used)
 end subroutine find_sensitivities
 
-! Residues of null vectors; wishes and what comes back as give_echelon says. n: columns of
-! D(c), or of its transpose; room: no more entries are given.
-subroutine find_echelon(n, room, nn, ne, nodes, places, elements, vectors, wishes, pivot, place, facts)
+! The reduced echelon form of D(c), or of its transpose, modulo a prime. n: its columns; number:
+! of the prime; as_stored: 1 if numbers are no decimals. pivot: of each column 1 where some row
+! begins. entry: of each other one that is not zero the column, the one where its row begins, and
+! the residue in two parts of 31 bits. prime: in two parts likewise; as_typed: 1 if of decimals;
+! used: entries, of which as many as fit are given.
+subroutine find_echelon(n, room, nn, ne, nodes, places, elements, vectors, number, as_stored, is_transposed, pivot, entry, &
+                        prime, as_typed, used)
    use iso_c_binding
    use flexact_result_exchange, only: give_echelon
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne), wishes(3)
+   integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne), number, as_stored, is_transposed
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
-   integer(c_int), intent(inout) :: pivot(n), place(4, room)
-   integer(c_int), intent(out) :: facts(5)
+   integer(c_int), intent(inout) :: pivot(n), entry(4, room)
+   integer(c_int), intent(out) :: prime(2), as_typed, used
 
-   call give_echelon(nodes, places, elements, vectors, wishes, pivot, place, facts)
+   call give_echelon(nodes, places, elements, vectors, number, as_stored > 0, is_transposed > 0, pivot, entry, prime, &
+                     as_typed, used)
 end subroutine find_echelon
 
-! Each of some variants of a model; wishes, positions and classes (as many as variants, or
-! one for all), and what comes back, as run_variants says.
-subroutine analyse_variants(room, variants, nn, ne, np, nc, nodes, places, elements, vectors, wishes, positions, classes, facts)
+! Each of some variants of a model (flexact_variants). positions, classes: as many as variants, or
+! one for all. near to most_reach, with_values, zero_counts and zero_limits: as question_t and
+! zero_limits_t have them; memory to as_stored: as for analyse_model. facts: of each variant, as
+! flexact_names has them; of each pair its value and what that changes by a move and by a turn.
+subroutine analyse_variants(variants, nn, ne, np, nc, nodes, places, elements, vectors, near, cut_off, most_reach, with_values, &
+                            memory, prove, as_stored, zero_counts, zero_limits, positions, classes, facts, pair_value, by_move, &
+                            by_turn)
    use iso_c_binding
    use flexact_variant_exchange, only: run_variants
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: room, variants, nn, ne, np, nc, nodes(5, nn), elements(12, ne), classes(6, ne, nc)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(11), positions(3, nn, np)
-   real(c_double), intent(inout) :: facts(room, variants)
+   integer(c_int), intent(in) :: variants, nn, ne, np, nc, nodes(5, nn), elements(12, ne), classes(6, ne, nc), with_values, prove, &
+                                 as_stored, zero_counts(2)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), near, cut_off, most_reach, memory, zero_limits(2), &
+                                 positions(3, nn, np)
+   real(c_double), intent(out) :: facts(11, variants), pair_value(6, variants), by_move(6, variants), by_turn(6, variants)
 
-   call run_variants(nodes, places, elements, vectors, wishes, positions, classes, facts)
+   call run_variants(nodes, places, elements, vectors, near, cut_off, most_reach, with_values > 0, memory, prove, as_stored > 0, &
+                     zero_counts, zero_limits, positions, classes, facts, pair_value, by_move, by_turn)
 end subroutine analyse_variants
 
 ! S of every element, notches applied, and its constant of torsion and elongation [m^2].
-subroutine find_stiffness(nn, ne, nodes, places, elements, vectors, of_elements, stiffness, c_t)
+! stiffness: numbers of ESTIFF; notch: of each deformation, as it is where it is no number, else
+! released with a stiffness in series.
+subroutine find_stiffness(nn, ne, nodes, places, elements, vectors, stiffness, notch, element_stiffness, c_t)
    use iso_c_binding
    use flexact_elastic_exchange, only: give_stiffness
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_elements(17, ne)
-   real(c_double), intent(out) :: stiffness(6, 6, ne), c_t(ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), notch(6, ne)
+   real(c_double), intent(out) :: element_stiffness(6, 6, ne), c_t(ne)
 
-   call give_stiffness(nodes, places, elements, vectors, of_elements, stiffness, c_t)
+   call give_stiffness(nodes, places, elements, vectors, stiffness, notch, element_stiffness, c_t)
 end subroutine find_stiffness
 
-! From a state in equilibrium to another; all is as run_path says.
-subroutine follow_path(nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, reaction, &
-                       stress, facts)
+! From a state in equilibrium under what is given first to that under what is given then. mass and
+! node_mass: numbers of EM and XM, no numbers where they are not given; configuration, stress and
+! reaction: of the state, which change. target: of held coordinates; misfit: deformations without
+! stress. status: as flexact_names has it, -1 where memory does not suffice; reached: part of the
+! way; place: of the residual, 3*node + axis, or -1 - (6*element + deformation).
+subroutine follow_path(nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                       reaction, target, misfit, force, gravity, status, reached, iterations, steps, residual, place)
    use iso_c_binding
-   use flexact_elastic_exchange, only: run_path
+   use flexact_elastic_exchange, only: study_t, begin_study, end_study, give_path
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_nodes(27, nn), of_elements(35, ne), gravity(3, 2)
-   real(c_double), intent(out) :: configuration(4, nn), reaction(3, nn), stress(6, ne), facts(6)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), mass(5, ne), notch(6, ne), node_mass(6, nn), &
+                                 target(4, nn, 2), misfit(6, ne, 2), force(3, nn, 2), gravity(3, 2)
+   real(c_double), intent(inout) :: configuration(4, nn), stress(6, ne), reaction(3, nn)
+   integer(c_int), intent(out) :: status, iterations, steps, place
+   real(c_double), intent(out) :: reached, residual
+   type(study_t) :: study
 
-   call run_path(nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, reaction, stress, facts)
+   call begin_study(nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, reaction, study)
+   call give_path(study, target, misfit, force, gravity, configuration, stress, reaction, status, reached, iterations, steps, &
+                  residual, place)
+   call end_study(study)
 end subroutine follow_path
 
-! What a state answers to small loads, its modes and its matrices; all is as run_task says.
-subroutine study_state(n, k, room, nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, wishes, given, answer, facts)
+! Increments of a state with its tangent K + H(stress) under k loads, misfits and shifts of what
+! is held; the state is given as for follow_path. mismatch: what rigid rows could not follow,
+! relative to what was asked. loose: motions without stiffness, as many as fit of unheld;
+! negative: how many stiffnesses are; failed: 1 where the arithmetic fails or memory does not
+! suffice.
+subroutine find_response(k, room, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, &
+                         stress, reaction, gravity, force, misfit, shift, displacement, stress_change, reaction_change, &
+                         mismatch, loose, unheld, negative, failed)
    use iso_c_binding
-   use flexact_elastic_exchange, only: run_task
+   use flexact_elastic_exchange, only: study_t, begin_study, end_study, give_response
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, k, room, nn, ne, nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_nodes(13, nn), of_elements(23, ne), wishes(5), given(n, k)
-   real(c_double), intent(inout) :: answer(n, room)
-   real(c_double), intent(out) :: facts(5)
+   integer(c_int), intent(in) :: k, room, nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), mass(5, ne), notch(6, ne), node_mass(6, nn), &
+                                 configuration(4, nn), stress(6, ne), reaction(3, nn), gravity(3), force(3, nn, k), &
+                                 misfit(6, ne, k), shift(3, nn, k)
+   real(c_double), intent(out) :: displacement(3, nn, k), stress_change(6, ne, k), reaction_change(3, nn, k), mismatch(k), &
+                                  loose(3, nn, room)
+   integer(c_int), intent(out) :: unheld, negative, failed
+   type(study_t) :: study
 
-   call run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given(:n - 1, :), answer(:n - 1, :), &
-                 answer(n, :), facts)
-end subroutine study_state
+   call begin_study(nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, reaction, study)
+   call give_response(study, gravity, force, misfit, shift, displacement, stress_change, reaction_change, mismatch, loose, &
+                      unheld, negative, failed)
+   call end_study(study)
+end subroutine find_response
+
+! Values and modes of a state, given as for follow_path: of_buckling 0: squares of the lowest
+! frequencies, 1: buckling multipliers nearest to zero. count: at most so many; found: how many
+! there are; unheld: motions without stiffness; negative: stiffnesses that are; complete: 1 where
+! none is missing between; failed: as for find_response.
+subroutine find_modes(count, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                      reaction, gravity, of_buckling, value, mode, found, unheld, negative, complete, failed)
+   use iso_c_binding
+   use flexact_elastic_exchange, only: study_t, begin_study, end_study, give_modes
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: count, nn, ne, nodes(5, nn), elements(12, ne), of_buckling
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), mass(5, ne), notch(6, ne), node_mass(6, nn), &
+                                 configuration(4, nn), stress(6, ne), reaction(3, nn), gravity(3)
+   real(c_double), intent(out) :: value(count), mode(3, nn, count)
+   integer(c_int), intent(out) :: found, unheld, negative, complete, failed
+   type(study_t) :: study
+
+   call begin_study(nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, reaction, study)
+   call give_modes(study, gravity, of_buckling > 0, value, mode, found, unheld, negative, complete, failed)
+   call end_study(study)
+end subroutine find_modes
+
+! Matrices of a state, given as for follow_path, in independent coordinates: 3*node + axis, or
+! -1 - (6*element + deformation), each. determined: 1 where these determine all motions.
+subroutine find_matrices(q, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                         reaction, gravity, independent, reduced_mass, reduced_stiffness, geometric, determined, failed)
+   use iso_c_binding
+   use flexact_elastic_exchange, only: study_t, begin_study, end_study, give_matrices
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: q, nn, ne, nodes(5, nn), elements(12, ne), independent(q)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), mass(5, ne), notch(6, ne), node_mass(6, nn), &
+                                 configuration(4, nn), stress(6, ne), reaction(3, nn), gravity(3)
+   real(c_double), intent(out) :: reduced_mass(q, q), reduced_stiffness(q, q), geometric(q, q)
+   integer(c_int), intent(out) :: determined, failed
+   type(study_t) :: study
+
+   call begin_study(nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, reaction, study)
+   call give_matrices(study, gravity, independent, reduced_mass, reduced_stiffness, geometric, determined, failed)
+   call end_study(study)
+end subroutine find_matrices
+
+! Errors nearest to zero on both sides at which K - square M + error H(unit_stress) is singular,
+! of a state given as for follow_path. unit_stress, length: of each of k errors. unheld, negative:
+! of K - square M; where there are such, none is looked for; failed: as for find_response.
+subroutine find_errors(k, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                       reaction, gravity, square, unit_stress, length, below, above, unheld, negative, failed)
+   use iso_c_binding
+   use flexact_elastic_exchange, only: study_t, begin_study, end_study, give_errors
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: k, nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), mass(5, ne), notch(6, ne), node_mass(6, nn), &
+                                 configuration(4, nn), stress(6, ne), reaction(3, nn), gravity(3), square, unit_stress(6, ne, k), &
+                                 length(k)
+   real(c_double), intent(out) :: below(k), above(k)
+   integer(c_int), intent(out) :: unheld, negative, failed
+   type(study_t) :: study
+
+   call begin_study(nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, reaction, study)
+   call give_errors(study, gravity, square, unit_stress, length, below, above, unheld, negative, failed)
+   call end_study(study)
+end subroutine find_errors

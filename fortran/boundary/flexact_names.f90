@@ -6,7 +6,6 @@ module flexact_names
    use flexact_exchange, only: from_text, to_text
    use flexact_result_exchange, only: fact_names
    use flexact_diagnostics, only: severity_names
-   use flexact_elastic_exchange, only: task_names
    use flexact_elastic_newton, only: step_names
    use flexact_error, only: error_names
    use flexact_element_table, only: frame_names, vector_names, member_names
@@ -51,7 +50,6 @@ contains
       case ('stages'); names%name = [stage_names]
       case ('facts'); names = names_t(1, [fact_names])
       case ('variant facts'); names = names_t(1, [variant_fact_names])
-      case ('tasks'); names = names_t(1, [task_names])
       case ('step endings'); names%name = [step_names]
       case ('severities'); names = names_t(1, [severity_names])
       case ('keywords'); names%name = keyword_rows()

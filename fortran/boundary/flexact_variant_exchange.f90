@@ -6,7 +6,6 @@ module flexact_variant_exchange
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
-   use flexact_result, only: most_pairs
    use flexact_slots, only: axes, has_axis, is_position
    use flexact_variants, only: analyse_variant, question_t, variant_t
    use flexact_zero_margins, only: zero_limits_t
@@ -14,8 +13,7 @@ module flexact_variant_exchange
    private
    public :: run_variants, variant_fact_names
 
-   !> What each fact of a variant is; then come the values of pairs, what they change by a
-   !> move and what by a turn, room for as many as there may be each.
+   !> What each fact of a variant is.
    character(len=24), parameter :: variant_fact_names(*) = [character(len=24) :: &
                                                             'decided', 'rows', 'columns', 'rank', 'largest zero', &
                                                             'zero moves', 'zero turns', 'smallest', 'largest', &
@@ -23,16 +21,12 @@ module flexact_variant_exchange
 
 contains
 
-   !> wishes: what a value is near the noise by, what digits may have been cut off, the most
-   !> that a digit reaches, 1 if values are wanted, bytes of memory, how it is proven, 1 if
-   !> numbers are no decimals, and the limits of flexact_zero_margins. position (3, nodes, variants): where nodes are, and class
-   !> (6, elements, variants) of the deformations; either may be one for all.
-   subroutine run_variants(nodes, places, elements, vectors, wishes, position, class, facts)
-      integer, intent(in) :: nodes(:, :), elements(:, :)
-      real(wp), intent(in) :: places(:, :), vectors(:, :)
-      real(wp), intent(in) :: wishes(:), position(:, :, :)
-      integer, intent(in) :: class(:, :, :)
-      real(wp), intent(out) :: facts(:, :)
+   subroutine run_variants(nodes, places, elements, vectors, near, cut_off, most_reach, with_values, memory, prove, as_stored, &
+                           zero_counts, zero_limits, position, class, facts, pair_value, by_move, by_turn)
+      integer, intent(in) :: nodes(:, :), elements(:, :), class(:, :, :), prove, zero_counts(:)
+      real(wp), intent(in) :: places(:, :), vectors(:, :), position(:, :, :), near, cut_off, most_reach, memory, zero_limits(:)
+      logical, intent(in) :: with_values, as_stored
+      real(wp), intent(out) :: facts(:, :), pair_value(:, :), by_move(:, :), by_turn(:, :)
       type(model_t) :: model
       type(question_t) :: question
       type(partition_t) :: partition
@@ -40,15 +34,18 @@ contains
       type(blas_work_t) :: work
       integer :: i, before
 
-      facts = 0.0_wp
-      question%near = wishes(1)
-      question%cut_off = wishes(2)
-      question%most_reach = wishes(3)
-      question%with_values = wishes(4) > 0
-      question%options%memory = wishes(5)
-      question%options%prove = nint(wishes(6))
-      question%options%as_stored = wishes(7) > 0
-      question%zeros = zero_limits_t(nint(wishes(8)), nint(wishes(9)), wishes(10), wishes(11))
+      facts = 0
+      pair_value = 0
+      by_move = 0
+      by_turn = 0
+      question%near = near
+      question%cut_off = cut_off
+      question%most_reach = most_reach
+      question%with_values = with_values
+      question%options%memory = memory
+      question%options%prove = prove
+      question%options%as_stored = as_stored
+      question%zeros = zero_limits_t(zero_counts(1), zero_counts(2), zero_limits(1), zero_limits(2))
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       call unpack_model(nodes, places, elements, vectors, model)
       before = 0
@@ -60,7 +57,10 @@ contains
             call make_partition(model, partition)
          end if
          call analyse_variant(model, partition, question, variant)
-         call give(partition, variant, facts(:, i))
+         facts(:, i) = facts_of(partition, variant)
+         pair_value(:, i) = variant%value
+         by_move(:, i) = variant%by_move
+         by_turn(:, i) = variant%by_turn
       end do
       call blas_end(work)
    end subroutine run_variants
@@ -79,17 +79,13 @@ contains
       end do
    end subroutine place_nodes
 
-   pure subroutine give(partition, variant, facts)
+   pure function facts_of(partition, variant) result(facts)
       type(partition_t), intent(in) :: partition
       type(variant_t), intent(in) :: variant
-      real(wp), intent(out) :: facts(:)
-      integer :: first
+      real(wp) :: facts(size(variant_fact_names))
 
-      first = size(variant_fact_names)
-      facts(:first) = [real([merge(1, 0, variant%is_decided), partition%count%rows, partition%count%columns, &
-                             variant%rank], wp), variant%largest_zero, &
-                       real([merge(1, 0, variant%zero_moves), merge(1, 0, variant%zero_turns)], wp), &
-                       variant%smallest, variant%largest, variant%characteristic_length, real(variant%pairs, wp)]
-      facts(first + 1:first + 3*most_pairs) = [variant%value, variant%by_move, variant%by_turn]
-   end subroutine give
+      facts = [real([merge(1, 0, variant%is_decided), partition%count%rows, partition%count%columns, variant%rank], wp), &
+               variant%largest_zero, real([merge(1, 0, variant%zero_moves), merge(1, 0, variant%zero_turns)], wp), &
+               variant%smallest, variant%largest, variant%characteristic_length, real(variant%pairs, wp)]
+   end function facts_of
 end module flexact_variant_exchange

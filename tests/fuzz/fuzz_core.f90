@@ -6,6 +6,7 @@ program fuzz_core
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_signed_char
    use flexact_result, only: most_pairs
+   use flexact_result_exchange, only: fact_names
    use flexact_variant_exchange, only: variant_fact_names
    implicit none
    !> Larger models are read, but not analysed.
@@ -106,18 +107,20 @@ contains
       integer(c_int), intent(in) :: nodes(:, :), elements(:, :), sizes(2)
       real(c_double), intent(in) :: places(:, :), vectors(:, :)
       integer, intent(in) :: method
-      integer(c_int), allocatable :: index(:, :), place(:), pair(:, :), owner(:, :)
-      real(c_double), allocatable :: value(:), by_size(:, :), effect(:, :)
-      real(c_double) :: facts(48)
+      integer(c_int), allocatable :: label(:, :), first(:), place(:), pair(:, :), owner(:, :)
+      real(c_double), allocatable :: value(:), scale(:), scaled_value(:), pair_vector(:, :), effect(:, :)
+      real(c_double) :: facts(size(fact_names)), pair_value(most_pairs)
       integer(c_int) :: stage(3), used
       integer :: most, room, i, pairs
 
       stage = 0
       most = 3*size(nodes, 2) + 6*size(elements, 2)
       room = max(1, most*most)
-      allocate (index(3, most + 1), place(room), value(room), by_size(most, 8))
-      call analyse_model(most, room, size(nodes, 2), size(elements, 2), nodes, places, elements, vectors, &
-                         [real(c_double) :: method, -1, 1.0e9, 0, 0, 0], stage, index, place, value, by_size, facts)
+      allocate (label(2, most), first(most + 1), place(room), value(room), scale(most), scaled_value(most))
+      allocate (pair_vector(most, most_pairs))
+      call analyse_model(most, room, size(nodes, 2), size(elements, 2), nodes, places, elements, vectors, method, -1.0_c_double, &
+                         1.0e9_c_double, 0, 0, 0, stage, label, first, place, value, scale, scaled_value, pair_vector, facts, &
+                         pair_value)
       if (nint(facts(1)) /= 0) return
       pairs = nint(facts(24))
       if (pairs == 0) return
@@ -126,29 +129,29 @@ contains
          pair(:, i) = i
       end do
       call find_sensitivities(sum(sizes), pairs, pairs, size(nodes, 2), size(elements, 2), nodes, places, elements, vectors, &
-                              by_size(:sum(sizes), 3:pairs + 2), pair, effect, owner, used)
+                              pair_vector(:sum(sizes), :pairs), pair, effect, owner, used)
    end subroutine take_analysis
 
    !> The model as it is, and stretched more and more; then with all deformations held.
    subroutine take_variants(nodes, places, elements, vectors)
       integer(c_int), intent(in) :: nodes(:, :), elements(:, :)
       real(c_double), intent(in) :: places(:, :), vectors(:, :)
-      integer, parameter :: variants = 4, room = size(variant_fact_names) + 3*most_pairs
-      real(c_double), allocatable :: positions(:, :, :), facts(:, :)
+      integer, parameter :: variants = 4
+      real(c_double), allocatable :: positions(:, :, :)
+      real(c_double) :: facts(size(variant_fact_names), variants)
+      real(c_double), dimension(most_pairs, variants) :: pair_value, by_move, by_turn
       integer(c_int), allocatable :: classes(:, :, :)
-      real(c_double) :: wishes(11)
       integer :: i, with_values
 
-      allocate (positions(3, size(nodes, 2), variants), classes(6, size(elements, 2), variants), facts(room, variants))
+      allocate (positions(3, size(nodes, 2), variants), classes(6, size(elements, 2), variants))
       do i = 1, variants
          positions(:, :, i) = places(:3, :)*spread([1.0_c_double, 0.5_c_double + i, 1.0_c_double/i], 2, size(nodes, 2))
          classes(:, :, i) = merge(min(elements(7:, :), 1), elements(7:, :), i == variants)
       end do
-      wishes = [real(c_double) :: 10, 10, 0.01, 0, 1.0e9, 0, 0, 8, 6, 1.0e6, 1.0e-9]
       do with_values = 0, 1
-         wishes(4) = with_values
-         call analyse_variants(room, variants, size(nodes, 2), size(elements, 2), variants, variants, nodes, places, elements, &
-                               vectors, wishes, positions, classes, facts)
+         call analyse_variants(variants, size(nodes, 2), size(elements, 2), variants, variants, nodes, places, elements, vectors, &
+                               10.0_c_double, 10.0_c_double, 0.01_c_double, with_values, 1.0e9_c_double, 0, 0, [8, 6], &
+                               [1.0e6_c_double, 1.0e-9_c_double], positions, classes, facts, pair_value, by_move, by_turn)
       end do
    end subroutine take_variants
 
@@ -156,13 +159,13 @@ contains
       integer(c_int), intent(in) :: nodes(:, :), elements(:, :)
       real(c_double), intent(in) :: places(:, :), vectors(:, :)
       integer, intent(in) :: n, transposed
-      integer(c_int), allocatable :: pivot(:), place(:, :)
-      integer(c_int) :: facts(5)
+      integer(c_int), allocatable :: pivot(:), entry(:, :)
+      integer(c_int) :: prime(2), as_typed, used
 
       if (n == 0) return
-      allocate (pivot(n), place(4, n*n/4 + 1))
+      allocate (pivot(n), entry(4, n*n/4 + 1))
       call find_echelon(n, n*n/4 + 1, size(nodes, 2), size(elements, 2), nodes, places, elements, vectors, &
-                        [0, 0, transposed], pivot, place, facts)
+                        0, 0, transposed, pivot, entry, prime, as_typed, used)
    end subroutine take_echelon
 
    !> Every element with some stiffness and mass, under its weight, and what may be asked of it there.
@@ -170,38 +173,49 @@ contains
       integer(c_int), intent(in) :: nodes(:, :), elements(:, :)
       real(c_double), intent(in) :: places(:, :), vectors(:, :)
       integer, parameter :: asked = 5
-      real(c_double), allocatable :: of_nodes(:, :), of_elements(:, :), stiffness(:, :, :), c_t(:), given(:, :), answer(:, :)
-      real(c_double) :: gravity(3, 2), facts(6), found(5), configuration(4, size(nodes, 2)), reaction(3, size(nodes, 2))
-      real(c_double) :: stress(6, size(elements, 2))
-      integer :: nn, ne, n, task
+      real(c_double), dimension(6, size(elements, 2)) :: stiffness, notch, stress
+      real(c_double) :: mass(5, size(elements, 2)), element_stiffness(6, 6, size(elements, 2)), c_t(size(elements, 2))
+      real(c_double) :: node_mass(6, size(nodes, 2)), configuration(4, size(nodes, 2)), reaction(3, size(nodes, 2))
+      real(c_double), dimension(3, size(nodes, 2), 2) :: force, shift, displacement, reactions
+      real(c_double), dimension(6, size(elements, 2), 2) :: misfit, stresses
+      real(c_double) :: loose(3, size(nodes, 2), asked), mode(3, size(nodes, 2), asked), value(asked), pair(2), below(2), above(2)
+      real(c_double) :: gravity(3, 2), reached, residual, reduced(2, 2, 3)
+      integer(c_int) :: status, iterations, steps, place, found, unheld, negative, complete, failed
+      integer :: nn, ne, of_buckling
 
       nn = size(nodes, 2)
       ne = size(elements, 2)
-      n = 6*(nn + ne) + 1
-      allocate (of_nodes(27, nn), of_elements(35, ne), source=0.0_c_double)
-      allocate (stiffness(6, 6, ne), c_t(ne), given(n, 2), answer(n, 3*asked))
-      of_nodes(:6, :) = ieee_value(1.0_c_double, ieee_quiet_nan)
-      of_nodes([7, 14, 21], :) = spread(places(1, :), 1, 3)
-      of_nodes([8, 15, 22], :) = spread(places(2, :), 1, 3)
-      of_nodes([9, 16, 23], :) = spread(places(3, :), 1, 3)
-      of_nodes([10, 17, 24], :) = spread(places(4, :), 1, 3)
-      of_elements(:17, :) = ieee_value(1.0_c_double, ieee_quiet_nan)
-      of_elements(:4, :) = spread([real(c_double) :: 1.0e6, 1, 2, 3], 2, ne)
-      of_elements(7, :) = 0.1_c_double
+      node_mass = ieee_value(1.0_c_double, ieee_quiet_nan)
+      stiffness = ieee_value(1.0_c_double, ieee_quiet_nan)
+      mass = ieee_value(1.0_c_double, ieee_quiet_nan)
+      notch = ieee_value(1.0_c_double, ieee_quiet_nan)
+      stiffness(:4, :) = spread([real(c_double) :: 1.0e6, 1, 2, 3], 2, ne)
+      mass(1, :) = 0.1_c_double
+      configuration = places
+      reaction = 0
+      stress = 0
+      force = 0
+      misfit = 0
       gravity(:, 1) = 0
       gravity(:, 2) = [real(c_double) :: 0, 0, -9.81]
-      call find_stiffness(nn, ne, nodes, places, elements, vectors, of_elements(:17, :), stiffness, c_t)
-      call follow_path(nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, &
-                       reaction, stress, facts)
-      of_nodes(7:10, :) = configuration
-      of_nodes(11:13, :) = reaction
-      of_elements(18:23, :) = stress
-      given = 1
-      do task = 1, 4
-         if (task == 4) given(1, :) = [0, -1]
-         call study_state(n, 2, 3*asked, nn, ne, nodes, places, elements, vectors, of_nodes(:13, :), of_elements(:23, :), &
-                          [real(c_double) :: task, asked, gravity(:, 2)], given, answer, found)
+      call find_stiffness(nn, ne, nodes, places, elements, vectors, stiffness, notch, element_stiffness, c_t)
+      call follow_path(nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                       reaction, spread(places, 3, 2), misfit, force, gravity, status, reached, iterations, steps, residual, place)
+      force = 1
+      misfit = 1
+      shift = 1
+      call find_response(2, asked, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, &
+                         stress, reaction, gravity(:, 2), force, misfit, shift, displacement, stresses, reactions, pair, loose, &
+                         unheld, negative, failed)
+      do of_buckling = 0, 1
+         call find_modes(asked, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, &
+                         stress, reaction, gravity(:, 2), of_buckling, value, mode, found, unheld, negative, complete, failed)
       end do
+      call find_matrices(2, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                         reaction, gravity(:, 2), [0, -1], reduced(:, :, 1), reduced(:, :, 2), reduced(:, :, 3), complete, failed)
+      call find_errors(2, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                       reaction, gravity(:, 2), 0.0_c_double, misfit, [1.0_c_double, 2.0_c_double], below, above, unheld, &
+                       negative, failed)
    end subroutine take_elastic
 
    ! Here, so that the compiler holds the calls above against them.

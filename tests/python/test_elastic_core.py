@@ -225,6 +225,18 @@ def test_a_planar_angle_turns_more_than_once() -> None:
     assert np.diff(angles) == pytest.approx(angles[-1] / 24)
 
 
+def test_without_loads_the_motions_without_stiffness_are_known() -> None:
+    m = mechanism(PENDULUM)
+    nodes, elements = m.model.nodes.shape[1], m.model.elements.shape[1]
+    none = np.zeros((3, nodes, 0))
+    found = elastic.linear(
+        m.model, m.arrays, m.undeformed, NO_GRAVITY, none, np.zeros((6, elements, 0)), none
+    )
+    assert found.displacement.shape == found.reaction.shape == (3, nodes, 0)
+    assert found.stress.shape == (6, elements, 0) and found.mismatch.size == 0
+    assert found.loose.shape == (3, nodes, 2) and found.negative == 0
+
+
 def test_an_euler_column_and_its_frequencies() -> None:
     """pi^2 EI/4L^2; and 3.516, 22.03 of the clamped beam (Timoshenko)."""
     m = mechanism(column(10, 2, "1e6 3", "0.5"))

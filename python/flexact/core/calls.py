@@ -345,48 +345,52 @@ def analyse_model(
     """
     _, m, n = count_model(model)
     # Memory is taken only where it is written to.
-    index = np.empty((3, m + n + 1), np.int32, order="F")
-    by_size = np.empty((max(1, m + n), 8), order="F")
+    size = max(1, m + n)
+    label = np.empty((2, size), np.int32, order="F")
+    first = np.empty(size + 1, np.int32)
+    scale, scaled_value = np.empty(size), np.empty(size)
+    pair_vector = np.empty((size, _MOST_PAIRS), order="F")
     # Where the address space is limited, what is set aside counts as used.
     room = max(1, min((m + n) ** 2, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
     place, value = np.empty(room, np.int32), np.empty(room)
     require_room_for(model)
-    asked = -1.0 if tolerance is None else tolerance
-    facts = _core.analyse_model(
+    facts, pair_value = _core.analyse_model(
         *model,
-        np.array(
-            (
-                *(METHODS.index(method), asked, min(memory, sys.float_info.max)),
-                *(only_plain_values, _PROOFS[prove], as_stored),
-            ),
-            float,
-        ),
+        METHODS.index(method),
+        -1.0 if tolerance is None else tolerance,
+        min(memory, sys.float_info.max),
+        only_plain_values,
+        _PROOFS[prove],
+        as_stored,
         np.zeros(3, np.int32) if stage is None else stage,
-        index,
+        label,
+        first,
         place,
         value,
-        by_size,
+        scale,
+        scaled_value,
+        pair_vector,
     )
-    named = dict(zip(_FACTS, facts.tolist(), strict=False))
+    named = dict(zip(_FACTS, facts.tolist(), strict=True))
     pairs, motions, stresses = (int(named[what]) for what in ("pairs", "motions", "self-stresses"))
-    start = index[2, : motions + stresses + 1]
+    start = first[: motions + stresses + 1]
     # Of the vectors far more is set aside than they take; given back where they stand.
     used = int(start[-1]) if start.size > 1 else 0
     place.resize(used, refcheck=False)
     value.resize(used, refcheck=False)
     # Views of what cannot be written to cannot be written to either.
-    for array in (facts, index, by_size, place, value):
+    for array in (label, place, value, scale, scaled_value, pair_vector, pair_value):
         array.setflags(write=False)
     return RawAnalysis(
         counts=np.array(facts[4:12], np.int32).reshape(2, 4),
-        row_label=index[:2, :m],
-        column_label=index[:2, m : m + n],
-        scaled_values=by_size[: int(named["scaled values"]), 1],
-        row_scale=by_size[:m, 0],
-        column_scale=by_size[m : m + n, 0],
-        pair_value=facts[len(_FACTS) : len(_FACTS) + pairs],
-        pair_motion=by_size[m : m + n, 2 : 2 + pairs],
-        pair_stress=by_size[:m, 2 : 2 + pairs],
+        row_label=label[:, :m],
+        column_label=label[:, m : m + n],
+        scaled_values=scaled_value[: int(named["scaled values"])],
+        row_scale=scale[:m],
+        column_scale=scale[m : m + n],
+        pair_value=pair_value[:pairs],
+        pair_motion=pair_vector[m : m + n, :pairs],
+        pair_stress=pair_vector[:m, :pairs],
         tolerance=named["tolerance"],
         characteristic_length=named["characteristic length"],
         noise=named["noise"],
@@ -427,13 +431,14 @@ def find_echelon(
         is_transposed: whether that of the transpose is wanted.
     """
     # Entries beside the pivots: rank times (size - rank).
-    place = np.empty((4, size * size // 4 + 1), np.int32, order="F")
+    entry = np.empty((4, size * size // 4 + 1), np.int32, order="F")
     pivot = np.empty(size, np.int32)
     require_room_for(model, _OF_JACOBIAN)
-    wishes = np.array((number, as_stored, is_transposed), np.int32)
-    facts = _core.find_echelon(*model, wishes, pivot, place)
-    high, low, as_typed, _, used = facts.tolist()
-    columns, pivots, upper, lower = place[:, :used].tolist()
+    prime, as_typed, used = _core.find_echelon(
+        *model, number, as_stored, is_transposed, pivot, entry
+    )
+    high, low = prime.tolist()
+    columns, pivots, upper, lower = entry[:, :used].tolist()
     residues = ((a << 31) + b for a, b in zip(upper, lower, strict=True))
     return RawEchelon(
         (high << 31) + low,
@@ -527,24 +532,23 @@ def analyse_variants(
         raise ValueError(f"positions have the shape {positions.shape}")
     if classes.shape[1:] != (elements, 6) or len(classes) not in (1, many):
         raise ValueError(f"classes have the shape {classes.shape}")
-    first = len(_VARIANT_FACTS)
-    facts = np.empty((first + 3 * _MOST_PAIRS, many), order="F")
-    memory = min(wishes.memory, sys.float_info.max)
     require_room_for(model)
-    _core.analyse_variants(
+    facts, *pairs = _core.analyse_variants(
+        many,
         *model,
-        np.array(
-            (*wishes[:4], memory, _PROOFS[wishes.prove], wishes.as_stored, *wishes.zeros), float
-        ),
+        *wishes[:4],
+        min(wishes.memory, sys.float_info.max),
+        _PROOFS[wishes.prove],
+        wishes.as_stored,
+        np.array(wishes.zeros[:2], np.int32),
+        np.array(wishes.zeros[2:]),
         np.ascontiguousarray(positions, float).T,
         np.ascontiguousarray(classes, np.int32).T,
-        facts,
     )
-    named = dict(zip(_VARIANT_FACTS, facts, strict=False))
+    named = dict(zip(_VARIANT_FACTS, facts, strict=True))
     # What is not known is negative.
     known = {name: np.where(fact >= 0.0, fact, math.nan) for name, fact in named.items()}
-    pairs = facts[first:].reshape(3, _MOST_PAIRS, many).swapaxes(1, 2)
-    pairs = np.where(np.arange(_MOST_PAIRS) < named["pairs"][:, None], pairs, math.nan)
+    is_there = np.arange(_MOST_PAIRS) < named["pairs"][:, None]
     return RawVariants(
         named["decided"] == 1,
         named["rows"].astype(np.int32),
@@ -556,5 +560,5 @@ def analyse_variants(
         known["smallest"],
         known["largest"],
         named["characteristic length"],
-        *pairs,
+        *(np.where(is_there, of_pair.T, math.nan) for of_pair in pairs),
     )

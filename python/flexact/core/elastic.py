@@ -21,7 +21,6 @@ from .calls import names_of, require_room_for
 
 #: How a step towards an equilibrium ends.
 ENDINGS = tuple(names_of("step endings"))
-_TASKS = names_of("tasks")
 #: Bytes for each node and element that the core takes for an elastic analysis.
 _OF_ELASTIC = 40_000
 #: Motions without stiffness for which room is set aside at first.
@@ -147,8 +146,9 @@ def element_stiffness(model: PackedModel, arrays: ElasticArrays) -> tuple[FloatA
     Returns:
         (ne, 6, 6) with notches applied, and (ne,) [m^2].
     """
-    _require_room(model)
-    stiffness, c_t = _core.find_stiffness(*model, _of_elements(model, arrays))
+    require_room_for(model, _OF_ELASTIC)
+    given = (arrays.stiffness, arrays.notch)
+    stiffness, c_t = _core.find_stiffness(*model, *(np.asfortranarray(each) for each in given))
     return np.moveaxis(stiffness, 2, 0), c_t
 
 
@@ -170,26 +170,27 @@ def equilibrium(
     Raises:
         ValueError: a shape does not fit, or a number is not finite.
     """
-    _require_room(model)
-    of_nodes = _of_nodes(model, arrays, start, begin, end)
-    of_elements = _of_elements(model, arrays, start.stress, begin.misfit, end.misfit)
-    gravity = np.asfortranarray(np.stack([begin.gravity, end.gravity], axis=1), float)
-    if gravity.shape != (3, 2) or not np.isfinite(gravity).all():
-        raise ValueError("gravity must be three finite numbers")
-    configuration, reaction, stress, facts = _core.follow_path(
-        *model, of_nodes, of_elements, gravity
+    both = (begin, end)
+    # The state changes in place.
+    study = _Study(*(each.copy("F") for each in _study(model, arrays, start)))
+    status, reached, iterations, steps, residual, place = _core.follow_path(
+        *model,
+        *study,
+        _of(model, "a target", [each.target for each in both], (4, _NODES)),
+        _of(model, "a misfit", [each.misfit for each in both], (6, _ELEMENTS)),
+        _of(model, "a force", [each.force for each in both], (3, _NODES)),
+        _gravity(model, [each.gravity for each in both]),
     )
-    status, reached, iterations, steps, residual, place = facts.tolist()
     if status < 0:
         raise MemoryError("memory does not suffice for an elastic analysis")
     return RawEquilibrium(
-        ElasticState(configuration, stress, reaction),
+        ElasticState(study.configuration, study.stress, study.reaction),
         reached,
-        ENDINGS[int(status)],
-        int(iterations),
-        int(steps),
+        ENDINGS[status],
+        iterations,
+        steps,
         residual,
-        int(place),
+        place,
     )
 
 
@@ -219,25 +220,30 @@ def linear(
         FlexactError: the tangent could not be factorised.
     """
     columns = force.shape[-1]
-    nodes, elements = model.nodes.shape[1], model.elements.shape[1]
-    given = np.vstack([_columns(array) for array in (force, misfit, shift)])
-    if given.shape != (6 * (nodes + elements), columns) or not np.isfinite(given).all():
-        raise ValueError("force, misfit and shift must be finite, and of the model's shapes")
-    room = columns + _FEW
-    answer, facts = _studied(model, arrays, state, gravity, "linear", 0, given, room)
-    if facts[1] > _FEW:
-        room = columns + int(facts[1])
-        answer, facts = _studied(model, arrays, state, gravity, "linear", 0, given, room)
-    first, second = 3 * nodes, 3 * nodes + 6 * elements
-    found, loose = answer[:, :columns], answer[:first, columns : columns + int(facts[1])]
-    return RawLinear(
-        found[:first].reshape((3, nodes, columns), order="F"),
-        found[first:second].reshape((6, elements, columns), order="F"),
-        found[second:-1].reshape((3, nodes, columns), order="F"),
-        loose.reshape((3, nodes, loose.shape[1]), order="F"),
-        int(facts[2]),
-        found[-1].copy(),
+    if not columns:
+        # f2py refuses arrays without columns.
+        zeros = (np.zeros((*array.shape[:2], 1)) for array in (force, misfit, shift))
+        one = linear(model, arrays, state, gravity, *zeros)
+        return one._replace(
+            displacement=one.displacement[..., :0],
+            stress=one.stress[..., :0],
+            reaction=one.reaction[..., :0],
+            mismatch=one.mismatch[:0],
+        )
+    given = (
+        *model,
+        *_study(model, arrays, state),
+        _gravity(model, gravity),
+        _of(model, "a force", force, (3, _NODES, columns)),
+        _of(model, "a misfit", misfit, (6, _ELEMENTS, columns)),
+        _of(model, "a shift", shift, (3, _NODES, columns)),
     )
+    found = _core.find_response(_FEW, *given)
+    if found[5] > _FEW:
+        found = _core.find_response(found[5], *given)
+    displacement, stress, reaction, mismatch, loose, unheld, negative, failed = found
+    _require_done(failed)
+    return RawLinear(displacement, stress, reaction, loose[..., :unheld], negative, mismatch)
 
 
 def frequencies(
@@ -252,7 +258,7 @@ def frequencies(
     Directions without mass are condensed; a negative value is an unstable motion, and zero one
     without stiffness. There are fewer than `count` where the mechanism has no more.
     """
-    return _modes(model, arrays, state, gravity, "frequencies", count)
+    return _modes(model, arrays, state, gravity, count, of_buckling=False)
 
 
 def multipliers(
@@ -263,7 +269,7 @@ def multipliers(
     count: int,
 ) -> RawModes:
     """The buckling multipliers nearest to zero: det(K + multiplier H(stress)) = 0."""
-    return _modes(model, arrays, state, gravity, "multipliers", count)
+    return _modes(model, arrays, state, gravity, count, of_buckling=True)
 
 
 def errors(
@@ -294,23 +300,26 @@ def errors(
     Raises:
         ValueError: a shape does not fit, or a number is not finite.
     """
-    nodes, elements, k = model.nodes.shape[1], model.elements.shape[1], stresses.shape[-1]
-    if stresses.shape != (6, elements, k) or not (
-        np.isfinite(stresses).all() and math.isfinite(square)
-    ):
-        raise ValueError("stresses must be finite, and of the model's elements")
+    k = stresses.shape[-1]
+    stresses = _of(model, "a stress", stresses, (6, _ELEMENTS, k))
+    if not math.isfinite(square):
+        raise ValueError("the square is not finite")
     if not k:
         return RawErrors(np.zeros(0), np.zeros(0), 0, 0)
-    given = np.zeros((6 * (nodes + elements), k))
-    given[3 * nodes : 3 * nodes + 6 * elements] = _columns(stresses)
-    given[0, 0] = square
-    given[1] = 0.0 if lengths is None else lengths
-    answer, facts = _studied(model, arrays, state, gravity, "errors", 0, given, k)
+    below, above, loose, negative, failed = _core.find_errors(
+        *model,
+        *_study(model, arrays, state),
+        _gravity(model, gravity),
+        square,
+        stresses,
+        np.zeros(k) if lengths is None else np.ascontiguousarray(lengths, float),
+    )
+    _require_done(failed)
     limit = np.finfo(float).max
     below, above = (
-        np.where(np.abs(row) >= limit, np.copysign(np.inf, row), row) for row in answer[:2]
+        np.where(np.abs(row) >= limit, np.copysign(np.inf, row), row) for row in (below, above)
     )
-    return RawErrors(below, above, int(facts[1]), int(facts[2]))
+    return RawErrors(below, above, loose, negative)
 
 
 def matrices(
@@ -336,15 +345,17 @@ def matrices(
     nodes, elements = model.nodes.shape[1], model.elements.shape[1]
     if any(not -6 * elements <= place < 3 * nodes for place in independent):
         raise ValueError("an independent coordinate is none of the model's")
-    q = len(independent)
-    if not q:
+    if not independent:
         none = np.zeros((0, 0))
         return RawMatrices(none, none, none, False)
-    given = np.zeros((6 * (nodes + elements), q))
-    given[0] = independent
-    answer, facts = _studied(model, arrays, state, gravity, "matrices", 0, given, 3 * q)
-    mass, stiffness, geometric = (answer[:q, i * q : (i + 1) * q].copy() for i in range(3))
-    return RawMatrices(mass, stiffness, geometric, facts[3] == 1)
+    mass, stiffness, geometric, determined, failed = _core.find_matrices(
+        *model,
+        *_study(model, arrays, state),
+        _gravity(model, gravity),
+        np.array(independent, np.int32),
+    )
+    _require_done(failed)
+    return RawMatrices(mass, stiffness, geometric, determined == 1)
 
 
 def _modes(
@@ -352,78 +363,82 @@ def _modes(
     arrays: ElasticArrays,
     state: ElasticState,
     gravity: FloatArray,
-    task: str,
     count: int,
+    of_buckling: bool,
 ) -> RawModes:
-    nodes = model.nodes.shape[1]
-    given = np.zeros((6 * (nodes + model.elements.shape[1]), 1))
-    room = max(1, count)
-    answer, facts = _studied(model, arrays, state, gravity, task, count, given, room)
-    k = int(facts[0])
-    modes = answer[: 3 * nodes, :k].reshape((3, nodes, k), order="F")
-    return RawModes(answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]), facts[3] == 1)
-
-
-def _studied(
-    model: PackedModel,
-    arrays: ElasticArrays,
-    state: ElasticState,
-    gravity: FloatArray,
-    task: str,
-    count: int,
-    given: FloatArray,
-    room: int,
-) -> tuple[FloatArray, FloatArray]:
-    _require_room(model)
-    rows = given.shape[0] + 1
-    answer = np.zeros((rows, room), order="F")
-    wishes = np.array((_TASKS[task], count, *gravity), float)
-    if not np.isfinite(wishes).all():
-        raise ValueError("gravity must be three finite numbers")
-    columns = np.zeros((rows, given.shape[1]), order="F")
-    columns[:-1] = given
-    facts = _core.study_state(
-        *model,
-        _of_nodes(model, arrays, state),
-        _of_elements(model, arrays, state.stress),
-        wishes,
-        columns,
-        answer,
+    value, mode, found, loose, negative, complete, failed = _core.find_modes(
+        count, *model, *_study(model, arrays, state), _gravity(model, gravity), of_buckling
     )
-    if facts[4] == 1:
+    _require_done(failed)
+    # Copies: what is set aside may be far more than there is.
+    return RawModes(
+        value[:found].copy(), mode[..., :found].copy("F"), loose, negative, complete == 1
+    )
+
+
+#: Sizes of arrays that are of the nodes and of the elements.
+_NODES, _ELEMENTS = -1, -2
+
+
+def _of(
+    model: PackedModel,
+    what: str,
+    values: FloatArray | list[FloatArray],
+    shape: tuple[int, ...],
+    may_be_nan: bool = False,
+) -> FloatArray:
+    """An array for the core, of values or of several one behind the other.
+
+    Raises:
+        ValueError: they have another shape, or are not finite.
+    """
+    sizes = {_NODES: model.nodes.shape[1], _ELEMENTS: model.elements.shape[1]}
+    each = values if isinstance(values, list) else [values]
+    if any(array.shape != tuple(sizes.get(size, size) for size in shape) for array in each):
+        raise ValueError(f"{what} is not of the model's size")
+    if not may_be_nan and not all(np.isfinite(array).all() for array in each):
+        raise ValueError(f"a number of {what} is not finite")
+    made = np.stack(each, axis=-1) if isinstance(values, list) else values
+    return np.asfortranarray(made, np.float64)
+
+
+class _Study(NamedTuple):
+    """What is given of a model and of its state, as every call of the core takes it."""
+
+    stiffness: FloatArray
+    mass: FloatArray
+    notch: FloatArray
+    node_mass: FloatArray
+    configuration: FloatArray
+    stress: FloatArray
+    reaction: FloatArray
+
+
+def _study(model: PackedModel, arrays: ElasticArrays, state: ElasticState) -> _Study:
+    """Checked.
+
+    Raises:
+        ValueError: a shape is not that of the model, or a number of the state is not finite.
+    """
+    require_room_for(model, _OF_ELASTIC)
+    return _Study(
+        _of(model, "the stiffness", arrays.stiffness, (6, _ELEMENTS), may_be_nan=True),
+        _of(model, "the mass", arrays.mass, (5, _ELEMENTS), may_be_nan=True),
+        _of(model, "a notch", arrays.notch, (6, _ELEMENTS), may_be_nan=True),
+        _of(model, "the mass of nodes", arrays.node_mass, (6, _NODES), may_be_nan=True),
+        _of(model, "the configuration", state.configuration, (4, _NODES)),
+        _of(model, "the stress", state.stress, (6, _ELEMENTS)),
+        _of(model, "a reaction", state.reaction, (3, _NODES)),
+    )
+
+
+def _gravity(model: PackedModel, given: FloatArray | list[FloatArray]) -> FloatArray:
+    return _of(model, "gravity", given, (3,))
+
+
+def _require_done(failed: int) -> None:
+    if failed:
         raise FlexactError(
             "the matrices of this state could not be decomposed: its numbers differ too much in "
             "size, or memory does not suffice"
         )
-    return answer, facts
-
-
-def _of_nodes(
-    model: PackedModel, arrays: ElasticArrays, state: ElasticState, *waypoints: Waypoint
-) -> FloatArray:
-    parts = [state.configuration, state.reaction]
-    for waypoint in waypoints:
-        parts += [waypoint.target, waypoint.force]
-    return _stacked(model.nodes.shape[1], [arrays.node_mass], parts)
-
-
-def _of_elements(model: PackedModel, arrays: ElasticArrays, *parts: FloatArray) -> FloatArray:
-    given = [arrays.stiffness, arrays.mass, arrays.notch]
-    return _stacked(model.elements.shape[1], given, list(parts))
-
-
-def _stacked(size: int, given: list[FloatArray], parts: list[FloatArray]) -> FloatArray:
-    """Arrays one above the other; only what is given may be NaN."""
-    if any(part.ndim != 2 or part.shape[1] != size for part in (*given, *parts)):
-        raise ValueError("the arrays are not of the model's size")
-    if not all(np.isfinite(part).all() for part in parts):
-        raise ValueError("a number of a state or of what is given is not finite")
-    return np.asfortranarray(np.vstack([*given, *parts]), np.float64)
-
-
-def _columns(array: FloatArray) -> FloatArray:
-    return array.reshape((array.shape[0] * array.shape[1], -1), order="F")
-
-
-def _require_room(model: PackedModel) -> None:
-    require_room_for(model, _OF_ELASTIC)
