@@ -17,7 +17,7 @@ from reference_decks import ROOT
 import flexact
 from flexact import Cost, Model, ModelError, cost
 from flexact.costs.designs import Tolerance, in_words
-from flexact.costs.elastic_design import Choice, ElasticDesign, ratios
+from flexact.costs.elastic_design import ElasticDesign, ratios
 from flexact.costs.resolve import Places
 
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
@@ -409,7 +409,7 @@ def test_errors_are_ruled_out_without_changing_the_shortest() -> None:
     """All clamps of the spider: the core may leave out all that are not nearly as tight."""
     elastic = flexact.elastic(spider(), beams=4)
     made = cost(spider(), release=(), beams=4)
-    mechanism = ElasticDesign(elastic.data, Choice("elastic", "free", 4), {}, 0)
+    mechanism = ElasticDesign(elastic.data, 0, beams=4)
     level = mechanism.levels[0]
     errors = Places(elastic.data, flexact.analyse(spider()).parts).misalignments()
     stresses = np.asfortranarray(level.stresses(errors))

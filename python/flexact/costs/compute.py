@@ -43,7 +43,6 @@ from .designs import (
     words_of_direction,
 )
 from .elastic_design import (
-    Choice,
     ElasticDesign,
     Measures,
     drives_of,
@@ -344,7 +343,7 @@ class _Computation:
         designs: list[Design] = []
         ways: list[Reached] = []
         for k, candidate in enumerate(candidates):
-            mechanism = built if k == 0 else built.released(candidate.pairs)
+            mechanism = replace(built, release=candidate.pairs) if k else built
 
             def part(done: float, before: int = k) -> None:
                 label = _label(candidates[before].released)
@@ -376,8 +375,7 @@ class _Computation:
         asked = self.asked
         driven = self.measures.drives
         watched = self.data.node_index[driven[0][0] if driven else self.point.node]
-        choice = Choice(asked.held, asked.drive, asked.beams)
-        built = ElasticDesign(self.data, choice, {}, watched)
+        built = ElasticDesign(self.data, watched, {}, asked.held, asked.drive, asked.beams)
         first = Candidate((), (), self.result.under_constrained, self.result.over_constrained)
         if asked.release is not None:
             others = tuple(given(self.result, each) for each in asked.release)
@@ -415,7 +413,7 @@ class _Computation:
             way = strokes.follow(mechanism.elastic, self.stroke)
             drive = (self.stroke.node, self.stroke.coordinate)
             curve = strokes.curve_of(
-                *(measures, mechanism.rest, way, drive, mechanism.choice.drive == "locked"),
+                *(measures, mechanism.rest, way, drive, mechanism.drive == "locked"),
                 lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
             )
         if self.given:
@@ -493,7 +491,7 @@ def frequencies_of(
     found = numbers(over_levels(measures.frequencies, mechanism.rest))
     if not found.value.size:
         return None, ()
-    if mechanism.choice.drive == "locked":
+    if mechanism.drive == "locked":
         return found, (False,) * found.value.size
     return found, drives_of(measures, mechanism.rest, found.value.size)
 
@@ -516,9 +514,9 @@ def best(
     with it.
     """
     keys = {}
-    one = built.with_beams(1)
+    one = replace(built, beams=1)
     for place, candidate in enumerate(candidates):
-        mechanism = one.released(candidate.pairs)
+        mechanism = replace(one, release=candidate.pairs)
         kept = kept_beside(measures, one, mechanism)
         worst = 1.0 if kept is None else kept.smallest.value
         found, drives = frequencies_of(measures, mechanism)

@@ -5,22 +5,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core import elastic as core
 from ..core.arrays import BoolArray, FloatArray
+from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
 from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, Estimate, State, elastic
-from ..elasticity.imperfections import misalignment
+from ..elasticity.imperfections import Imperfection, misalignment
 from ..elasticity.solution import Solution
+from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
 from ..model.attributes import Properties
 from ..model.data import ModelData
 from ..model.model import Model
-from ..util.records import cached_property
+from ..util.records import Frozen, cached_property
 from .designs import (
     Kept,
     Misalignment,
@@ -30,7 +31,7 @@ from .designs import (
     unit_of_direction,
     words_of_direction,
 )
-from .request import ReleaseRequest
+from .request import AUTO, DRIVE, HELD, ReleaseRequest
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.
 _HELD = 1.0e-12
@@ -258,18 +259,6 @@ def _moved(measures: Measures, state: State, mode: int, node: int, name: str) ->
     return float(sizes[index, "xyz".index(name[-1])]) / largest if largest > 0.0 else 0.0
 
 
-#: What rigid parts cannot follow of an error, beyond rounding.
-MISMATCH = 1.0e-8
-
-
-class Choice(NamedTuple):
-    """What is made of a model."""
-
-    held: str
-    drive: str
-    beams: int | str
-
-
 def has_stiffness(data: ModelData) -> bool:
     """Whether any element has a stiffness."""
     given = data.properties
@@ -315,31 +304,28 @@ def with_unit_mass(data: ModelData, node: int) -> ModelData:
     return replace(data, properties=Properties(given.stiffness, none, mass))
 
 
-class ElasticDesign:
-    """A design: its elastic model, and its state at rest."""
+@dataclass(frozen=True, eq=False)
+class ElasticDesign(Frozen):
+    """A design: its elastic model, and its state at rest.
 
-    def __init__(self, data: ModelData, choice: Choice, pairs: ReleaseRequest, drive: int) -> None:
-        """Of a model as given.
+    Attributes:
+        data: The model as given.
+        watched: Index of the node of which the stiffness stands for frequencies without masses.
+        release: What is released.
+        held: What is made of held deformations, "elastic" or "rigid".
+        drive: And of declared coordinates, "free" or "locked".
+        beams: Beams a sheet, or "auto".
+    """
 
-        Args:
-            data: The model.
-            choice: What is made of it.
-            pairs: What is released.
-            drive: Index of the node of which the stiffness stands for frequencies without masses.
-        """
-        self.data, self.choice, self.pairs, self.drive = data, choice, pairs, drive
-
-    def with_beams(self, beams: int) -> ElasticDesign:
-        """The same with another number of beams."""
-        return ElasticDesign(self.data, self.choice._replace(beams=beams), self.pairs, self.drive)
-
-    def released(self, pairs: ReleaseRequest) -> ElasticDesign:
-        """The same with something else released."""
-        return ElasticDesign(self.data, self.choice, pairs, self.drive)
+    data: ModelData
+    watched: int
+    release: ReleaseRequest = field(default_factory=dict)
+    held: str = HELD[0]
+    drive: str = DRIVE[0]
+    beams: int | str = AUTO
 
     def _elastic(self, data: ModelData) -> Elastic:
-        held, drive, beams = self.choice
-        return elastic(Model.from_data(data), held, drive, self.pairs, beams)
+        return elastic(Model.from_data(data), self.held, self.drive, self.release, self.beams)
 
     @cached_property
     def elastic(self) -> Elastic:
@@ -361,21 +347,21 @@ class ElasticDesign:
         """The model whose first frequency is watched: without masses that of a unit mass."""
         if self.has_masses:
             return self.elastic
-        return self._elastic(with_unit_mass(self.data, self.drive))
+        return self._elastic(with_unit_mass(self.data, self.watched))
 
     @cached_property
     def levels(self) -> tuple[Level, ...]:
         """The design with each number of beams, the fewest first."""
         rest = self.rest if self.has_masses else self.measured.undeformed()
-        return tuple(Level(self, k, each.finest) for k, each in enumerate(rest.alone))
+        return tuple(Level(self, at) for at in rest.meshes)
 
 
 class Level:
     """A design with one number of beams: what errors do to it whose stress is in proportion."""
 
-    def __init__(self, mechanism: ElasticDesign, number: int, solution: Solution) -> None:
-        """Keep the design, which of its meshes this is, and its state at rest."""
-        self.mechanism, self.number, self.solution = mechanism, number, solution
+    def __init__(self, mechanism: ElasticDesign, solution: Solution) -> None:
+        """Keep the design, and its state at rest of one mesh."""
+        self.mechanism, self.solution = mechanism, solution
 
     @cached_property
     def first_square(self) -> float:
@@ -392,21 +378,18 @@ class Level:
             raise ElasticError("no mass moves, or the undeformed state is unstable")
         return float(values[0])
 
-    def response(self, misalignments: Sequence[Misalignment]) -> tuple[FloatArray, core.RawLinear]:
+    def response(self, misalignments: Sequence[Misalignment]) -> tuple[FloatArray, RawLinear]:
         """(3, nodes, k) moves of the supports for unit errors, and what they do.
 
         Raises:
             ElasticError: a self-stress of rigid parts is not determined.
         """
         self.mechanism.elastic.require_determined()
-        solver, points = self.solution.solver, self.mechanism.elastic.points
-        shift = np.zeros((3, solver.nodes, len(misalignments)), order="F")
-        for k, each in enumerate(misalignments):
-            off = misalignment(
-                *(points, each.clamp.node, each.direction, 1.0, each.about), beyond=True
-            )
-            shift[:, : solver.mesh.nodes, k] = off.shift(solver.mesh.own)
-        return shift, self.solution.respond(np.zeros_like(shift), None, shift)
+        return unit_errors(self.solution, [self._off(each) for each in misalignments])
+
+    def _off(self, each: Misalignment) -> Imperfection:
+        points = self.mechanism.elastic.points
+        return misalignment(points, each.clamp.node, each.direction, 1.0, each.about, beyond=True)
 
     def stresses(self, misalignments: Sequence[Misalignment]) -> FloatArray:
         """(6, pieces, k) stress of each unit error; NaN where rigid parts cannot follow it.
@@ -425,38 +408,26 @@ class Level:
         With lengths (k,) of unit errors only those about as short as the shortest; others are
         infinite.
         """
-        at = self.solution
-        model = at.solver.model(at.held)
-        raw = core.errors(
-            model, at.solver.arrays, at.raw, at.way.gravity, stresses, square, lengths
-        )
+        raw = self.solution.errors(stresses, square, lengths)
         if raw.negative or raw.loose:
             raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
         return np.stack([raw.below, raw.above], axis=1)
 
     def measure(self, stress: FloatArray) -> float:
         """First frequency [Hz] under a stress, 0 where it is unstable; or the lowest stiffness."""
-        at = self.solution
-        raw = at.raw._replace(stress=np.asfortranarray(stress))
-        model = at.solver.model(at.held)
-        found = core.frequencies(model, at.solver.arrays, raw, at.way.gravity, 1)
-        square = float(found.values[0])
-        if not self.mechanism.has_masses:
-            return max(square, 0.0)
         # Of an unstable motion it is 0.
-        return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)
+        square = max(self.solution.under(stress).lowest_square, 0.0)
+        return math.sqrt(square) / (2.0 * math.pi) if self.mechanism.has_masses else square
+
+    def rising(self, each: Misalignment, shift: float) -> tuple[float, float]:
+        """Errors that raise the first frequency: of several modes it stays the lowest."""
+        return Linear(self.solution, self._off(each)).shifted(shift)
 
     def buckled(self, each: Misalignment, sense: float) -> FloatArray | None:
         """(nodes, 3) the shape in which it buckles, below or above zero; None where it does not."""
-        found = self.stressed(self.stresses((each,))[:, :, 0]).buckling
+        found = self.solution.under(self.stresses((each,))[:, :, 0]).buckling
         right = np.flatnonzero(sense * found.values > 0.0)
         if not right.size:
             return None
         first = right[int(np.argmin(np.abs(found.values[right])))]
         return np.ascontiguousarray(found.modes[:, :, first].T)
-
-    def stressed(self, stress: FloatArray) -> Solution:
-        """The state at rest under a stress (6, pieces)."""
-        at = self.solution
-        raw = at.raw._replace(stress=np.asfortranarray(stress))
-        return Solution(at.solver, raw, at.way, at.held)

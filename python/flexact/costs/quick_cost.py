@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,11 +16,12 @@ from ..core.arrays import BoolArray, FloatArray
 from ..elasticity import ElasticError
 from ..elasticity.reduced import peak_of, resultants_of
 from ..elasticity.solution import Solution
+from ..elasticity.tolerance import MISMATCH
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import MISMATCH, Choice, ElasticDesign, Level, has_stiffness
+from .elastic_design import ElasticDesign, Level, has_stiffness
 from .request import SHIFT
 from .resolve import Places
 from .tolerances import extrapolated, tolerances_of
@@ -72,14 +74,13 @@ class _QuickCost:
             return ""
         drives = self.places.drives()
         node = drives[0][0] if drives else self.places.point(None).node
-        mechanism = ElasticDesign(
-            self.data, Choice("elastic", "free", "auto"), {}, self.data.node_index[node]
-        )
-        order = self._in_order(mechanism.with_beams(1))
+        mechanism = ElasticDesign(self.data, self.data.node_index[node])
+        one = replace(mechanism, beams=1)
+        order = self._in_order(one)
         if not order:
             return ""
         if len(self.errors) * mechanism.levels[-1].solution.solver.elements > _MOST_LOOKED_AT:
-            return f"{self._small(mechanism.with_beams(1), order[0])}. {self._more()}"
+            return f"{self._small(one, order[0])}. {self._more()}"
         name = FREQUENCY if mechanism.has_masses else STIFFNESS
         found = self._tightest(mechanism, order)
         if found is None:
@@ -97,7 +98,7 @@ class _QuickCost:
 
         Energy is linear, and exact with the deck's own elements.
         """
-        shift, answer = Level(one, 0, one.rest.finest).response(self.errors)
+        shift, answer = Level(one, one.rest.finest).response(self.errors)
         if answer.loose.shape[2]:
             return []
         energy = 0.5 * np.einsum("cnk,cnk->k", shift, answer.reaction)
@@ -161,7 +162,8 @@ class _QuickCost:
             if parts.of_element(e).kind is not PartKind.BODY
         ]
         states = [
-            level.stressed(size * level.stresses((each,))[:, :, 0]) for level in mechanism.levels
+            level.solution.under(size * level.stresses((each,))[:, :, 0])
+            for level in mechanism.levels
         ]
         known = [e for e in which if _is_known(states[-1], e)]
         if known:

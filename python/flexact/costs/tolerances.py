@@ -14,9 +14,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..elasticity import Elastic, Estimate
+from ..elasticity import Estimate
 from .designs import Misalignment, MisalignmentCurve, Number, Numbers, Tolerance
-from .elastic_design import ElasticDesign, Level
+from .elastic_design import ElasticDesign
 
 #: Errors of so many sizes of the model, or radians, are none that anybody makes, and far beyond
 #: where the stress is in proportion to them.
@@ -61,7 +61,7 @@ def tolerances_of(
             aimed = level.errors(stresses, square)
         else:
             some = [each for each, fits in zip(misalignments, able, strict=True) if fits]
-            aimed = np.array([_rising(level, each, shift) for each in some]).reshape(-1, 2)
+            aimed = np.array([level.rising(each, shift) for each in some]).reshape(-1, 2)
         found.append(np.concatenate([aimed, critical], axis=1))
         progress((k + 1.0) / len(mechanism.levels))
     kept = [each for each, fits in zip(misalignments, able, strict=True) if fits]
@@ -70,13 +70,6 @@ def tolerances_of(
         Tolerance(each, *(_number(whole, j, k, size, each.unit) for k in range(4)))
         for j, each in enumerate(kept)
     )
-
-
-def _rising(level: Level, each: Misalignment, shift: float) -> tuple[float, float]:
-    """Errors that raise the first frequency: of several modes it stays the lowest."""
-    model: Elastic = level.mechanism.measured
-    node, about = each.clamp.node, each.about
-    return model.alone[level.number].misalignment_for(shift, node, each.direction, about)
 
 
 def extrapolated(found: Sequence[FloatArray]) -> Estimate:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core import elastic
 from ..core.arrays import FloatArray
-from ..core.elastic import ElasticState, RawEquilibrium, Waypoint
+from ..core.elastic import Waypoint
 from ..core.elements import NodeKind
 from ..util.text import in_short
 from .errors import ElasticError, StrokeError, StrokeWarning
@@ -132,13 +132,12 @@ def with_drive(solver: Solver, target: FloatArray, drive: Coordinate, value: flo
     return made
 
 
-DONE = "done"
 #: Why there may be no equilibrium, by how the core ended.
 _WHY = {
-    "": "it snaps or buckles there, or comes to the end of its reach; smaller steps change nothing",
     "inconsistent": "what is rigid cannot follow any farther",
     "unheld": "a load acts along a motion that nothing resists",
 }
+_SNAPS = "it snaps or buckles there, or comes to the end of its reach; smaller steps change nothing"
 
 
 def at_rest(solver: Solver, held: Held) -> Solution:
@@ -152,8 +151,9 @@ def assembled(solver: Solver, off: Sequence[Imperfection], held: Held) -> Soluti
     Raises:
         StrokeError: it was not reached.
     """
+    start = at_rest(solver, held)
     if not off:
-        return at_rest(solver, held)
+        return start
     # Where the supports are and what is off of the pieces, without loads.
     own, many = solver.mesh.own, solver.mesh.nodes
     target = solver.at_rest.configuration.copy(order="F")
@@ -162,12 +162,9 @@ def assembled(solver: Solver, off: Sequence[Imperfection], held: Held) -> Soluti
         target[:, :many] = each.moved_to(target[:, :many], own)
         misfit += each.value * each.misfit
     way = solver.nothing._replace(target=target, misfit=solver.mesh.misfit(misfit))
-    found = _go(solver, held, solver.at_rest, solver.nothing, way)
-    if found.status != DONE:
-        size = off[0].value if len(off) == 1 else 1.0
-        what = off[0].words if len(off) == 1 else "part of what is off"
-        raise _stopped(solver.mesh, found, 0.0, size, what)
-    return Solution(solver, found.state, way, held)
+    if len(off) == 1:
+        return _reached(start, way, 0.0, off[0].value, off[0].words)
+    return _reached(start, way, 0.0, 1.0, "part of what is off")
 
 
 def loaded(start: Solution, factor: float) -> Solution:
@@ -176,13 +173,9 @@ def loaded(start: Solution, factor: float) -> Solution:
     Raises:
         StrokeError: it was not reached.
     """
-    solver = start.solver
-    force, gravity = solver.loads(factor)
+    force, gravity = start.solver.loads(factor)
     way = start.way._replace(force=force, gravity=gravity)
-    found = _go(solver, start.held, start.raw, start.way, way)
-    if found.status != DONE:
-        raise _stopped(solver.mesh, found, 0.0, factor, "the loads, as a factor")
-    return Solution(solver, found.state, way, start.held)
+    return _reached(start, way, 0.0, factor, "the loads, as a factor")
 
 
 def driven(
@@ -201,31 +194,34 @@ def driven(
         if k is None:
             here, last = start, begin
             continue
-        there = values[k]
-        way = start.way._replace(target=with_drive(solver, start.way.target, drive, there))
-        before = here.way._replace(target=with_drive(solver, here.way.target, drive, last))
-        raw = _go(solver, held, here.raw, before, way)
-        if raw.status != DONE:
-            raise _stopped(solver.mesh, raw, last, there, points.words(drive))
-        here, last = Solution(solver, raw.state, way, held), there
+        before, way = (
+            each.way._replace(target=with_drive(solver, each.way.target, drive, value))
+            for each, value in ((here, last), (start, values[k]))
+        )
+        held_here = Solution(solver, here.raw, before, held)
+        here = _reached(held_here, way, last, values[k], points.words(drive))
+        last = values[k]
         found[k] = here if locked else freed(here, start.held, drive)
     return tuple(found[k] for k in range(len(values)))
 
 
-def _go(
-    solver: Solver, held: Held, start: ElasticState, begin: Waypoint, end: Waypoint
-) -> RawEquilibrium:
-    return elastic.equilibrium(solver.model(held), solver.arrays, start, begin, end)
+def _reached(start: Solution, way: Waypoint, begin: float, end: float, what: str) -> Solution:
+    """The equilibrium at the end of a way, on which something goes from one value to another.
 
-
-def _stopped(mesh: Mesh, found: RawEquilibrium, begin: float, end: float, what: str) -> StrokeError:
-    """The error of a path that ended early."""
+    Raises:
+        StrokeError: it was not reached.
+    """
+    solver = start.solver
+    model = solver.model(start.held)
+    found = elastic.equilibrium(model, solver.arrays, start.raw, start.way, way)
+    if found.status == "done":
+        return Solution(solver, found.state, way, start.held)
     reached = begin + found.reached * (end - begin)
-    place = _place(mesh, found.place)
+    place = _place(solver.mesh, found.place)
     where = f", where it stopped at {place}" if place else ""
-    return StrokeError(
+    raise StrokeError(
         f"no equilibrium was found beyond {reached:.6g} on the way from {begin:.6g} to "
-        f"{end:.6g} of {what}{where}: {_WHY.get(found.status, _WHY[''])}",
+        f"{end:.6g} of {what}{where}: {_WHY.get(found.status, _SNAPS)}",
         reached,
         place,
     )
@@ -236,8 +232,7 @@ def _place(mesh: Mesh, place: int) -> str:
     if place >= 0:
         node, axis = divmod(place, 3)
         if node < mesh.nodes:
-            points = Points(mesh.own)
-            return points.words(Coordinate(node, axis))
+            return Points(mesh.own).words(Coordinate(node, axis))
         touched = (mesh.data.arrays.element_node == node + 1).any(axis=0)
         element = mesh.owner[int(np.argmax(touched))]
         return f"the middle of element {int(mesh.own.arrays.element_number[element])}"

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray
+from ..core.elastic import RawMatrices
 from ..core.elements import Class, NodeKind
 from ..model.configuration import Configuration
 from ..model.data import ModelData
@@ -28,7 +29,7 @@ from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, r
 from .imperfections import Angle, Imperfection, misalignment, number_given, warmth
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
-from .reduced import Reduced, Reducer, Resultants, peak_of, resultants_of
+from .reduced import Reducer, Resultants, peak_of, resultants_of
 from .solution import (
     DRIVES,
     HELD,
@@ -49,7 +50,9 @@ from .solution import (
     releases_given,
 )
 from .tolerance import Linear, Pair
-from .verdicts import Verdict, Verdicts
+from .verdicts import Verdicts
+
+Match = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,7 +96,7 @@ class Elastic(Frozen):
         made = divisions(self.data, self.beams, which)
         if self.only is not None:
             made = (made[self.only],)
-        return tuple(Solver(Mesh.of(self.data, pieces), self.policy) for pieces in made)
+        return tuple(Solver(Mesh(self.data, pieces), self.policy) for pieces in made)
 
     @cached_property
     def locked(self) -> Held:
@@ -263,9 +266,10 @@ class Elastic(Frozen):
         for solver in self.solvers:
             key = (solver, *what)
             if key not in self._linears:
-                self._linears[key] = Linear(solver, self.locked, off)
+                self._linears[key] = Linear(drives.at_rest(solver, self.locked), off)
             found.append(of(self._linears[key]))
-        return found[0] if len(found) == 1 else tuple(Estimate.of(*found).value.tolist())
+        low, high = Estimate.of(*found).value.tolist()
+        return low, high
 
     @cached_property
     def _linears(self) -> dict[object, Linear]:
@@ -293,13 +297,11 @@ class Elastic(Frozen):
         other = replace(self, release=both)
         point = self.points.of(node)
         coordinates = self.points.coordinates(point)
-        found = []
-        for mine, its in zip(self.solvers, other.solvers, strict=True):
-            before, after = (
-                drives.at_rest(each, self.locked).compliance(point, coordinates)
-                for each in (mine, its)
-            )
-            found.append(kept(before, after))
+        before, after = (
+            [drives.at_rest(s, self.locked).compliance(point, coordinates) for s in each.solvers]
+            for each in (self, other)
+        )
+        found = [kept(*both) for both in zip(before, after, strict=True)]
         if len(found) == 1 or found[0].shape != found[1].shape:
             return found[-1]
         return np.array(np.clip(Estimate.of(*found).value, 0.0, 1.0))
@@ -310,13 +312,13 @@ class Elastic(Frozen):
         Args:
             quantity: What is wanted, such as `lambda m: m.critical_misalignment(11, "x")`.
         """
-        if len(self.solvers) == 1:
-            return Estimate.fixed(quantity(self))
         return Estimate.of(*map(quantity, self.alone))
 
     @cached_property
     def alone(self) -> tuple[Elastic, ...]:
         """This model with each of its meshes alone."""
+        if len(self.solvers) == 1:
+            return (self,)
         made = tuple(replace(self, only=k) for k in range(len(self.solvers)))
         for each, solver in zip(made, self.solvers, strict=True):
             # What was computed is not computed again.
@@ -446,8 +448,7 @@ class Elastic(Frozen):
                 larger than the model, and not `beyond`.
             StrokeError: no equilibrium was found.
         """
-        off = misalignment(self.points, node, coordinate, value, about, beyond)
-        return self._imperfect(off)
+        return self._imperfect(misalignment(self.points, node, coordinate, value, about, beyond))
 
     def misfit(
         self, element: object, deformation: int, value: float, beyond: bool = False
@@ -555,8 +556,6 @@ class State(Frozen):
         Args:
             quantity: What is wanted of a state, such as `lambda s: s.frequencies[0]`.
         """
-        if len(self.alone) == 1:
-            return Estimate.fixed(quantity(self.alone[0]))
         return Estimate.of(*map(quantity, self.alone))
 
     @cached_property
@@ -568,20 +567,8 @@ class State(Frozen):
 
     def best(self, of: Callable[[Solution], ArrayLike]) -> FloatArray:
         """Numbers of the state of a mesh, extrapolated from those of both."""
-        values = [np.asarray(of(each), np.float64) for each in self.meshes]
-        made = values[0] if len(values) == 1 else Estimate.of(*values).value
         # A zero has no sign.
-        return np.array(made) + 0.0
-
-    def eigenvalues(
-        self,
-        of: Callable[[Solution], FloatArray],
-        match: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]],
-    ) -> FloatArray:
-        """Eigenvalues likewise, of which `match` finds for each its like; ascending."""
-        values = [of(each) for each in self.meshes]
-        made = values[0] if len(values) == 1 else Estimate.of(*match(*values)).value
-        return np.sort(made) + 0.0
+        return np.array(Estimate.of(*map(of, self.meshes)).value) + 0.0
 
     # -- where it is, and what it carries ------------------------------------------------------
 
@@ -700,12 +687,11 @@ class State(Frozen):
     # -- the deck's own elements and classes ---------------------------------------------------
 
     @cached_property
-    def _reduced(self) -> tuple[Reduced, ...]:
+    def _reduced(self) -> tuple[RawMatrices, ...]:
         return tuple(self.model.reducer.of(at) for at in self.meshes)
 
     def _matrix(self, which: int) -> FloatArray:
-        values = [each[which] for each in self._reduced]
-        return values[0] if len(values) == 1 else Estimate.of(*values).value
+        return np.array(Estimate.of(*(each[which] for each in self._reduced)).value)
 
     @property
     def mass_matrix(self) -> FloatArray:
@@ -727,24 +713,24 @@ class State(Frozen):
         return self._matrix(2)
 
     @cached_property
-    def _verdict(self) -> Verdict:
+    def _verdict(self) -> tuple[int, int, float]:
         mesh = self.finest.solver.mesh
         return self.model.verdicts.of(mesh.own_nodes(self.finest.raw.configuration))
 
     @property
     def under_constrained(self) -> int:
         """Number of motions here that nothing determines, by the deck's classes."""
-        return self._verdict.under_constrained
+        return self._verdict[0]
 
     @property
     def over_constrained(self) -> int:
         """Number of self-stresses here, by the deck's classes."""
-        return self._verdict.over_constrained
+        return self._verdict[1]
 
     @property
     def smallest_singular_value(self) -> float:
         """The smallest singular value of D(c) itself here, in the deck's units."""
-        return self._verdict.smallest_singular_value
+        return self._verdict[2]
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -798,7 +784,8 @@ class State(Frozen):
         self.model.require_mass()
         for at in self.meshes:
             at.require_stiffness()
-        return self.eigenvalues(lambda at: at.frequencies, matched_by_order)
+        values = [at.frequencies for at in self.meshes]
+        return np.sort(_estimated(values, matched_by_order).value) + 0.0
 
     @cached_property
     def modes(self) -> FloatArray:
@@ -818,7 +805,8 @@ class State(Frozen):
         """
         for at in self.meshes:
             at.require_stiffness()
-        return self.eigenvalues(lambda at: at.buckling.values, matched_by_sign)
+        values = [at.buckling.values for at in self.meshes]
+        return np.sort(_estimated(values, matched_by_sign).value) + 0.0
 
     @cached_property
     def buckling_modes(self) -> FloatArray:
@@ -838,12 +826,45 @@ class State(Frozen):
         )
 
     def describe(self) -> str:
-        """The state in plain English."""
-        return describe(self)
+        """What it is, its verdict, whether it is stable, frequencies and multipliers, in words."""
+        lines = [f"{self.label[:1].upper()}{self.label[1:]}; {self.model.words}."]
+        over, under = self.over_constrained, self.under_constrained
+        lines.append(
+            f"Over-constrained by {over}, under-constrained by {under}, by the deck's classes."
+        )
+        if self.drive is not None:
+            lines.append(f"Force of the drive: {self.force:.6g}.")
+        lines.append(f"Elastic energy: {self.energy:.6g} J.")
+        if not self.is_stable:
+            lines.append("Buckled: this state is unstable.")
+        elif self.loose:
+            several = "s" * (len(self.loose) > 1)
+            motions = "; ".join(map(str, self.loose[:_MOST_TOLD]))
+            lines.append(f"{len(self.loose)} motion{several} without stiffness: {motions}.")
+        else:
+            lines.append("Stable.")
+        if self.model.has_mass:
+            every = [each.frequencies for each in self.alone]
+            lines.append(f"Frequencies: {_listed(_estimated(every, matched_by_order))} Hz.")
+        else:
+            lines.append("Nothing has a mass (EM, XM): there are no frequencies.")
+        if self.finest.is_stressed:
+            try:
+                every = [each.multipliers for each in self.alone]
+                told = _listed(_estimated(every, matched_by_sign)) or "none"
+            except ElasticError as error:
+                told = str(error)
+            lines.append(f"Multipliers: {told}.")
+        return "\n".join((*lines, *(f"Note: {note}." for note in self.notes)))
 
     def __repr__(self) -> str:
         """What it is a state of."""
         return f"<State: {self.label}, {self.model.words}>"
+
+
+def _estimated(values: Sequence[FloatArray], match: Match) -> Estimate:
+    """Eigenvalues of one mesh, or of two, of which `match` finds for each its like."""
+    return Estimate.of(*(match(*values) if len(values) > 1 else values))
 
 
 #: How many eigenvalues are told.
@@ -852,42 +873,8 @@ _MOST_TOLD = 6
 _SHOWN = 1.0e-6
 
 
-def describe(state: State) -> str:
-    """What a state is, its verdict, whether it is stable, frequencies and multipliers."""
-    lines = [f"{state.label[:1].upper()}{state.label[1:]}; {state.model.words}."]
-    over, under = state.over_constrained, state.under_constrained
-    lines.append(
-        f"Over-constrained by {over}, under-constrained by {under}, by the deck's classes."
-    )
-    if state.drive is not None:
-        lines.append(f"Force of the drive: {state.force:.6g}.")
-    lines.append(f"Elastic energy: {state.energy:.6g} J.")
-    if not state.is_stable:
-        lines.append("Buckled: this state is unstable.")
-    elif state.loose:
-        several = "s" * (len(state.loose) > 1)
-        motions = "; ".join(map(str, state.loose[:_MOST_TOLD]))
-        lines.append(f"{len(state.loose)} motion{several} without stiffness: {motions}.")
-    else:
-        lines.append("Stable.")
-    if state.model.has_mass:
-        lines.append(f"Frequencies: {_listed(state, 'frequencies')} Hz.")
-    else:
-        lines.append("Nothing has a mass (EM, XM): there are no frequencies.")
-    if state.finest.is_stressed:
-        try:
-            lines.append(f"Multipliers: {_listed(state, 'multipliers') or 'none'}.")
-        except ElasticError as error:
-            lines.append(f"Multipliers: {error}.")
-    lines += [f"Note: {note}." for note in state.notes]
-    return "\n".join(lines)
-
-
-def _listed(state: State, name: str) -> str:
+def _listed(found: Estimate) -> str:
     """Such as "9.92 (+- 0.01), 403"; the nearest to zero, ascending."""
-    every = [getattr(each, name) for each in state.alone]
-    match = matched_by_sign if name == "multipliers" else matched_by_order
-    found = Estimate.of(*match(*every)) if len(every) > 1 else Estimate.fixed(every[0])
     least = _SHOWN * np.abs(found.value)
     nearest = np.argsort(np.abs(found.value), kind="stable")[:_MOST_TOLD]
     chosen = sorted(nearest.tolist(), key=lambda k: float(found.value[k]))

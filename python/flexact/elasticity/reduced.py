@@ -5,20 +5,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from ..core import elastic
 from ..core.arrays import FloatArray, IntArray, PackedModel, packed
-from ..core.elastic import ElasticArrays, ElasticState
+from ..core.elastic import ElasticArrays, ElasticState, RawMatrices
 from ..core.elements import (
     AXES,
     Class,
     Dual,
     Member,
     Role,
-    coordinate_name,
     dual_table,
     member_table,
     role_table,
@@ -31,35 +29,12 @@ from .errors import ElasticError
 from .solution import Policy, Solution, notch_in_units
 
 
-class Reduced(NamedTuple):
-    """Mass, stiffness and geometric stiffness, each (q, q)."""
-
-    mass: FloatArray
-    stiffness: FloatArray
-    geometric: FloatArray
-
-
 class Reducer:
     """The deck's own elements with its own classes, whatever is elastic."""
 
     def __init__(self, data: ModelData, policy: Policy) -> None:
         """Keep the model as given, with what its elements are made of."""
         self.data, self._policy = data, policy
-
-    @cached_property
-    def labels(self) -> tuple[tuple[int, str | int], ...]:
-        """Node and coordinate, or element and deformation (from 1), of each row."""
-        arrays = self.data.arrays
-        made: list[tuple[int, str | int]] = []
-        for place in self.independent.tolist():
-            if place >= 0:
-                node, axis = divmod(place, 3)
-                kind = int(arrays.node_kind[node])
-                made.append((int(arrays.node_number[node]), coordinate_name(kind, axis)))
-            else:
-                element, k = divmod(-1 - place, 6)
-                made.append((int(arrays.element_number[element]), k + 1))
-        return tuple(made)
 
     @cached_property
     def independent(self) -> IntArray:
@@ -112,7 +87,7 @@ class Reducer:
         given_arrays = self._policy.arrays
         return model, given_arrays._replace(notch=notch_in_units(self.data, given_arrays.notch))
 
-    def of(self, at: Solution) -> Reduced:
+    def of(self, at: Solution) -> RawMatrices:
         """The matrices of the deck's elements where their ends are, under their stresses."""
         mesh = at.solver.mesh
         model, arrays = self._model
@@ -120,10 +95,10 @@ class Reducer:
             mesh.own_nodes(at.raw.configuration), at.stress, mesh.own_nodes(at.raw.reaction)
         )
         if not self.independent.size:
-            return Reduced(*(np.zeros((0, 0)) for _ in range(3)))
+            none = np.zeros((0, 0))
+            return RawMatrices(none, none, none, True)
         independent = tuple(self.independent.tolist())
-        raw = elastic.matrices(model, arrays, state, at.way.gravity, independent)
-        return Reduced(raw.mass, raw.stiffness, raw.geometric)
+        return elastic.matrices(model, arrays, state, at.way.gravity, independent)
 
 
 _BENDINGS = {

@@ -16,19 +16,21 @@ from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
 from ..core.elastic import (
     ElasticArrays,
     ElasticState,
+    RawErrors,
     RawLinear,
     RawModes,
     Waypoint,
     element_stiffness,
 )
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
+from ..model.attributes import Properties
 from ..model.data import ModelData
 from ..util.matrices import complement, span
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .errors import ElasticError
-from .mesh import Mesh, bending_pairs, rigid_of_pieces
+from .mesh import Mesh, bending_pairs
 from .points import Coordinate, Point, Points
 
 HELD = ("elastic", "rigid")
@@ -137,18 +139,12 @@ def elastic_arrays(data: ModelData, notch: FloatArray) -> ElasticArrays:
     """Stiffness and mass of a model, as the core takes them; NaN where nothing is given."""
     given, ne = data.properties, data.arrays.element_number.size
     if given is None:
-        return ElasticArrays(
-            np.full((6, ne), np.nan, order="F"),
-            np.full((5, ne), np.nan, order="F"),
-            np.full((6, data.arrays.node_number.size), np.nan, order="F"),
-            notch,
-        )
-    return ElasticArrays(
-        np.asfortranarray(given.stiffness.T),
-        np.asfortranarray(given.mass.T),
-        np.asfortranarray(given.node_mass.T),
-        notch,
+        shapes = (ne, 6), (ne, 5), (data.arrays.node_number.size, 6)
+        given = Properties(*(np.full(shape, np.nan) for shape in shapes))
+    stiffness, mass, node_mass = (
+        np.asfortranarray(each.T) for each in (given.stiffness, given.mass, given.node_mass)
     )
+    return ElasticArrays(stiffness, mass, node_mass, notch)
 
 
 def notch_in_units(data: ModelData, notch: FloatArray) -> FloatArray:
@@ -264,28 +260,21 @@ class Solver:
         """Of a mesh, with the policy of its deck's elements."""
         self.mesh, self.policy = mesh, policy
         self._models: dict[Held, PackedModel] = {}
-        data, owner = mesh.data, mesh.owner
-        place = np.arange(owner.size)
-        is_first, is_last = place == mesh.first[owner], place == mesh.last[owner]
-        kinds = mesh.own.arrays.element_kind
-        rigid = rigid_of_pieces(policy.rigid, owner, is_first, is_last, kinds)
+        rigid = mesh.rigid(policy.rigid)
         self._classes = np.where(
-            data.arrays.deformation_class == Class.NONE,
+            mesh.data.arrays.deformation_class == Class.NONE,
             Class.NONE,
             np.where(rigid, Class.FIXED, Class.DEPENDENT),
         ).astype(np.int32)
-        self.arrays: ElasticArrays = elastic_arrays(data, self._notches(is_first, is_last))
-        #: (6, pieces) which deformations are no multipliers: those with a notch neither.
-        self.is_elastic: BoolArray = ~rigid | (self.arrays.notch >= 0.0)
-
-    def _notches(self, is_first: BoolArray, is_last: BoolArray) -> FloatArray:
-        """Notches of the pieces: at q those of the last, all others of the first."""
-        mesh = self.mesh
-        own = self.policy.arrays.notch[:, mesh.owner]
+        # At q notches are those of the last piece, all others of the first.
+        is_first, is_last = mesh.ends
         there = np.repeat(is_first[None, :], 6, axis=0)
         for _, q, bends in bending_pairs(mesh.own.arrays.element_kind):
             there[q] = np.where(bends[mesh.owner], is_last, is_first)
-        return notch_in_units(mesh.data, np.where(there, own, np.nan))
+        own = np.where(there, policy.arrays.notch[:, mesh.owner], np.nan)
+        self.arrays: ElasticArrays = elastic_arrays(mesh.data, notch_in_units(mesh.data, own))
+        #: (6, pieces) which deformations are no multipliers: those with a notch neither.
+        self.is_elastic: BoolArray = ~rigid | (self.arrays.notch >= 0.0)
 
     def model(self, held: Held) -> PackedModel:
         """The model in which fixed coordinates and these are held, and all others free."""
@@ -384,16 +373,32 @@ class Solution:
             np.any(self.raw.stress) or np.any(self.raw.reaction) or np.any(self.way.gravity)
         )
 
-    def respond(
-        self, force: FloatArray, misfit: FloatArray | None = None, shift: FloatArray | None = None
-    ) -> RawLinear:
-        """Increments under loads (3, nodes, k), misfits (6, pieces, k) and shifts likewise."""
-        s, k = self.solver, force.shape[2]
-        nothing = np.zeros((6, s.elements, k), order="F") if misfit is None else misfit
-        at_rest = np.zeros((3, s.nodes, k), order="F") if shift is None else shift
-        return elastic.linear(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, force, nothing, at_rest
-        )
+    @property
+    def _asked(self) -> tuple[PackedModel, ElasticArrays, ElasticState, FloatArray]:
+        """What the core is asked about."""
+        return self.solver.model(self.held), self.solver.arrays, self.raw, self.way.gravity
+
+    def respond(self, force: FloatArray, shift: FloatArray | None = None) -> RawLinear:
+        """Increments under loads (3, nodes, k) and moves of what is held likewise."""
+        misfit = np.zeros((6, self.solver.elements, force.shape[2]), order="F")
+        at_rest = np.zeros_like(force) if shift is None else shift
+        return elastic.linear(*self._asked, force, misfit, at_rest)
+
+    def under(self, stress: FloatArray) -> Solution:
+        """The same place under a stress (6, pieces)."""
+        raw = self.raw._replace(stress=np.asfortranarray(stress))
+        return Solution(self.solver, raw, self.way, self.held)
+
+    def errors(
+        self, stresses: FloatArray, square: float, lengths: FloatArray | None = None
+    ) -> RawErrors:
+        """Errors at which a frequency has a square, of the stresses (6, pieces, k) of unit ones."""
+        return elastic.errors(*self._asked, stresses, square, lengths)
+
+    @property
+    def lowest_square(self) -> float:
+        """The square of the first angular frequency alone [rad^2/s^2]."""
+        return float(elastic.frequencies(*self._asked, 1).values[0])
 
     def compliance(self, point: Point, coordinates: list[Coordinate]) -> Compliance:
         """What a point does under unit loads along and about all of its coordinates."""
@@ -461,10 +466,7 @@ class Solution:
     @cached_property
     def squares(self) -> RawModes:
         """Squares of the lowest angular frequencies with their modes."""
-        s = self.solver
-        return elastic.frequencies(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, FREQUENCIES
-        )
+        return elastic.frequencies(*self._asked, FREQUENCIES)
 
     @property
     def is_confirmed(self) -> bool:
@@ -481,12 +483,9 @@ class Solution:
     @cached_property
     def buckling(self) -> RawModes:
         """Multipliers of the stresses nearest to zero, of both signs, with their modes."""
-        s = self.solver
         if not self.is_stressed:
-            return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0, True)
-        found = elastic.multipliers(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
-        )
+            return RawModes(np.zeros(0), np.zeros((3, self.solver.nodes, 0)), 0, 0, True)
+        found = elastic.multipliers(*self._asked, MULTIPLIERS)
         size = np.abs(found.values)
         some = size < _ROUNDED_MULTIPLIER * size.min(initial=math.inf)
         return found._replace(values=found.values[some], modes=found.modes[:, :, some])

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -20,17 +19,6 @@ from .errors import ElasticError
 
 #: More rows times columns than these are not decomposed in full.
 _MOST = 6_000_000
-
-
-class Verdict(NamedTuple):
-    """Counts in a configuration, and the smallest singular value of D(c) in the deck's units.
-
-    It is infinite where D(c) has no rows or no columns.
-    """
-
-    under_constrained: int
-    over_constrained: int
-    smallest_singular_value: float
 
 
 class Verdicts:
@@ -50,8 +38,12 @@ class Verdicts:
         """Number of self-stresses in the reference configuration."""
         return int(self.result.over_constrained)
 
-    def of(self, configuration: FloatArray) -> Verdict:
+    def of(self, configuration: FloatArray) -> tuple[int, int, float]:
         """The verdict where the nodes are, (4, nodes).
+
+        Returns:
+            By how much it is under- and over-constrained, and the smallest singular value of D(c)
+            in the deck's units, infinite where D(c) has no rows or no columns.
 
         Raises:
             ElasticError: the model is too large for it.
@@ -61,26 +53,22 @@ class Verdicts:
         free = (arrays.coordinate_class == Class.DEPENDENT).T.ravel()
         m, n = int(held.sum()), int(free.sum())
         at_rest = np.array_equal(configuration, arrays.node_value)
+        value = math.nan
+        if m * n <= _MOST:
+            dense = self._dense(configuration, held, free)
+            value = float(np.linalg.svd(dense, compute_uv=False).min(initial=math.inf))
+        if at_rest:
+            return self.result.under_constrained, self.result.over_constrained, value
         if m * n > _MOST:
-            if at_rest:
-                return Verdict(*self._counts_at_rest, math.nan)
             raise ElasticError(
                 f"D(c) has {m} rows and {n} columns: it is not decomposed away from the reference"
             )
-        dense = self._dense(configuration, held, free)
-        value = float(np.linalg.svd(dense, compute_uv=False).min(initial=math.inf))
-        if at_rest:
-            return Verdict(*self._counts_at_rest, value)
         turns = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)[free]
         scaled = np.where(turns, dense / self._length, dense)
         norm = np.linalg.norm(scaled, axis=1, keepdims=True)
         values = np.linalg.svd(scaled / np.where(norm > 0.0, norm, 1.0), compute_uv=False)
         rank = int(np.count_nonzero(values > self._zero))
-        return Verdict(n - rank, m - rank, value)
-
-    @property
-    def _counts_at_rest(self) -> tuple[int, int]:
-        return int(self.result.under_constrained), int(self.result.over_constrained)
+        return n - rank, m - rank, value
 
     def _dense(self, configuration: FloatArray, held: BoolArray, free: BoolArray) -> FloatArray:
         raw = calls.assemble(self.data.packed, configuration, self._c_t)
