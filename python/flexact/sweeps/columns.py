@@ -14,7 +14,6 @@ import numpy as np
 
 from ..analysis.result import Result
 from ..core.arrays import BoolArray
-from ..deck.diagnostics import Diagnostic
 from ..deck.rendering import ProblemsError
 from ..util.text import harmless
 
@@ -114,7 +113,25 @@ _LONGEST = 400
 
 def row_of(result: Result, want: str = "values") -> dict[str, Value]:
     """The columns of one result by name, for one of `WANTS`; the error is empty."""
-    return {c.name: _value(result, c) for c in columns_of(want)} | {"error": ""}
+    made: dict[str, Value] = {
+        "verdict": str(result.verdict),
+        "under_constrained": int(result.under_constrained),
+        "over_constrained": int(result.over_constrained),
+        "rank": int(result.rank),
+        "certainty": str(result.certainty),
+    }
+    if columns_of(want) != columns_of("verdict"):
+        gap, margin, values = result.gap, result.margin, result.singular_values
+        numbers = {
+            "gap": gap.smallest_nonzero,
+            "largest_zero": gap.largest_zero,
+            "smallest_singular_value": float(values[-1]) if values.size else None,
+            "condition_number": result.condition_number,
+            "margin": math.inf if margin.length is None else margin.length,
+            "margin_angle": math.inf if margin.angle is None else margin.angle,
+        }
+        made |= {name: math.nan if each is None else each for name, each in numbers.items()}
+    return made | {"error": ""}
 
 
 def in_a_line(error: BaseException) -> str:
@@ -122,32 +139,14 @@ def in_a_line(error: BaseException) -> str:
     words = str(error)
     if isinstance(error, ProblemsError):
         first = next((each for each in error.diagnostics if each.is_error), None)
-        words = words if first is None else _placed(first)
+        if first is not None:
+            words = f"line {first.line}: {first.message}" if first.line else first.message
     words = harmless(" ".join(words.split()))
     if len(words) > _LONGEST:
         words = f"{words[: _LONGEST - 3]}..."
     return f"{type(error).__name__}: {words}" if words else type(error).__name__
 
 
-def _placed(first: Diagnostic) -> str:
-    return f"line {first.line}: {first.message}" if first.line else first.message
-
-
 def error_row(error: str, want: str = "values") -> dict[str, Value]:
     """The columns where there is no result but an error."""
     return {c.name: MISSING[c.kind] for c in columns_of(want)} | {"error": error}
-
-
-def _value(result: Result, column: Column) -> Value:
-    if column.name in ("gap", "largest_zero"):
-        found = result.gap.smallest_nonzero if column.name == "gap" else result.gap.largest_zero
-        return math.nan if found is None else found
-    if column.name == "smallest_singular_value":
-        return float(result.singular_values[-1]) if result.singular_values.size else math.nan
-    if column.name == "condition_number":
-        return math.nan if result.condition_number is None else result.condition_number
-    if column.name in ("margin", "margin_angle"):
-        size = result.margin.length if column.name == "margin" else result.margin.angle
-        return math.inf if size is None else size
-    made: Value = column.kind(getattr(result, column.name))
-    return made

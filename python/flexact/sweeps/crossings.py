@@ -19,7 +19,7 @@ from ..util.errors import FlexactError
 from ..util.records import Frozen
 from ..util.roots import Zero, minimum, sign_change
 from .columns import Rows, in_a_line
-from .evaluate import Positions, Signed, SignedColumns, Source, columns_of_signed, signed_value
+from .evaluate import Positions, Signed, Source, signed_column, signed_value, variant_of
 from .parameters import Row, Value
 from .running import results_of
 
@@ -199,15 +199,14 @@ class Search(NamedTuple):
     along: str
     rows: tuple[int, ...]
     """Two, between which the sign changes, or up to three with a dip at the middle one."""
-    is_sign_change: bool
     rank: int
     """The singular value of this number is followed."""
     values: tuple[float, ...]
     """Of the rows."""
     topology: int
     """Of all of them; see `flexact.sweeps.evaluate`."""
-    ends: tuple[float, float] = (0.0, 1.0)
-    """Between which places the sign changes; `values` are of these then."""
+    ends: tuple[float, float] | None = None
+    """Between which places the sign changes, `values` are of these then; None of a dip."""
 
     def between(self, place: float) -> tuple[int, int, float]:
         """The rows round a place, of which the first row's is 0, and the share between them."""
@@ -231,25 +230,21 @@ class Follow:
         ends = {n: [c[k : k + 1].tolist()[0] for k in (a, b)] for n, c in columns.items()}
         return {name: _between(first, last, share) for name, (first, last) in ends.items()}
 
-    def signed(self, a: int, b: int, share: float, rank: int | None = None) -> Signed | str:
-        """The signed singular value between two rows, or why there is none."""
-        try:
-            data = self.source.variant(a, b, share, self.parameters(a, b, share))
-            data.require_sound()
-            return signed_value(data, rank)
-        except Exception as error:
-            return in_a_line(error)
-
     def of_row(self, row: int) -> Signed | str:
         """The signed smallest singular value of a row, or why there is none."""
-        return self.signed(row, row, 0.0)
+        return self.at(row, row, 0.0)
 
-    def at(self, a: int, b: int, share: float, rank: int, topology: int) -> float | str:
-        """The value between two rows of one topology, or why there is none."""
-        found = self.signed(a, b, share, rank)
-        if isinstance(found, str):
-            return found
-        return found.value if found.topology == topology else _ANOTHER
+    def at(
+        self, a: int, b: int, share: float, rank: int | None = None, topology: int | None = None
+    ) -> Signed | str:
+        """The signed singular value between two rows of one topology, or why there is none."""
+        try:
+            data = variant_of(self.source, a, b, share, self.parameters(a, b, share))
+            data.require_sound()
+            found = signed_value(data, rank)
+        except Exception as error:
+            return in_a_line(error)
+        return found if topology in (None, found.topology) else _ANOTHER
 
     def __call__(self, search: Search) -> Crossings:
         """What one search finds."""
@@ -263,14 +258,15 @@ class Follow:
             if isinstance(found, str):
                 errors.append((place, found))
                 return None
-            return found
+            return found.value
 
         crossings = []
         for zero, kind in list(_zeros(search, value_at)):
             a, b, share = search.between(zero.place)
             row = self.parameters(a, b, share)
             try:
-                result = self._singular(self.source.variant(a, b, share, row), search, zero, kind)
+                data = variant_of(self.source, a, b, share, row)
+                result = self._singular(data, search, zero, kind)
             except FlexactError as error:
                 errors.append((zero.place, in_a_line(error)))
                 continue
@@ -285,8 +281,8 @@ class Follow:
                         calls,
                     )
                 )
-        missed = [self.missed(search, *each) for each in errors[:1]]
-        return Crossings(tuple(crossings), calls, tuple(missed))
+        missed = tuple(self.missed(search, *each) for each in errors[:1])
+        return Crossings(tuple(crossings), calls, missed)
 
     @staticmethod
     def _singular(data: Any, search: Search, zero: Zero, kind: str) -> Result:
@@ -316,7 +312,7 @@ def _between(a: Value, b: Value, share: float) -> Value:
 
 def _zeros(search: Search, function: Callable[[float], float | None]) -> Iterator[tuple[Zero, str]]:
     values = search.values
-    if search.is_sign_change:
+    if search.ends is not None:
         zero = sign_change(function, *search.ends, values[0], values[1])
         if zero is not None:
             yield zero, "sign change"
@@ -345,7 +341,7 @@ def _zeros(search: Search, function: Callable[[float], float | None]) -> Iterato
 def crossings_of(
     table: Rows,
     source: Source,
-    signed: SignedColumns | None,
+    signed: np.ndarray | None,
     along: str | None,
     workers: int | None,
 ) -> Crossings:
@@ -354,7 +350,7 @@ def crossings_of(
     made = 0
     missed: list[Missed] = []
     follow = Follow(table, source)
-    if signed is None or bool(((signed.topology < 0) & ~table.has_error).any()):
+    if signed is None or bool(((signed["topology"] < 0) & ~table.has_error).any()):
         signed, made = _signed_rows(follow, workers, missed), len(table)
     found: list[Crossing] = []
     searches: list[Search] = []
@@ -408,7 +404,7 @@ def _is_same(one: Crossing, other: Crossing) -> bool:
     return apart <= one.width + other.width + _ONE_PLACE
 
 
-def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> SignedColumns:
+def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> np.ndarray:
     table = follow.table
     every: list[Signed | None] = [None] * len(table)
     for done in results_of(follow.of_row, range(len(table)), workers=workers):
@@ -418,22 +414,21 @@ def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> S
             row = follow.parameters(done.index, done.index, 0.0)
             error = done.result or done.failure
             missed.append(Missed(row, ROWS, (done.index, done.index), error))
-    return columns_of_signed(every)
+    return signed_column(every)
 
 
-def _runs(follow: Follow, signed: SignedColumns, rows: Sequence[int]) -> Iterator[list[int]]:
+def _runs(follow: Follow, signed: np.ndarray, rows: Sequence[int]) -> Iterator[list[int]]:
     """Rows of a line in pieces of one topology, without errors."""
+    source, topology = follow.source, signed["topology"]
+
+    def goes_on(a: int, b: int) -> bool:
+        is_way = not isinstance(source, Positions) or source.goes_between(a, b)
+        return is_way and bool(topology[a] == topology[b])
+
     run: list[int] = []
     for row in rows:
-        there = not follow.table["error"][row] and not math.isnan(signed.value[row])
-        goes_on = there and (
-            not run
-            or (
-                signed.topology[run[-1]] == signed.topology[row]
-                and follow.source.goes_between(run[-1], row)
-            )
-        )
-        if run and not goes_on:
+        there = not follow.table["error"][row] and not math.isnan(signed["value"][row])
+        if run and not (there and goes_on(run[-1], row)):
             yield run
             run = []
         if there:
@@ -445,21 +440,21 @@ def _runs(follow: Follow, signed: SignedColumns, rows: Sequence[int]) -> Iterato
 class _Candidates:
     """Of a run of rows those that are singular themselves, and where to search between them."""
 
-    def __init__(self, follow: Follow, signed: SignedColumns, along: str, run: list[int]) -> None:
+    def __init__(self, follow: Follow, signed: np.ndarray, along: str, run: list[int]) -> None:
         self._follow, self._along, self._run = follow, along, run
-        self._topology = int(signed.topology[run[0]])
+        self._topology = int(signed["topology"][run[0]])
         self.missed: list[Missed] = []
         self.evaluations = 0
         ranks = follow.table["rank"][run]
         self._rank = int(ranks.max())
         is_zero = ranks < self._rank
-        values = signed.value[run].copy()
-        if self._rank < signed.size[run[0]]:
+        values = signed["value"][run].copy()
+        if self._rank < signed["size"][run[0]]:
             # All are singular alike: what counts is the value that ends the rank.
             values = np.array([self._at(k, k, 0.0) for k in range(len(run))])
         values[is_zero] = 0.0
         self.at_rows = [
-            self._at_row(k, float(abs(signed.value[run[k]])))
+            self._at_row(k, float(abs(signed["value"][run[k]])))
             for k in np.flatnonzero(is_zero).tolist()
             if not all(is_zero[max(k - 1, 0) : k + 2])
         ]
@@ -474,7 +469,7 @@ class _Candidates:
             row = self._follow.parameters(a, b, share)
             self.missed.append(Missed(row, self._along, (a, b), found))
             return math.nan
-        return found
+        return found.value
 
     def _at_row(self, k: int, value: float) -> Crossing:
         run, table = self._run, self._follow.table
@@ -490,16 +485,16 @@ class _Candidates:
     def _changes(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
         """Between which rows the sign changes; it has none at a row that is singular itself."""
         for k in range(len(self._run) - 1):
-            ends, there = [0.0, 1.0], [float(values[k]), float(values[k + 1])]
+            low, high, there = 0.0, 1.0, [float(values[k]), float(values[k + 1])]
             if is_zero[k] and not is_zero[k + 1]:
-                ends[0] = _BESIDE
-                there[0] = self._at(k, k + 1, ends[0])
+                low = _BESIDE
+                there[0] = self._at(k, k + 1, low)
             if is_zero[k + 1] and not is_zero[k]:
-                ends[1] = 1.0 - _BESIDE
-                there[1] = self._at(k, k + 1, ends[1])
+                high = 1.0 - _BESIDE
+                there[1] = self._at(k, k + 1, high)
             # Their product may be too small for a number.
             if {*np.sign(there).tolist()} == {-1.0, 1.0}:
-                yield self._search(k, k + 2, there, (ends[0], ends[1]))
+                yield self._search(k, k + 2, there, (low, high))
 
     def _dips(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
         """Rows at which the value is lower than at those beside it."""
@@ -516,11 +511,6 @@ class _Candidates:
     ) -> Search:
         """Between some rows of the run: where the sign changes if `ends` are given, else a dip."""
         return Search(
-            self._along,
-            tuple(self._run[first:end]),
-            ends is not None,
-            self._rank,
-            tuple(values),
-            self._topology,
-            ends or (0.0, 1.0),
+            *(self._along, tuple(self._run[first:end]), self._rank),
+            *(tuple(values), self._topology, ends),
         )

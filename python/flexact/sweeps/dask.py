@@ -13,7 +13,7 @@ from typing import Any
 
 from ..util.loading import load
 from ..util.machine import processors
-from .chunks import Answer, Chunk, EngineError, Raised, Source, timed
+from .chunks import Answer, Chunk, EngineError, Part, Raised, Source, timed
 
 #: How long a scheduler may take to answer, and how long there may be no worker [s].
 _ANSWER, _NO_WORKER = 10.0, 60.0
@@ -185,7 +185,7 @@ def timed_there(function: bytes, items: bytes) -> bytes:
         made: bytes = pickle.dumps(found)
     except Exception as error:
         reason = EngineError(f"a result cannot be sent from a Dask worker: {error}")
-        made = pickle.dumps(([], 0.0, Raised(reason, "")))
+        made = pickle.dumps(Part(raised=Raised(reason, "")))
     return made
 
 
@@ -291,6 +291,6 @@ def _pickled(given: Callable[[Any], Any] | Sequence[Any], what: str) -> bytes:
 
 def _answer(chunk: Chunk, made: bytes) -> Answer:
     try:
-        return Answer(chunk, *load("cloudpickle").loads(made))
+        return Answer(chunk, *load("cloudpickle").loads(made)[:3])
     except Exception as error:
         raise EngineError(f"a result cannot be read: {error}") from error

@@ -9,16 +9,14 @@ analysed here as a single model would be, so that each row says what `flexact.an
 from __future__ import annotations
 
 import math
-import pickle
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..analysis.decomposition import Asked
 from ..analysis.limits import CUT_OFF, NEAR, NO_CHANGE, REACH_OF_DIGITS
@@ -108,26 +106,14 @@ class Signed(NamedTuple):
     """How many singular values there are."""
 
 
-class SignedColumns(NamedTuple):
-    """Of variants their `Signed`, each (variants,); the topology is -1 where there is none."""
-
-    value: FloatArray
-    topology: NDArray[np.int64]
-    size: NDArray[np.int64]
-
-    def taken(self, index: NDArray[np.integer]) -> SignedColumns:
-        """Those of some variants."""
-        return SignedColumns(*(each[index] for each in self))
+#: Of variants their `Signed`, as an array of records; the topology is -1 where there is none.
+_SIGNED = np.dtype([("value", np.float64), ("topology", np.int64), ("size", np.int64)])
 
 
-def columns_of_signed(every: Sequence[Signed | None]) -> SignedColumns:
-    """The columns of variants."""
-    there = [each or Signed(math.nan, -1, 0) for each in every]
-    return SignedColumns(
-        np.array([each.value for each in there], np.float64),
-        np.array([each.topology for each in there], np.int64),
-        np.array([each.size for each in there], np.int64),
-    )
+def signed_column(every: Iterable[Signed | None]) -> np.ndarray:
+    """(variants,) records of variants."""
+    none = Signed(math.nan, -1, 0)
+    return np.array([each or none for each in every], _SIGNED)
 
 
 def scaled_jacobian(data: ModelData) -> Scaled:
@@ -192,26 +178,6 @@ def signed_value(data: ModelData, rank: int | None = None) -> Signed:
 Make = Callable[..., Model]
 
 
-class Source(Protocol):
-    """How the variants of a table came about."""
-
-    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
-        """The model between the variants of two rows, with its parameters.
-
-        Raises:
-            Exception: whatever a function of the user raises.
-        """
-
-    def goes_between(self, a: int, b: int) -> bool:
-        """Whether there is anything between two variants of the same topology."""
-
-    def taken(self, index: np.ndarray) -> Source:
-        """The source of some of the rows."""
-
-    def portable(self) -> Source | None:
-        """What of it can be pickled."""
-
-
 @dataclass(frozen=True, eq=False)
 class Positions(Frozen):
     """A model, with its nodes elsewhere or other deformations held; see `sweep`."""
@@ -226,7 +192,7 @@ class Positions(Frozen):
         given = self.positions if self.held is None else self.held
         return 1 if given is None else len(given)
 
-    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
+    def variant(self, a: int, b: int, share: float) -> ModelData:
         """Each position on the straight line between its two places."""
         between = None
         if self.positions is not None:
@@ -247,9 +213,8 @@ class Positions(Frozen):
 
     def goes_between(self, a: int, b: int) -> bool:
         """Unless what is held differs, or nothing moves at all."""
-        if self.positions is None:
-            return False
-        return self.held is None or bool((self.held[a] == self.held[b]).all())
+        alike = self.held is None or bool((self.held[a] == self.held[b]).all())
+        return alike and self.positions is not None
 
     def taken(self, index: np.ndarray | slice) -> Positions:
         """The source of some of the rows."""
@@ -259,36 +224,20 @@ class Positions(Frozen):
             None if self.held is None else self.held[index],
         )
 
-    def portable(self) -> Positions:
-        """All of it."""
-        return self
+
+#: How the variants of a table came about: a model in many positions, or a function.
+Source = Positions | Make
 
 
-@dataclass(frozen=True, eq=False)
-class Making(Frozen):
-    """A function of parameters that makes the model."""
+def variant_of(source: Source, a: int, b: int, share: float, row: Row) -> ModelData:
+    """The model between the variants of two rows, with its parameters.
 
-    make: Make
-
-    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
-        """What the function makes of the parameters."""
-        return made_by(self.make, row)
-
-    def goes_between(self, a: int, b: int) -> bool:
-        """Wherever parameters differ."""
-        return True
-
-    def taken(self, index: np.ndarray) -> Making:
-        """The function knows no rows."""
-        return self
-
-    def portable(self) -> Making | None:
-        """Functions without a name in a module cannot be pickled."""
-        try:
-            pickle.dumps(self.make)
-        except Exception:
-            return None
-        return self
+    Raises:
+        Exception: whatever a function of the user raises.
+    """
+    if isinstance(source, Positions):
+        return source.variant(a, b, share)
+    return made_by(source, row)
 
 
 def made_by(make: Make, row: Row) -> ModelData:
@@ -319,25 +268,16 @@ _TEXTS = {
 
 
 def swept(
-    data: ModelData,
-    *,
-    positions: FloatArray | None = None,
-    held: BoolArray | None = None,
-    want: str = "values",
-    workers: int | None = None,
-    progress: Progress | None = None,
+    every: Positions, want: str, workers: int | None = None, progress: Progress | None = None
 ) -> Columns:
     """The columns of a table for variants of a model, by name, each of (variants,).
 
     Args:
-        data: A sound model.
-        positions: (variants, nodes, 3) [m], as `positions_given` gives them.
-        held: (variants, elements, 6), as `held_given` gives them; one of the two at least.
+        every: A sound model and its variants.
         want: One of `WANTS`.
         workers: So many threads at most; by default one a processor.
         progress: Called with what is being done and how much of that is done, from 0 to 1.
     """
-    every = Positions(data, positions, held)
     count = every.count
     made: Columns = {
         c.name: np.full(count, MISSING[c.kind], _TEXTS.get(c.name, c.kind))
@@ -345,17 +285,17 @@ def swept(
     }
     made["error"] = np.full(count, "", object)
     # Where only positions differ, what is held does not.
-    common = _perhaps_condensed(every.taken(slice(0, 1))) if held is None else None
+    common = _perhaps_condensed(every.taken(slice(0, 1))) if every.held is None else None
     threads = workers or processors()
     step = max(1, min(_MOST_AT_ONCE, -(-count // (4 * threads))))
     room = memory.allowance() / threads
-    done = 0
 
     def run(first: int) -> int:
         some = slice(first, min(first + step, count))
         _fill(every.taken(some), want, room, common, {k: v[some] for k, v in made.items()})
         return some.stop - first
 
+    done = 0
     for number in _in_threads(run, range(0, count, step), threads):
         done += number
         if progress is not None:
@@ -464,10 +404,7 @@ def failed(message: str, want: str) -> Answer:
 
 def of_function(make: Make, want: str, asked: Asked, row: Row) -> Answer:
     """The variant that a function makes of some parameters."""
-    try:
-        return _answer(made_by(make, row), want, asked, is_signed=want != "verdict")
-    except Exception as error:
-        return failed(in_a_line(error), want)
+    return _answer(lambda: made_by(make, row), want, asked, want != "verdict")
 
 
 def of_model(
@@ -477,17 +414,18 @@ def of_model(
     variant: tuple[FloatArray | None, BoolArray | None],
 ) -> Answer:
     """The variant of a model at some positions, with some deformations held."""
+    return _answer(lambda: varied(data, *variant), want, asked, False)
+
+
+def _answer(make: Callable[[], ModelData], want: str, asked: Asked, is_signed: bool) -> Answer:
     try:
-        return _answer(varied(data, *variant), want, asked)
+        data = make()
+        result: Result = result_of(data, asked)
+        modes = modes_of(result) if want == "all" else None
+        signed = None
+        if is_signed and result.rows * result.columns <= _MOST_SIGNED:
+            with suppress(AnalysisError, MemoryError, np.linalg.LinAlgError):
+                signed = signed_value(data)
+        return Answer(tuple(row_of(result, want).values()), signed, modes)
     except Exception as error:
         return failed(in_a_line(error), want)
-
-
-def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
-    result: Result = result_of(data, asked)
-    modes = modes_of(result) if want == "all" else None
-    signed = None
-    if is_signed and result.rows * result.columns <= _MOST_SIGNED:
-        with suppress(AnalysisError, MemoryError, np.linalg.LinAlgError):
-            signed = signed_value(data)
-    return Answer(tuple(row_of(result, want).values()), signed, modes)

@@ -17,7 +17,7 @@ import time
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..util.errors import BatchError, reason_of
 from ..util.loading import load
@@ -38,13 +38,6 @@ _LOCKED = 2**31 - 2
 
 class JournalError(BatchError):
     """A journal that cannot be used."""
-
-
-class Entry(NamedTuple):
-    """A record, and where its line begins."""
-
-    place: int
-    record: Any
 
 
 class Journal:
@@ -96,8 +89,8 @@ class Journal:
                 # The run that had it locked has ended meanwhile, and taken it away.
                 made.close()
                 return cls.resume(path)
-            head = next(made.entries(), None)
-            if head is None or head.place:
+            place, head = next(made.entries(), (0, None))
+            if head is None or place:
                 raise JournalError(
                     f"{path} does not begin as a journal does; delete it to start anew"
                 )
@@ -105,7 +98,7 @@ class Journal:
         except BaseException:
             made.close()
             raise
-        made.head = head.record
+        made.head = head
         return made
 
     def _is_in_place(self) -> bool:
@@ -148,14 +141,14 @@ class Journal:
         if self._size and self._bytes(self._size - 1, 1) != b"\n":
             self._write(b"\n")
 
-    def entries(self) -> Iterator[Entry]:
-        """The records in the order in which they were added, the head first."""
+    def entries(self) -> Iterator[tuple[int, Any]]:
+        """Where lines begin with their records, in the order in which they were added."""
         place, rest = 0, b""
         while part := self._bytes(place + len(rest), _BUFFER):
             *lines, rest = (rest + part).split(b"\n")
             for line in lines:
                 if (found := _record(line)) is not None:
-                    yield Entry(place, found)
+                    yield place, found
                 place += len(line) + 1
 
     def add(self, record: Any) -> int:

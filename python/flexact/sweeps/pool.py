@@ -13,7 +13,6 @@ import pickle
 import signal
 import sys
 import threading
-import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -21,24 +20,15 @@ from contextlib import contextmanager
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from queue import SimpleQueue
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..util.errors import reason_of
 from ..util.interruption import SIGNALS
 from ..util.loading import load
-from .chunks import NOTHING, Answer, Chunk, EngineError, Raised, Source, raised
+from .chunks import NOTHING, Answer, Chunk, EngineError, Part, Raised, Source, parts_of
 
 #: Results that are there are not held back for longer [s].
 _FLUSH = 0.05
-
-
-class Part(NamedTuple):
-    """Results of the next items of what a worker does, and whether its chunk ends with them."""
-
-    results: Sequence[Any] = ()
-    seconds: float = 0.0
-    raised: Raised | None = None
-    is_last: bool = False
 
 
 def serve(
@@ -60,7 +50,7 @@ def serve(
     called = _loaded(function, line) if isinstance(function, bytes) else function
     line.send(Part())
     while True:
-        for part in _parts(called, inbox.get()):
+        for part in parts_of(called, inbox.get(), _FLUSH):
             _send(line, part)
 
 
@@ -94,23 +84,6 @@ def _loaded(pickled: bytes, line: Connection) -> Callable[[Any], Any]:
         line.send(Part(raised=Raised(EngineError(message), "")))
         raise SystemExit(1) from error
     return function
-
-
-def _parts(function: Callable[[Any], Any], items: Sequence[Any]) -> Iterator[Part]:
-    """What comes of items, in parts, so that what is done is soon known."""
-    results: list[Any] = []
-    start = time.perf_counter()
-    last = len(items) - 1
-    for k, item in enumerate(items):
-        try:
-            results.append(function(item))
-        except BaseException as error:
-            yield Part(results, time.perf_counter() - start, raised(error), True)
-            return
-        seconds = time.perf_counter() - start
-        if k == last or seconds > _FLUSH:
-            yield Part(results, seconds, None, k == last)
-            results, start = [], time.perf_counter()
 
 
 def _send(line: Connection, part: Part) -> None:

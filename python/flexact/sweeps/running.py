@@ -79,14 +79,26 @@ def results_of(
         TypeError: `workers` is no whole number, or the executor none of these.
         Exception: What the function or the items raise is raised here.
     """
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int)):
-        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
-    if workers is not None and workers < 1:
-        raise ValueError(f"workers must be 1 or more, not {workers}")
+    require_workers(workers)
     crew = _crew(function, executor, workers)
     if crew is None:
         return (Done(k, function(item), "") for k, item in enumerate(items))
     return _run(crew, Source(items))
+
+
+def require_workers(workers: object) -> None:
+    """Raise unless it is a number of workers, or None.
+
+    Raises:
+        TypeError: It is no whole number.
+        ValueError: It is not positive.
+    """
+    if workers is None:
+        return
+    if isinstance(workers, bool) or not isinstance(workers, int):
+        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
+    if workers < 1:
+        raise ValueError(f"workers must be 1 or more, not {workers}")
 
 
 def _crew(function: Callable[[Any], Any], executor: Any, workers: int | None) -> Crew | None:
@@ -191,7 +203,7 @@ class ExecutorCrew:
 
 def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
     try:
-        results, seconds, error = future.result()
+        results, seconds, error, _ = future.result()
     except (BrokenExecutor, CancelledError) as reason:
         words = str(reason) or "cancelled"
         raise EngineError(f"the executor is broken ({words}); {_MEND}") from reason

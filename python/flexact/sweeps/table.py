@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+import pickle
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -25,7 +26,7 @@ from ..util.records import Frozen
 from ..util.text import harmless
 from .columns import COLUMNS, ERROR, Column
 from .crossings import Crossing, Crossings, crossings_of, varying
-from .evaluate import MotionArrays, SignedColumns, Source, StressArrays
+from .evaluate import MotionArrays, Positions, Source, StressArrays, variant_of
 from .plots import MOST_SEARCHED, chosen, curve, finished, parameter_map
 from .writing import write_table
 
@@ -65,7 +66,7 @@ class Table(Frozen):
     motions: tuple[MotionArrays, ...] | None = None
     self_stresses: tuple[StressArrays, ...] | None = None
     _source: Source | None = None
-    _signed: SignedColumns | None = None
+    _signed: Array | None = None
 
     def __len__(self) -> int:
         """Number of variants."""
@@ -189,11 +190,12 @@ class Table(Frozen):
         """
         source = self._known_source()
         if isinstance(variant, Crossing):
-            return Model.from_data(source.variant(*variant.rows, variant.share, variant.parameters))
+            where = (*variant.rows, variant.share, variant.parameters)
+            return Model.from_data(variant_of(source, *where))
         row = range(len(self))[variant]
         own = self._row(row)
         parameters = {name: own[name] for name in self.parameter_names}
-        return Model.from_data(source.variant(row, row, 0.0, parameters))
+        return Model.from_data(variant_of(source, row, row, 0.0, parameters))
 
     def describe(self) -> str:
         """What the variants are, and where the margin is smallest, in plain English."""
@@ -244,10 +246,12 @@ class Table(Frozen):
 
     def __reduce__(self) -> tuple[Callable[..., object], tuple[Any, ...]]:
         """Without the function that made the variants, where it cannot be pickled."""
-        source = None if self._source is None else self._source.portable()
-        if source is self._source:
-            return super().__reduce__()
-        return replace(self, _source=source).__reduce__()
+        if callable(self._source):
+            try:
+                pickle.dumps(self._source)
+            except Exception:
+                return replace(self, _source=None).__reduce__()
+        return super().__reduce__()
 
     def _known_source(self) -> Source:
         if self._source is None:
@@ -266,10 +270,10 @@ class Table(Frozen):
         for name in ("motions", "self_stresses"):
             modes = getattr(self, name)
             changed[name] = None if modes is None else tuple(modes[k] for k in index.tolist())
-        if self._source is not None:
+        if isinstance(self._source, Positions):
             changed["_source"] = self._source.taken(index)
         if self._signed is not None:
-            changed["_signed"] = self._signed.taken(index)
+            changed["_signed"] = self._signed[index]
         return replace(self, **changed)
 
     def _not_there(self, name: str) -> str:

@@ -9,12 +9,13 @@ such number, so that it is null there, too.
 from __future__ import annotations
 
 import csv
+import io
 import json
 import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO
 
 from ..show.writers import TABLES
 from ..util.loading import load
@@ -58,21 +59,15 @@ def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Sequence[C
         _WRITERS[path.suffix.lower()](file, columns, rows)
 
 
-class _Text(NamedTuple):
-    """A file of bytes that takes text."""
-
-    file: BinaryIO
-
-    def write(self, text: str) -> int:
-        return self.file.write(text.encode("utf-8"))
-
-
 def _write_csv(file: BinaryIO, columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> None:
-    writer = csv.writer(_Text(file), lineterminator="\n")
+    text = io.TextIOWrapper(file, encoding="utf-8", newline="")
+    writer = csv.writer(text, lineterminator="\n")
     writer.writerow([column.name for column in columns])
     cells = _cells_of(columns)
     # The shortest decimal that reads back to the same bits is what csv writes of a float.
     writer.writerows([cell(value) for cell, value in zip(cells, row, strict=True)] for row in rows)
+    # Whose the file is closes it.
+    text.detach()
 
 
 def _write_jsonl(file: BinaryIO, columns: Sequence[Column], rows: Iterable[Sequence[Cell]]) -> None:
