@@ -8,7 +8,6 @@ import math
 import numpy as np
 
 from ..analysis.decomposition import asked_for
-from ..analysis.limits import ZERO_ELSEWHERE
 from ..analysis.result import Result, result_of
 from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
@@ -67,7 +66,7 @@ class Verdicts:
         scaled = np.where(turns, dense / self._length, dense)
         norm = np.linalg.norm(scaled, axis=1, keepdims=True)
         values = np.linalg.svd(scaled / np.where(norm > 0.0, norm, 1.0), compute_uv=False)
-        rank = int(np.count_nonzero(values > self._zero))
+        rank = int(np.count_nonzero(values > self.result.gap.zero_elsewhere(self.result.raw.noise)))
         return n - rank, m - rank, value
 
     def _dense(self, configuration: FloatArray, held: BoolArray, free: BoolArray) -> FloatArray:
@@ -86,11 +85,3 @@ class Verdicts:
         length = self.data.frames.length
         there = length[length > 0.0]
         return math.exp(float(np.log(there).mean())) if there.size else 1.0
-
-    @cached_property
-    def _zero(self) -> float:
-        """Up to where scaled singular values are zero; what is small at the reference is not."""
-        gap, noise = self.result.gap, float(self.result.raw.noise)
-        above = gap.smallest_nonzero or 1.0
-        below = max(noise, gap.largest_zero or 0.0)
-        return max(min(ZERO_ELSEWHERE, math.sqrt(above * below)), noise)

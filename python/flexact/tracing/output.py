@@ -19,7 +19,7 @@ from ..show.picture.make import check_packages
 from ..show.writers import PLAYING, STILLS, Writers
 from ..util.outputs import OutputError
 from ..util.text import file_name, harmless
-from .values import Names, Traced, drive_unit
+from .values import Traced, drive_unit, points_of
 from .words import csv_bytes
 
 #: Below this singular values are drawn at the lower edge.
@@ -55,8 +55,10 @@ def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
     axes[0].set_title(harmless(what), parse_math=False, fontsize=11, loc="left", pad=18)
     _draw_values(axes[0], trace)
     _draw_places(axes[1], trace)
-    if trace.shown.freedom is not None:
-        _draw_drive(axes[2], trace)
+    if (freedom := trace.shown.freedom) is not None:
+        axes[2].plot(trace.arc, [step.drive for step in trace.steps], color=_CURVES[0], lw=1.4)
+        drive = harmless(f"{freedom.label} [{drive_unit(freedom)}]")
+        axes[2].set_ylabel(drive, parse_math=False, fontsize=11)
     for panel in axes:
         for step in trace.dead_points:
             panel.axvline(step.arc, color=_DEAD, lw=1.0, ls=(0, (4, 3)), zorder=3)
@@ -92,14 +94,14 @@ def _draw_values(axes: Any, trace: Traced) -> None:
 
 def _draw_places(axes: Any, trace: Traced) -> None:
     """Coordinates that change most; of those that are the same the first."""
-    points = Names(trace.result).points(len(trace.result.given.node_names))
+    points = points_of(trace.result, len(trace.result.given.node_names))
     start = trace.steps[trace.reference].pose.position
     moved: list[tuple[float, str, FloatArray]] = []
-    for point in points:
-        way = np.array([step.pose.position[point.node] for step in trace.steps])
+    for node, point in points.items():
+        way = np.array([step.pose.position[node] for step in trace.steps])
         for k, axis in enumerate("xy" if trace.result.given.planar else "xyz"):
-            curve = way[:, k] - start[point.node, k]
-            moved.append((float(np.ptp(curve)), f"{point.name} {axis}", curve))
+            curve = way[:, k] - start[node, k]
+            moved.append((float(np.ptp(curve)), f"{point} {axis}", curve))
     largest = max((each[0] for each in moved), default=0.0)
     moved.sort(key=lambda each: -round(each[0] / (largest or 1.0), 9))
     curves: list[tuple[str, FloatArray]] = []
@@ -113,16 +115,6 @@ def _draw_places(axes: Any, trace: Traced) -> None:
     axes.set_ylabel("displacement [m]", fontsize=11)
     if curves:
         axes.legend(fontsize=9, frameon=False, ncols=3, loc="best")
-
-
-def _draw_drive(axes: Any, trace: Traced) -> None:
-    freedom = trace.shown.freedom
-    if freedom is None:
-        return
-    axes.plot(trace.arc, [step.drive for step in trace.steps], color=_CURVES[0], lw=1.4)
-    axes.set_ylabel(
-        harmless(f"{freedom.label} [{drive_unit(freedom)}]"), parse_math=False, fontsize=11
-    )
 
 
 def _legend(figure: Any, trace: Traced) -> None:

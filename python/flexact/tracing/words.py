@@ -22,7 +22,7 @@ from ..analysis.places import listed, with_article
 from ..motion import Ending, Stop
 from ..show.writers import as_bytes
 from ..util.rotations import vector_of
-from .values import ROTATION, DeadPoint, Names, Step, Traced, drive_unit
+from .values import ROTATION, DeadPoint, Step, Traced, bodies_of, drive_unit, points_of
 
 _RANGES = {
     "length": "its ends have come to one point",
@@ -157,7 +157,7 @@ def csv_bytes(trace: Traced) -> bytes:
 def header(trace: Traced) -> list[str]:
     """The names of the columns, with units."""
     kept = max(step.values.size for step in trace.steps)
-    names = Names(trace.result)
+    points, bodies = (each(trace.result, _MOST_PLACES) for each in (points_of, bodies_of))
     axes = "xy" if trace.result.given.planar else "xyz"
     turns = ("rz",) if trace.result.given.planar else ("rx", "ry", "rz")
     drive = trace.shown.freedom
@@ -166,16 +166,15 @@ def header(trace: Traced) -> list[str]:
         *(f"sigma {k + 1}" for k in range(kept)),
         *("under_constrained", "over_constrained", "verdict", "dead_point"),
         *([] if drive is None else [f"{drive.label} [{drive_unit(drive)}]"]),
-        *(f"{point.name} {axis} [m]" for point in names.points(_MOST_PLACES) for axis in axes),
-        *(f"{body.name} {turn} [rad]" for body in names.bodies(_MOST_PLACES) for turn in turns),
+        *(f"{name} {axis} [m]" for name in points.values() for axis in axes),
+        *(f"{name} {turn} [rad]" for name in bodies.values() for turn in turns),
     ]
 
 
 def rows(trace: Traced) -> Iterator[list[Cell]]:
     """A row a step; the reference is step 0."""
-    names, planar = Names(trace.result), trace.result.given.planar
-    points = [point.node for point in names.points(_MOST_PLACES)]
-    bodies = [body.node for body in names.bodies(_MOST_PLACES)]
+    planar = trace.result.given.planar
+    points, bodies = (list(each(trace.result, _MOST_PLACES)) for each in (points_of, bodies_of))
     kept = max(step.values.size for step in trace.steps)
     first = trace.reference
     for number, step in enumerate(trace.steps):
