@@ -21,11 +21,10 @@ from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error
-from ..elasticity import ElasticError, Estimate, State, StrokeError
+from ..elasticity import Elastic, ElasticError, State, StrokeError
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
-from . import stroke as strokes
 from .designs import (
     FREQUENCY,
     STIFFNESS,
@@ -37,27 +36,25 @@ from .designs import (
     Numbers,
     Released,
     Stroke,
+    StrokeCurve,
     Tolerance,
     in_words,
     stacked,
-    words_of_direction,
 )
 from .elastic_design import (
     ElasticDesign,
     Measures,
+    curve_against,
     drives_of,
     has_masses,
     kept_of,
-    number,
-    numbers,
     over_levels,
     require_stiffness,
+    tolerances_of,
 )
 from .request import ReleaseRequest, Request
 from .resolve import Places, directions_of, given_of, stroke_of
 from .shape import Shape, unit_mode
-from .stroke import Reached
-from .tolerances import curve_against, tolerances_of
 
 #: How many proven releases stand beside the design as built, and how many are measured for that.
 MOST, LOOKED_AT = 5, 12
@@ -166,9 +163,8 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
     both = (mechanism.rest, behind)
 
     def found(quantity: Callable[[State], FloatArray]) -> Numbers:
-        return stacked([numbers(over_levels(quantity, each)) for each in both])
+        return stacked([over_levels(quantity, each) for each in both])
 
-    kept = over_levels(measures.worst, *both)
     peak, where = _peaks(mechanism, both)
     hertz = found(measures.frequencies) if measures.has_masses else None
     return Effect(
@@ -179,7 +175,7 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
         found(lambda state: np.asarray(np.abs(_of_elements(state)).max(axis=0))),
         peak,
         part_words(parts.of_element(where)),
-        number(Estimate(kept.value[0], kept.uncertainty[0])),
+        over_levels(measures.worst, *both).at(0),
         all(each.is_stable for each in behind.alone),
         reached,
     )
@@ -226,14 +222,11 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
         column = moment if moment.any() else sizes[:, 0]
         return None, int(np.argmax(column))
     found = [
-        numbers(over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each))
-        for each in both
+        over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each) for each in both
     ]
     most = [int(np.argmax(each.value)) for each in found]
-    peak = Numbers(
-        np.array([each.value[k] for each, k in zip(found, most, strict=True)]),
-        np.array([each.uncertainty[k] for each, k in zip(found, most, strict=True)]),
-    )
+    largest = [each.at(k) for each, k in zip(found, most, strict=True)]
+    peak = Numbers(*(np.array(each) for each in zip(*largest, strict=True)))
     return peak, mechanism.data.element_index[known[most[1]]]
 
 
@@ -287,6 +280,131 @@ def _shape(
     return Shape(kind, words, value, rest.data, rest.configuration, unit_mode(rest.data, mode))
 
 
+class Reached(NamedTuple):
+    """What was reached of a stroke."""
+
+    states: tuple[State, ...]
+    values: FloatArray
+    """(n,) those that were reached, ascending."""
+    ends: tuple[float, float]
+    """How far it went each way: the ends that were asked for, or the last value reached."""
+    why: str
+    """Why not farther; empty where all was reached."""
+
+
+def follow(elastic: Elastic, asked: Stroke, values: FloatArray) -> Reached:
+    """The states along a stroke, each way from where it rests, as far as they are found."""
+    found: dict[float, State] = {}
+    ends, why = [asked.rest, asked.rest], []
+    for end, sense in enumerate((-1.0, 1.0)):
+        way = np.sort(sense * values[sense * values >= sense * asked.rest]) * sense
+        if end == 1:
+            way = way[way != asked.rest]
+        states, reached, reason = _one_way(elastic, asked, way.tolist())
+        found.update(zip(way.tolist(), states, strict=False))
+        if way.size:
+            ends[end] = reached
+        why += [reason] if reason else []
+    there = np.array(sorted(found))
+    states = tuple(found[v] for v in there.tolist())
+    return Reached(states, there, (ends[0], ends[1]), "; ".join(why))
+
+
+def _one_way(
+    elastic: Elastic, asked: Stroke, way: Sequence[float]
+) -> tuple[tuple[State, ...], float, str]:
+    """States from the one at rest outward, how far that is, and why not farther."""
+    reached, why, rest = way[-1] if way else asked.rest, "", asked.rest
+    while way:
+        try:
+            drive = elastic.points.coordinate(asked.node, asked.coordinate)
+            return elastic.driven(drive, way), reached, why
+        except StrokeError as error:
+            why = why or str(error)
+            reached = error.reached
+            shorter = [v for v in way if abs(v - rest) <= abs(reached - rest)]
+            # What was reached on the way to a place may be out of reach by a hair.
+            way = shorter if len(shorter) < len(way) else way[:-1]
+    return (), reached, why
+
+
+def curve_of(
+    measures: Measures,
+    rest: State,
+    reached: Reached,
+    drive: tuple[int, str],
+    is_locked: bool,
+    progress: Callable[[float], None],
+) -> StrokeCurve | None:
+    """A design along the states that were reached; None without any."""
+    if not reached.states:
+        return None
+    rows = []
+    for k, state in enumerate(reached.states):
+        rows.append(_row(measures, rest, state, drive, is_locked))
+        progress((k + 1) / len(reached.states))
+    stiffness, kept, own, force, *hertz = (stacked(each) for each in zip(*rows, strict=True))
+    if is_locked:
+        # How the force changes with the value, where the drive is held.
+        slope = np.zeros_like(force.value)
+        if reached.values.size > 1:
+            slope = np.gradient(force.value[:, 0], reached.values)[:, None]
+        own = Numbers(slope, np.zeros_like(slope))
+    frequencies = parasitic = None
+    if hertz and hertz[0].value.size:
+        frequencies = hertz[0]
+        others = []
+        for k, state in enumerate(reached.states):
+            count = len(state.alone[-1].frequencies)
+            is_drive = (False,) * count if is_locked else drives_of(measures, state, count)
+            left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
+            others.append(Numbers(frequencies.value[k, left], frequencies.uncertainty[k, left]))
+        parasitic = stacked(others)
+    # With masses it is known from the frequencies whether a stiffness is negative.
+    is_stable = [
+        state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
+        for state in reached.states
+    ]
+    return StrokeCurve(
+        reached.values,
+        stiffness,
+        kept.column(0),
+        own.column(0),
+        force.column(0),
+        frequencies,
+        parasitic,
+        tuple(is_stable),
+        tuple(state.under_constrained for state in reached.states),
+        tuple(state.over_constrained for state in reached.states),
+    )
+
+
+def _row(
+    measures: Measures, rest: State, state: State, drive: tuple[int, str], is_locked: bool
+) -> list[Numbers]:
+    """Stiffness, what is kept of it in the worst direction, of the drive, force, frequencies."""
+
+    def own(one: State) -> FloatArray:
+        """(1,) stiffness of the driven coordinate itself; infinite where it is held."""
+        if is_locked:
+            return np.zeros(1)
+        node, name = drive
+        points = one.model.points
+        names = [points.name(each) for each in points.coordinates(points.of(node))]
+        value = one.compliance(node)[(names.index(name),) * 2]
+        return np.array([1.0 / value if value != 0.0 else np.inf])
+
+    made = [
+        over_levels(measures.stiffness, state),
+        over_levels(measures.worst, rest, state),
+        over_levels(own, state),
+        over_levels(lambda one: np.atleast_1d(one.force), state),
+    ]
+    if measures.has_masses:
+        made.append(over_levels(measures.frequencies, state))
+    return made
+
+
 Report = Callable[[str, float], None]
 #: Parts of the work of a design that its tolerances, curve, stroke and effect are.
 _TOLERANCES, _CURVE, _STROKE = 0.4, 0.5, 0.9
@@ -330,7 +448,7 @@ class _Computation:
         self.measures = Measures(
             self.point,
             directions_of(data, self.point),
-            self.places.size,
+            data.size,
             self.places.drives(),
             has_masses(data),
         )
@@ -410,9 +528,10 @@ class _Computation:
             remarks.append(f"No tolerances: {error}.")
         curve = way = effect = None
         if self.stroke is not None:
-            way = strokes.follow(mechanism.elastic, self.stroke)
-            drive = (self.stroke.node, self.stroke.coordinate)
-            curve = strokes.curve_of(
+            asked, values = self.stroke
+            way = follow(mechanism.elastic, asked, values)
+            drive = (asked.node, asked.coordinate)
+            curve = curve_of(
                 *(measures, mechanism.rest, way, drive, mechanism.drive == "locked"),
                 lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
             )
@@ -426,7 +545,7 @@ class _Computation:
             candidate.alike,
             candidate.under_constrained,
             candidate.over_constrained,
-            numbers(mechanism.rest.estimate(measures.compliance)),
+            over_levels(measures.compliance, mechanism.rest),
             None if mechanism is built else kept_beside(measures, built, mechanism),
             frequencies,
             is_drive,
@@ -441,17 +560,15 @@ class _Computation:
 
     def _stroke(self, ways: Sequence[Reached]) -> Stroke | None:
         """The stroke as far as every design could be followed; None where none was asked for."""
-        asked = self.stroke
-        if asked is None:
+        if self.stroke is None:
             return None
-        owner = self.places.words(asked.node)
-        words = f"node {asked.node} ({owner}) {words_of_direction(asked.coordinate)}"
-        whole = (float(asked.values[0]), float(asked.values[-1]))
-        low = max((way.ends[0] for way in ways), default=whole[0])
-        high = min((way.ends[1] for way in ways), default=whole[1])
+        stroke, _ = self.stroke
         why = next((way.why for way in ways if way.why), "")
-        reached = (max(low, whole[0]), min(high, whole[1])) if why else whole
-        return Stroke(asked.node, asked.coordinate, words, asked.rest, whole, reached, why)
+        if not why:
+            return stroke
+        low = max(stroke.asked[0], *(way.ends[0] for way in ways))
+        high = min(stroke.asked[1], *(way.ends[1] for way in ways))
+        return replace(stroke, reached=(low, high), why=why)
 
     def _left_out(self, designs: int) -> Iterator[str]:
         """What the deck's data do not allow, and what was not looked at."""
@@ -488,7 +605,7 @@ def frequencies_of(
     """The lowest frequencies at rest, and which are the drive's."""
     if not measures.has_masses:
         return None, ()
-    found = numbers(over_levels(measures.frequencies, mechanism.rest))
+    found = over_levels(measures.frequencies, mechanism.rest)
     if not found.value.size:
         return None, ()
     if mechanism.drive == "locked":
@@ -500,7 +617,7 @@ def kept_beside(measures: Measures, before: ElasticDesign, after: ElasticDesign)
     """What a design keeps of the stiffness of the one as built."""
     one, two = before.rest, after.rest
     finest = measures.ratios(one.alone[-1], two.alone[-1])
-    mu = numbers(over_levels(lambda a, b: measures.ratios(a, b).mu, one, two))
+    mu = over_levels(lambda a, b: measures.ratios(a, b).mu, one, two)
     return kept_of(finest, mu, measures.directions)
 
 

@@ -71,6 +71,10 @@ class Numbers(NamedTuple):
         """All of one dimension."""
         return [self.at(k) for k in range(self.value.size)]
 
+    def row(self, k: int) -> list[Number]:
+        """Those of a row of two dimensions."""
+        return Numbers(self.value[k], self.uncertainty[k]).each()
+
 
 def stacked(rows: Sequence[Numbers]) -> Numbers:
     """(n, k) of rows, of which the shortest says how many there are."""

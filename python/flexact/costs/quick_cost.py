@@ -13,7 +13,7 @@ from ..analysis.naming import filled, sentence
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
-from ..elasticity import ElasticError
+from ..elasticity import ElasticError, Estimate
 from ..elasticity.reduced import peak_of, resultants_of
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH
@@ -21,10 +21,9 @@ from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import ElasticDesign, Level, has_stiffness
+from .elastic_design import ElasticDesign, Level, has_stiffness, tolerances_of
 from .request import SHIFT
 from .resolve import Places
-from .tolerances import extrapolated, tolerances_of
 from .words import costs, costs_nothing, off
 
 #: Of more elements, or errors, it would no longer be a glance.
@@ -67,7 +66,7 @@ class _QuickCost:
         self.result, self.data = result, result.given
         self.places = Places(self.data, result.parts)
         self.errors = self.places.misalignments()
-        self.size = self.places.size
+        self.size = self.data.size
 
     def sentence(self) -> str:
         if not 0 < len(self.errors) <= _MOST_ERRORS:
@@ -137,7 +136,7 @@ class _QuickCost:
         for level in mechanism.levels:
             square = level.first_square * (1.0 + SHIFT) ** 2
             found.append(level.errors(np.asfortranarray(level.stresses(chosen)), square))
-        least = np.abs(extrapolated(found).value).min(axis=1) * self._lengths(chosen)
+        least = np.abs(Estimate.of(*found).value).min(axis=1) * self._lengths(chosen)
         return chosen[int(np.argmin([float(f"{value:.5g}") for value in least]))]
 
     def _behind(self, mechanism: ElasticDesign, found: Tolerance) -> str:
@@ -184,7 +183,7 @@ def _of(
 ) -> FloatArray:
     """(elements, k) numbers of elements, extrapolated."""
     made = [np.array([of(at, e) for e in which]) for at in states]
-    return np.asarray(np.abs(extrapolated(made).value))
+    return np.asarray(np.abs(Estimate.of(*made).value))
 
 
 def _is_known(at: Solution, element: int) -> bool:

@@ -113,8 +113,7 @@ def release_of(text: str) -> ReleaseRequest:
                 "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
                 f"1:5+2:5; not {in_short(text)}"
             )
-        part_of = _target(found["part"])
-        one = part_of, int(which) if which.isdigit() else which
+        one = _target(found["part"]), int(which) if which.isdigit() else which
         at = () if found["at"] is None else (_target(found["at"]),)
         try:
             notch = 0.0 if found["notch"] is None else quantity(found["notch"], NOTCH)
@@ -147,7 +146,7 @@ def stroke_of(text: str) -> StrokeRequest:
             f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
-    first, last = _quantity(start, unit), _quantity(stop, unit)
+    first, last = quantity(start, unit), quantity(stop, unit)
     if first == last:
         raise RequestError(f"the stroke {in_short(text)} ends where it begins")
     point = _target(found["point"])
@@ -173,16 +172,9 @@ def misalignment_of(text: str) -> MisalignmentRequest:
     return MisalignmentRequest(
         _target(found["point"]),
         name,
-        _quantity(value, unit),
+        quantity(value, unit),
         _target(about) if about else None,
     )
-
-
-def _quantity(text: str, unit: str) -> float:
-    try:
-        return quantity(text, unit)
-    except QuantityError as error:
-        raise RequestError(str(error)) from None
 
 
 def _coordinate(name: str) -> tuple[str, str]:
@@ -344,15 +336,12 @@ _REQUEST_RELEASE = (
 
 def _pair(given: object) -> tuple[Any, ...]:
     """An element and a deformation, by numbers or names; and maybe the end at which it is."""
-    wrong = TypeError(_REQUEST_RELEASE.format(in_short(given)))
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
-        raise wrong
-    element, which, *_ = given
-    if isinstance(element, (bool, float)) or element is None or isinstance(which, bool):
-        raise wrong
-    if not isinstance(which, (int, str)):
-        raise wrong
-    return tuple(given)
+    if isinstance(given, Sequence) and not isinstance(given, str) and len(given) in (2, 3):
+        element, which, *_ = given
+        is_element = element is not None and not isinstance(element, (bool, float))
+        if is_element and isinstance(which, (int, str)) and not isinstance(which, bool):
+            return tuple(given)
+    raise TypeError(_REQUEST_RELEASE.format(in_short(given)))
 
 
 def _stiffness(given: Any) -> float:
@@ -365,26 +354,22 @@ def _stiffness(given: Any) -> float:
 
 
 def _stroke(given: object) -> StrokeRequest:
-    if isinstance(given, StrokeRequest):
-        return given
     if isinstance(given, str):
         return stroke_of(given)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
-        name = _named(name)
-        return StrokeRequest(point, name, _measured(start, name), _measured(stop, name))
+        name, unit = _coordinate_given(name)
+        return StrokeRequest(point, name, measured(start, unit), measured(stop, unit))
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
     )
 
 
-def _named(name: object) -> str:
-    return _one_of("a coordinate", name, _NAMES)
-
-
-def _measured(given: object, coordinate: str) -> float:
-    return measured(given, "rad" if coordinate.startswith("r") else "m")
+def _coordinate_given(name: object) -> tuple[str, str]:
+    """A coordinate as it is given in Python, with its unit."""
+    name = _one_of("a coordinate", name, _NAMES)
+    return name, "rad" if name.startswith("r") else "m"
 
 
 def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
@@ -396,14 +381,12 @@ def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
 
 
 def _misalignment(given: object) -> MisalignmentRequest:
-    if isinstance(given, MisalignmentRequest):
-        return given
     if isinstance(given, str):
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
         clamp, name, value, *about = given
-        name = _named(name)
-        return MisalignmentRequest(clamp, name, _measured(value, name), *about)
+        name, unit = _coordinate_given(name)
+        return MisalignmentRequest(clamp, name, measured(value, unit), *about)
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

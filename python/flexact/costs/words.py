@@ -23,7 +23,7 @@ from .designs import (
     scale_of,
     words_of_direction,
 )
-from .tolerances import FAR
+from .elastic_design import FAR
 
 #: Columns of text where nobody says how many there are.
 WIDTH = 80
