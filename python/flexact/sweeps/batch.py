@@ -233,9 +233,7 @@ class _Reader:
 
     def _operand(self, node: ast.expr) -> _Operand:
         if isinstance(node, ast.Name):
-            if node.id == "inf":
-                return _constant(math.inf)
-            return self._column(node.id)
+            return _constant(math.inf) if node.id == "inf" else self._column(node.id)
         if isinstance(node, ast.Constant) and type(node.value) in (int, float, str):
             return _constant(node.value)
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):

@@ -38,9 +38,6 @@ class Chunk(NamedTuple):
         return Chunk(self.indices[start:stop], self.items[start:stop], self.deaths)
 
 
-NOTHING = Chunk((), ())
-
-
 class Raised(NamedTuple):
     """What a function raised, in words where it cannot be sent, and where it did so."""
 

@@ -86,15 +86,6 @@ def modes_of(result: Result) -> tuple[MotionArrays, StressArrays]:
 MOST_ENTRIES = 16_000_000
 
 
-class Scaled(NamedTuple):
-    """The scaled D(c) of a model."""
-
-    matrix: FloatArray
-    """(m, n) free of units, theory.md (2)."""
-    topology: int
-    """The same for models whose rows and columns are the same deformations and coordinates."""
-
-
 class Signed(NamedTuple):
     """A singular value of the scaled D(c), with a sign."""
 
@@ -116,11 +107,15 @@ def signed_column(every: Iterable[Signed | None]) -> np.ndarray:
     return np.array([each or none for each in every], _SIGNED)
 
 
-def scaled_jacobian(data: ModelData) -> Scaled:
+def scaled_jacobian(data: ModelData) -> tuple[FloatArray, int]:
     """D(c) as rank is decided on, but for components of quite another size.
 
     Rotations are multiplied by the characteristic length, and each row, over all coordinates,
     is brought to the norm one. Scales are positive, so that they keep the determinant's sign.
+
+    Returns:
+        (m, n) free of units, theory.md (2); and a number that is the same for models whose rows
+        and columns are the same deformations and coordinates.
 
     Raises:
         AnalysisError: it is too large.
@@ -142,19 +137,14 @@ def scaled_jacobian(data: ModelData) -> Scaled:
     full = np.zeros((rows.size, coordinates.size))
     np.add.at(full, (place[raw.row_of[there]], raw.column_of[there]), raw.value[there])
     turns = np.repeat(arrays.node_kind > NodeKind.POSITION, coordinates.shape[1])
-    full[:, turns] /= characteristic_length(one.frames.length)
+    lengths = one.frames.length[one.frames.length > 0.0]
+    full[:, turns] /= math.exp(float(np.log(lengths).mean())) if lengths.size else 1.0
     norm = np.linalg.norm(full, axis=1, keepdims=True)
     matrix = full[:, columns] / np.where(norm > 0.0, norm, 1.0)
     topology = 0
     for array in (arrays.element_kind, arrays.element_node, rows, columns):
         topology = zlib.crc32(np.ascontiguousarray(array).tobytes(), topology)
-    return Scaled(matrix, topology)
-
-
-def characteristic_length(lengths: FloatArray) -> float:
-    """The geometric mean of the lengths that are not zero; one without any."""
-    positive = lengths[lengths > 0.0]
-    return math.exp(float(np.log(positive).mean())) if positive.size else 1.0
+    return matrix, topology
 
 
 def signed_value(data: ModelData, rank: int | None = None) -> Signed:

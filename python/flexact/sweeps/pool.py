@@ -16,7 +16,7 @@ import threading
 import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from queue import SimpleQueue
@@ -25,7 +25,7 @@ from typing import Any
 from ..util.errors import reason_of
 from ..util.interruption import SIGNALS
 from ..util.loading import load
-from .chunks import NOTHING, Answer, Chunk, EngineError, Part, Raised, Source, parts_of
+from .chunks import Answer, Chunk, EngineError, Part, Raised, Source, parts_of
 
 #: Results that are there are not held back for longer [s].
 _FLUSH = 0.05
@@ -114,10 +114,9 @@ class Member:
         """
         self.chunks.append(chunk)
         try:
-            self.line.send(chunk.items)
-        except OSError:
-            # It is dead, which is found where its answers are awaited.
-            return
+            # Where it is dead, that is found where its answers are awaited.
+            with suppress(OSError):
+                self.line.send(chunk.items)
         except Exception as error:
             raise EngineError(f"an item cannot be sent to a worker process: {error}") from error
 
@@ -135,17 +134,14 @@ class Member:
             raise EngineError(f"a result cannot be read: {error}") from error
         if not self.has_started:
             self.has_started = True
-            return [Answer(NOTHING, raised=part.raised)] if part.raised else []
-        return [self._answer(part)]
-
-    def _answer(self, part: Part) -> Answer:
+            return [Answer(Chunk((), ()), raised=part.raised)] if part.raised else []
         chunk, first = self.chunks[0], self.done
         self.done += len(part.results)
         if part.is_last:
             self.chunks.popleft()
             self.done = 0
         some = chunk.part(first, first + len(part.results))
-        return Answer(some, part.results, part.seconds, part.raised)
+        return [Answer(some, *part[:3])]
 
     def buried(self) -> list[Answer]:
         """What it leaves: what it was about, and what it had not begun."""
@@ -156,7 +152,9 @@ class Member:
                 f"worker processes do not start (exit code {code}); where they are not forked, a "
                 'script needs `if __name__ == "__main__":` before what it does'
             )
-        death = f"the worker process died ({_words_of(code)})"
+        words = f"signal {-code}" if code < 0 else f"exit code {code}"
+        words = "signal 9, as where memory runs out" if code == -9 else words
+        death = f"the worker process died ({words})"
         left = [Answer(chunk) for chunk in self.chunks]
         if left:
             begun = self.chunks[0]
@@ -177,12 +175,6 @@ class Member:
         self.line.close()
 
 
-def _words_of(code: int) -> str:
-    if code == -9:
-        return "signal 9, as where memory runs out"
-    return f"signal {-code}" if code < 0 else f"exit code {code}"
-
-
 #: Forked processes are not safe with the libraries of macOS, and Windows has none.
 FORKS = sys.platform not in ("darwin", "win32")
 #: Lines that Windows can wait for at once, but for a few.
@@ -201,7 +193,15 @@ class LocalPool:
             EngineError: The function cannot be handed over.
         """
         self._context: Any = multiprocessing.get_context("fork" if FORKS else "spawn")
-        self._function = function if FORKS else pickled(function)
+        self._function: Callable[[Any], Any] | bytes = function
+        if not FORKS:
+            try:
+                self._function = pickle.dumps(function)
+            except Exception as error:
+                raise EngineError(
+                    f"the function cannot be sent to other processes ({error}): define it in a "
+                    "module of its own, outside of other functions"
+                ) from error
         self._most = min(workers, _MOST_ON_WINDOWS) if sys.platform == "win32" else workers
         self._workers: list[Member] = []
         # Those that are forked have it then.
@@ -277,18 +277,3 @@ def _undisturbed() -> Iterator[None]:
     finally:
         if blocks:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def pickled(function: Callable[[Any], Any]) -> bytes:
-    """A function as bytes.
-
-    Raises:
-        EngineError: It has none.
-    """
-    try:
-        return pickle.dumps(function)
-    except Exception as error:
-        raise EngineError(
-            f"the function cannot be sent to other processes ({error}): define it in a module "
-            "of its own, outside of other functions"
-        ) from error

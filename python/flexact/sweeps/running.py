@@ -172,7 +172,9 @@ class ExecutorCrew:
     ) -> None:
         """Nothing is sent yet."""
         self._function, self._executor = function, executor
-        self._workers = workers or _workers_of(executor)
+        said = [getattr(executor, name, None) for name in ("num_workers", "_max_workers")]
+        counts = [count for count in said if isinstance(count, int) and count > 0]
+        self._workers = workers or next(iter(counts), 0) or processors()
         self._chunks: dict[Future[Any], Chunk] = {}
 
     @property
@@ -213,12 +215,3 @@ def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
             "function in a module of its own, outside of other functions"
         ) from reason
     return Answer(chunk, results, seconds, error)
-
-
-def _workers_of(executor: Executor) -> int:
-    """How many workers an executor says that it has."""
-    for name in ("num_workers", "_max_workers"):
-        count = getattr(executor, name, None)
-        if isinstance(count, int) and count > 0:
-            return count
-    return processors()

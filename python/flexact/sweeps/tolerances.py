@@ -103,7 +103,13 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
     if isinstance(sd, Mapping):
         point = points_of(model.data)
         for name, value in sd.items():
-            made[point == point[_node(model, name)]] = _one(value)
+            given = floats(without_units(value, "m"), "the standard deviation of a point")
+            if given.shape not in ((), (3,)):
+                raise ValueError(
+                    "the standard deviation of a point is a length, or one of each of x, y and z, "
+                    f"not {in_short(value)}"
+                )
+            made[point == point[position_of(Parts(model.data), name)]] = given
     else:
         given = floats(without_units(sd, "m"), "the standard deviation")
         if given.shape not in ((), (nodes,), (nodes, 3)):
@@ -117,20 +123,6 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
     if not (np.isfinite(made).all() and (made >= 0.0).all()):
         raise ValueError("standard deviations must be finite and not negative")
     return made
-
-
-def _one(value: Any) -> FloatArray:
-    given = floats(without_units(value, "m"), "the standard deviation of a point")
-    if given.shape not in ((), (3,)):
-        raise ValueError(
-            f"the standard deviation of a point is a length, or one of each of x, y and z, "
-            f"not {in_short(value)}"
-        )
-    return given
-
-
-def _node(model: Model, name: Any) -> int:
-    return position_of(Parts(model.data), name)
 
 
 #: Of a normal distribution: 95 % lie within so many standard deviations.
