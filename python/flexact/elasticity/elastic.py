@@ -42,10 +42,8 @@ from .solution import (
     Solution,
     Solver,
     choice,
-    indexed,
     kept,
     loose_motion,
-    numbered,
     policy_of,
     releases_given,
 )
@@ -87,7 +85,7 @@ class Elastic(Frozen):
     @cached_property
     def policy(self) -> Policy:
         """What is rigid, what is elastic and what is released."""
-        return policy_of(self.data, self.held, indexed(self.data, self.release))
+        return policy_of(self.data, self.held, self.release)
 
     @cached_property
     def solvers(self) -> tuple[Solver, ...]:
@@ -154,9 +152,10 @@ class Elastic(Frozen):
         Raises:
             ElasticError: it is over-constrained, and held rigid.
         """
-        if self.held == "rigid" and self.verdicts.over_constrained:
+        over = self.verdicts.result.over_constrained if self.held == "rigid" else 0
+        if over:
             raise ElasticError(
-                f"the mechanism is over-constrained by {self.verdicts.over_constrained} and what "
+                f"the mechanism is over-constrained by {over} and what "
                 "is fixed is held rigid: the stress that something off causes is then not "
                 "determined; ask with held elastic"
             )
@@ -175,18 +174,6 @@ class Elastic(Frozen):
             "no drive acts in this state: ask a state of along(), or lock the only declared "
             'coordinate with drive="locked"; reaction() gives the force of whatever is held'
         )
-
-    def notes_of(self, at: Solution) -> tuple[str, ...]:
-        """What is to be known about the numbers of a state."""
-        made = []
-        if self.held == "rigid" and at.is_stressed and self.verdicts.over_constrained:
-            made.append(
-                f"over-constrained by {self.verdicts.over_constrained} and held rigid: of all "
-                "stresses in equilibrium with the loads those of least norm are taken"
-            )
-        if not at.is_confirmed:
-            made.append("it is not confirmed that no frequency or multiplier is missing in between")
-        return tuple(made)
 
     @property
     def words(self) -> str:
@@ -292,7 +279,7 @@ class Elastic(Frozen):
             UnknownError: there is no such node, element or deformation.
             ElasticError: nothing has a stiffness.
         """
-        both = {**self.release, **numbered(self.data, releases_given(self.points, release))}
+        both = {**self.release, **releases_given(self.points, release)}
         self.require_stiffness()
         other = replace(self, release=both)
         point = self.points.of(node)
@@ -735,7 +722,15 @@ class State(Frozen):
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known about the numbers of this state."""
-        return self.model.notes_of(self.finest)
+        made, over = [], self.model.verdicts.result.over_constrained
+        if self.model.held == "rigid" and self.finest.is_stressed and over:
+            made.append(
+                f"over-constrained by {over} and held rigid: of all stresses in equilibrium with "
+                "the loads those of least norm are taken"
+            )
+        if not self.finest.is_confirmed:
+            made.append("it is not confirmed that no frequency or multiplier is missing in between")
+        return tuple(made)
 
     # -- how it answers to small changes -------------------------------------------------------
 
@@ -918,11 +913,6 @@ def elastic(
         raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
     data = (model if isinstance(model, Model) else read(model)).data
     data.require_sound()
-    released = numbered(data, releases_given(Points(data), release))
-    return Elastic(
-        data,
-        choice(held, HELD, "held"),
-        choice(drive, DRIVES, "drive"),
-        released,
-        beams_given(beams),
-    )
+    released = releases_given(Points(data), release)
+    held, drive = choice(held, HELD, "held"), choice(drive, DRIVES, "drive")
+    return Elastic(data, held, drive, released, beams_given(beams))

@@ -152,14 +152,15 @@ def resultants_of(data: ModelData, element: int, stress: FloatArray) -> Resultan
     return Resultants(normal, torque, moments[1], moments[2], float(slope[2]), float(slope[1]))
 
 
-def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float:
-    """The largest normal stress [Pa] in the pieces of a member with a known section.
+def peak_of(at: Solution, element: int) -> float:
+    """The largest normal stress [Pa] in the pieces of a member of known section, by its index.
 
     |N|/A + |My| h/2Iy + |Mz| b/2Iz at a corner; of a circle the moments add as vectors.
 
     Raises:
         ElasticError: it is no member, or its section is not known.
     """
+    mesh, data = at.solver.mesh, at.solver.mesh.own
     number = int(data.arrays.element_number[element])
     kind = int(data.arrays.element_kind[element])
     if member_table()[kind] not in (Member.BAR, Member.BEAM):
@@ -172,7 +173,8 @@ def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float
             "CIRC and CROSSDIM in the deck's picture block, or a section in Python"
         )
     largest = 0.0
-    for each in every:
+    for piece in range(mesh.first[element], mesh.last[element] + 1):
+        each = resultants_of(mesh.data, piece, at.raw.stress[:, piece])
         my, mz = np.abs(each.moment_y), np.abs(each.moment_z)
         if shape == CrossSection.CIRC:
             area, bending = math.pi * b * b / 4.0, np.hypot(my, mz) * 32.0 / (math.pi * b**3)
@@ -180,18 +182,3 @@ def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float
             area, bending = b * h, 6.0 * my / (b * h * h) + 6.0 * mz / (h * b * b)
         largest = max(largest, abs(each.normal_force) / area + float(bending.max()))
     return largest
-
-
-def peak_of(at: Solution, element: int) -> float:
-    """The largest normal stress [Pa] in the pieces of an element, by its index.
-
-    Raises:
-        ElasticError: its section is not known.
-    """
-    mesh = at.solver.mesh
-    first, count = int(mesh.first[element]), int(mesh.pieces[element])
-    every = [
-        resultants_of(mesh.data, piece, at.raw.stress[:, piece])
-        for piece in range(first, first + count)
-    ]
-    return peak_stress(mesh.own, element, every)

@@ -38,7 +38,7 @@ DRIVES = ("free", "locked")
 
 #: Deformations that are released, as users give them.
 Release = Iterable[tuple[object, ...]] | Mapping[tuple[object, ...], Quantity]
-#: Stiffness [N m/rad; N/m of an elongation] by indices of element and deformation, from 0.
+#: Stiffness [N m/rad; N/m of an elongation] by numbers of element and deformation, from 1.
 Releases = dict[tuple[int, int], float]
 
 
@@ -78,7 +78,8 @@ def releases_given(points: Points, given: object) -> Releases:
                 f"the stiffness of a release must be a number from 0 in N m/rad (of an elongation "
                 f"in N/m), not {in_short(stiffness)}"
             )
-        made.update(dict.fromkeys(points.deformations(*pair), float(number)))
+        for element, k in points.deformations(*pair):
+            made[int(points.data.arrays.element_number[element]), k + 1] = float(number)
     return made
 
 
@@ -117,7 +118,7 @@ class Policy(Frozen):
         return bool(self.stiff.any() or np.nan_to_num(self.arrays.notch).any())
 
 
-def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:
+def policy_of(data: ModelData, held: str, release: Mapping[tuple[int, int], float]) -> Policy:
     """What is rigid: fixed deformations; with held "elastic" only those without a stiffness."""
     arrays = data.arrays
     notch = np.full(arrays.deformation_class.shape, np.nan, order="F")
@@ -130,8 +131,8 @@ def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:
     rigid = arrays.deformation_class == Class.FIXED
     if held == "elastic":
         rigid &= ~stiff
-    for (element, k), stiffness in releases.items():
-        notch[k, element] = stiffness
+    for (element, k), stiffness in release.items():
+        notch[k - 1, data.element_index[element]] = stiffness
     return Policy(elastic_arrays(data, notch), rigid, stiff)
 
 
@@ -152,17 +153,6 @@ def notch_in_units(data: ModelData, notch: FloatArray) -> FloatArray:
     by_length = (dual_table()[data.arrays.element_kind] == Dual.MOMENT_OVER_LENGTH).T
     length = np.where(data.frames.length > 0.0, data.frames.length, 1.0)
     return np.asfortranarray(np.where(by_length, notch / length**2, notch))
-
-
-def numbered(data: ModelData, releases: Releases) -> dict[tuple[int, int], float]:
-    """Releases by numbers of elements and deformations, from 1, instead of indices."""
-    numbers = data.arrays.element_number
-    return {(int(numbers[e]), k + 1): value for (e, k), value in releases.items()}
-
-
-def indexed(data: ModelData, release: Mapping[tuple[int, int], float]) -> Releases:
-    """The other way round."""
-    return {(data.element_index[e], k - 1): value for (e, k), value in release.items()}
 
 
 class Compliance(NamedTuple):
@@ -197,28 +187,6 @@ class Compliance(NamedTuple):
         some = turned[:, ~none]
         made = (some / values[~none]) @ some.T * np.outer(self.scale, self.scale)
         return _with_infinity(made, turned[:, none] @ turned[:, none].T)
-
-
-def compliance_at(
-    moved: FloatArray, loose: FloatArray, scale: FloatArray, is_held: BoolArray, least: float
-) -> Compliance:
-    """Of displacements (n, n) under unit loads, and motions without stiffness (n, m).
-
-    Args:
-        moved: Displacements and turns.
-        loose: Displacements and turns.
-        scale: (n,) what makes a length of each.
-        is_held: (n,) which are held.
-        least: A compliance [m/N] below which all of it is rounding.
-    """
-    finite = moved * np.outer(scale, scale)
-    finite = (finite + finite.T) / 2.0
-    finite[is_held] = 0.0
-    finite[:, is_held] = 0.0
-    if np.abs(finite).max(initial=0.0) < least:
-        finite[:] = 0.0
-    free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
-    return Compliance(finite, span(free, POINT_RESTS), scale, is_held)
 
 
 def kept(before: Compliance, after: Compliance) -> FloatArray:
@@ -408,13 +376,16 @@ class Solution:
                 force[axis, node, i] = 1.0
             answer = self.respond(force)
             nodes, axes = (list(each) for each in zip(*coordinates, strict=True))
-            self._at[point] = compliance_at(
-                np.asarray(answer.displacement[axes, nodes]),
-                np.asarray(self.unit_motions(answer.loose)[axes, nodes]),
-                np.asarray(self.scale[nodes]),
-                np.array([self._is_still(each) for each in coordinates]),
-                self.solver.least_compliance,
-            )
+            scale = np.asarray(self.scale[nodes])
+            is_held = np.array([self._is_still(each) for each in coordinates])
+            finite = answer.displacement[axes, nodes] * np.outer(scale, scale)
+            finite = (finite + finite.T) / 2.0
+            finite[is_held] = finite[:, is_held] = 0.0
+            if np.abs(finite).max(initial=0.0) < self.solver.least_compliance:
+                finite[:] = 0.0
+            loose = self.unit_motions(answer.loose)[axes, nodes] * scale[:, None]
+            loose = span(np.where(is_held[:, None], 0.0, loose), POINT_RESTS)
+            self._at[point] = Compliance(finite, loose, scale, is_held)
         return self._at[point]
 
     @property

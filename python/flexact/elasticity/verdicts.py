@@ -10,7 +10,7 @@ import numpy as np
 from ..analysis.decomposition import asked_for
 from ..analysis.result import Result, result_of
 from ..core import calls
-from ..core.arrays import BoolArray, FloatArray
+from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
 from ..model.data import ModelData
 from ..util.records import cached_property
@@ -32,11 +32,6 @@ class Verdicts:
         """The analysis of the reference configuration."""
         return result_of(self.data, asked_for("auto", None), None, None, Result)
 
-    @cached_property
-    def over_constrained(self) -> int:
-        """Number of self-stresses in the reference configuration."""
-        return int(self.result.over_constrained)
-
     def of(self, configuration: FloatArray) -> tuple[int, int, float]:
         """The verdict where the nodes are, (4, nodes).
 
@@ -54,7 +49,11 @@ class Verdicts:
         at_rest = np.array_equal(configuration, arrays.node_value)
         value = math.nan
         if m * n <= _MOST:
-            dense = self._dense(configuration, held, free)
+            raw = calls.assemble(self.data.packed, configuration, self._c_t)
+            row, column = np.cumsum(held) - 1, np.cumsum(free) - 1
+            there = held[raw.row_of] & free[raw.column_of]
+            place = row[raw.row_of[there]] * n + column[raw.column_of[there]]
+            dense = np.bincount(place, raw.value[there], m * n).reshape(m, n)
             value = float(np.linalg.svd(dense, compute_uv=False).min(initial=math.inf))
         if at_rest:
             return self.result.under_constrained, self.result.over_constrained, value
@@ -63,25 +62,10 @@ class Verdicts:
                 f"D(c) has {m} rows and {n} columns: it is not decomposed away from the reference"
             )
         turns = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)[free]
-        scaled = np.where(turns, dense / self._length, dense)
+        length = self.data.frames.length[self.data.frames.length > 0.0]
+        mean = math.exp(float(np.log(length).mean())) if length.size else 1.0
+        scaled = np.where(turns, dense / mean, dense)
         norm = np.linalg.norm(scaled, axis=1, keepdims=True)
         values = np.linalg.svd(scaled / np.where(norm > 0.0, norm, 1.0), compute_uv=False)
         rank = int(np.count_nonzero(values > self.result.gap.zero_elsewhere(self.result.raw.noise)))
         return n - rank, m - rank, value
-
-    def _dense(self, configuration: FloatArray, held: BoolArray, free: BoolArray) -> FloatArray:
-        raw = calls.assemble(self.data.packed, configuration, self._c_t)
-        row = np.cumsum(held) - 1
-        column = np.cumsum(free) - 1
-        there = held[raw.row_of] & free[raw.column_of]
-        m, n = int(held.sum()), int(free.sum())
-        place = row[raw.row_of[there]] * n + column[raw.column_of[there]]
-        flat = np.bincount(place, raw.value[there], m * n)
-        return np.asarray(flat.reshape(m, n), np.float64)
-
-    @cached_property
-    def _length(self) -> float:
-        """The geometric mean of the lengths of elements [m]."""
-        length = self.data.frames.length
-        there = length[length > 0.0]
-        return math.exp(float(np.log(there).mean())) if there.size else 1.0
