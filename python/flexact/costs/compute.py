@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
@@ -45,9 +46,9 @@ from .elastic_design import (
     ElasticDesign,
     Measures,
     curve_against,
+    direction_words,
     drives_of,
     has_masses,
-    kept_of,
     over_levels,
     require_stiffness,
     tolerances_of,
@@ -215,7 +216,13 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
 
     None of it where no section is known: then the element with the largest moment, or force.
     """
-    known = _known(both[1])
+    finest, known = both[1].alone[-1], []
+    for element in finest.model.data.arrays.element_number.tolist():
+        # Those whose section is known and that carry something.
+        with suppress(ElasticError):
+            finest.peak_stress(element)
+            if finest.model.policy.stiff[:, mechanism.data.element_index[element]].any():
+                known.append(element)
     if not known:
         sizes = np.abs(_of_elements(both[1]))
         moment = sizes[:, 1:].max(axis=1)
@@ -228,20 +235,6 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
     largest = [each.at(k) for each, k in zip(found, most, strict=True)]
     peak = Numbers(*(np.array(each) for each in zip(*largest, strict=True)))
     return peak, mechanism.data.element_index[known[most[1]]]
-
-
-def _known(state: State) -> list[int]:
-    """Numbers of the elements whose section is known and that carry something."""
-    made = []
-    finest = state.alone[-1]
-    for element in state.model.data.arrays.element_number.tolist():
-        try:
-            finest.peak_stress(element)
-        except ElasticError:
-            continue
-        if finest.model.policy.stiff[:, finest.model.data.element_index[element]].any():
-            made.append(element)
-    return made
 
 
 #: How many parasitic frequencies are shown.
@@ -614,11 +607,13 @@ def frequencies_of(
 
 
 def kept_beside(measures: Measures, before: ElasticDesign, after: ElasticDesign) -> Kept | None:
-    """What a design keeps of the stiffness of the one as built."""
+    """What a design keeps of the stiffness of the one as built; None where nothing can move."""
     one, two = before.rest, after.rest
-    finest = measures.ratios(one.alone[-1], two.alone[-1])
+    found = measures.ratios(one.alone[-1], two.alone[-1])
+    if not found.mu.size:
+        return None
     mu = over_levels(lambda a, b: measures.ratios(a, b).mu, one, two)
-    return kept_of(finest, mu, measures.directions)
+    return Kept(mu, found.loads[:, 0], direction_words(found.shares[:, 0], measures.directions))
 
 
 def best(

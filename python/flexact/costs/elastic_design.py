@@ -28,7 +28,6 @@ from ..model.data import ModelData
 from ..model.model import Model
 from ..util.records import Frozen, cached_property
 from .designs import (
-    Kept,
     Misalignment,
     MisalignmentCurve,
     Number,
@@ -70,8 +69,7 @@ def able(compliance: FloatArray, scale: FloatArray) -> BoolArray:
     """(d,) directions that are not held."""
     own = np.diag(compliance) * scale**2
     there = np.isfinite(own)
-    made: BoolArray = there & (own > _HELD * own[there].max(initial=0.0))
-    return made
+    return np.asarray(there & (own > _HELD * own[there].max(initial=0.0)))
 
 
 def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
@@ -150,13 +148,6 @@ def _aligned(vectors: FloatArray, mu: FloatArray) -> FloatArray:
     return made
 
 
-def kept_of(found: Ratios, mu: Numbers, directions: Sequence[str]) -> Kept | None:
-    """The ratios with uncertainties and words; None where nothing can move."""
-    if not found.mu.size:
-        return None
-    return Kept(mu, found.loads[:, 0], direction_words(found.shares[:, 0], directions))
-
-
 def direction_words(shares: FloatArray, directions: Sequence[str]) -> str:
     """Such as "about z", or "along x and about y"."""
     order = np.argsort(-np.round(shares, 6), kind="stable")[:_MOST_NAMED]
@@ -195,8 +186,7 @@ class Measures:
 
     def compliance(self, state: State) -> FloatArray:
         """(d, d) at the point."""
-        made: FloatArray = np.asarray(state.compliance(self.point.node), np.float64)
-        return made
+        return state.compliance(self.point.node)
 
     def stiffness(self, state: State) -> FloatArray:
         """(d,) inverse of each compliance along its direction; infinite where it is held."""
@@ -520,5 +510,4 @@ def curve_against(
 def _places(end: float, critical: float) -> FloatArray:
     """Errors from near zero to an end: more of them where the design buckles there."""
     count = _PLACES if end == critical else _FEW_PLACES
-    made: FloatArray = end * np.sin(np.linspace(0.0, math.pi / 2.0, count + 1)[1:])
-    return made
+    return np.asarray(end * np.sin(np.linspace(0.0, math.pi / 2.0, count + 1)[1:]))

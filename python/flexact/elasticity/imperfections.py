@@ -43,10 +43,9 @@ def dual_to_parameters(euler: FloatArray, moment: FloatArray) -> FloatArray:
     """
     unit = euler / np.linalg.norm(euler)
     scalar, vector = unit[0], unit[1:]
-    made: FloatArray = (
+    return np.asarray(
         scalar * moment + (vector @ moment) / scalar * vector - np.cross(vector, moment)
     )
-    return made
 
 
 _LENGTHS = (Role.ELONGATION, Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z)

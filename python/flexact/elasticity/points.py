@@ -55,8 +55,7 @@ class Points:
         """(2, k) position and orientation of both ends of all elements, in their order."""
         slots = self.data.arrays.element_node - 1
         both = np.stack((slots[:2], slots[2:]), axis=2).reshape(2, -1)
-        made: IntArray = both[:, (both >= 0).all(axis=0)]
-        return made
+        return np.asarray(both[:, (both >= 0).all(axis=0)])
 
     @cached_property
     def _partner(self) -> IntArray:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from queue import Empty, SimpleQueue
-from typing import Any
+from typing import Any, cast
 
 from ..util.loading import load
 from ..util.machine import processors
@@ -52,17 +52,15 @@ def timed_there(function: bytes, items: bytes) -> bytes:
     pickle = load("cloudpickle")
     found = timed(_read(function), pickle.loads(items))
     try:
-        made: bytes = pickle.dumps(found)
+        return bytes(pickle.dumps(found))
     except Exception as error:
         reason = EngineError(f"a result cannot be sent from a Dask worker: {error}")
-        made = pickle.dumps(Part(raised=Raised(reason, "")))
-    return made
+        return bytes(pickle.dumps(Part(raised=Raised(reason, ""))))
 
 
 @lru_cache(maxsize=4)
 def _read(pickled: bytes) -> Callable[[Any], Any]:
-    function: Callable[[Any], Any] = load("cloudpickle").loads(pickled)
-    return function
+    return cast("Callable[[Any], Any]", load("cloudpickle").loads(pickled))
 
 
 class DaskCrew:
@@ -240,10 +238,9 @@ class DaskCrew:
 
 def _pickled(given: Callable[[Any], Any] | Sequence[Any], what: str) -> bytes:
     try:
-        made: bytes = load("cloudpickle").dumps(given)
+        return bytes(load("cloudpickle").dumps(given))
     except Exception as error:
         raise EngineError(f"{what} cannot be sent to Dask workers: {error}") from error
-    return made
 
 
 def _answer(chunk: Chunk, made: bytes) -> Answer:

@@ -107,14 +107,12 @@ class Table(Frozen):
     @property
     def is_doubtful(self) -> BoolArray:
         """(variants,) whether the rank is in doubt."""
-        found: BoolArray = self.certainty == Certainty.DOUBTFUL.value
-        return found
+        return np.asarray(self.certainty == Certainty.DOUBTFUL.value)
 
     @property
     def has_error(self) -> BoolArray:
         """(variants,) whether there is no result."""
-        found: BoolArray = self.error != ""
-        return found
+        return np.asarray(self.error != "")
 
     def crossings(self, along: str | None = None, *, workers: int | None = None) -> Crossings:
         """Singular variants between neighbouring rows, found by bisection; see `Crossing`.

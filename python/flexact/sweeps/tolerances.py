@@ -64,8 +64,7 @@ def misaligned(model: Model, sd: FloatArray, samples: int, seed: int) -> FloatAr
             ends[:, :1] * (1.0 - shares)[None, :, None] + ends[:, 1:] * shares[None, :, None]
         )
     moved *= axes_used(data)
-    made: FloatArray = positions + moved
-    return made
+    return np.asarray(positions + moved)
 
 
 def points_of(data: ModelData) -> IntArray:
@@ -196,8 +195,7 @@ class Tolerances(Frozen):
         parts = np.array(list(at), np.float64)
         if not values.size:
             return np.full(parts.shape, np.nan)
-        made: FloatArray = np.quantile(values, parts, method="inverted_cdf")
-        return made
+        return np.asarray(np.quantile(values, parts, method="inverted_cdf"))
 
     def share_below(self, margin: float) -> Share:
         """How many samples have a smaller margin [m]; samples with an error are left out."""
