@@ -132,8 +132,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     many = "clamp bears" if left_out == 1 else "clamps bear"
     more = f"; {left_out} more {many} more" if left_out else ""
     note = f"Arrows: more than {told(limit, unit, 2)}{more}"
-    scale = log_scale(finite, unit, _BEYOND)
-    return BarChart(name, title, scale, tuple(groups), note)
+    return BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
 
 
 def _row(
@@ -159,14 +158,20 @@ _ABOVE = 1.08
 
 def charts_of(cost: CostValues) -> tuple[Chart, ...]:
     """The charts for which there are values, in the order in which they are read."""
-    made = (_stiffness(cost), _parasitic(cost), _misaligned(cost))
+    hertz = [
+        (series, each, each.parasitic.column(0))
+        for series, each in _strokes(cost)
+        if each.parasitic is not None and each.parasitic.value.shape[1]
+    ]
+    parasitic = _along_stroke(cost, "parasitic", "Lowest parasitic frequency", hertz, "Hz")
+    made = (_stiffness(cost), parasitic, _misaligned(cost))
     return tuple(chart for chart in made if chart is not None)
 
 
 def _stiffness(cost: CostValues) -> Chart | None:
     """In the direction that loses most of what it has as built at rest."""
     strokes = _strokes(cost)
-    chosen = _direction(cost, strokes) if strokes and cost.stroke is not None else None
+    chosen = _direction(cost, strokes) if strokes else None
     if chosen is None:
         return None
     name = cost.directions[chosen]
@@ -190,14 +195,6 @@ def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> 
         if best is None or share < best[0] * (1.0 - 1e-6):
             best = (share, k)
     return None if best is None else best[1]
-
-
-def _parasitic(cost: CostValues) -> Chart | None:
-    chosen = []
-    for series, each in _strokes(cost):
-        if each.parasitic is not None and each.parasitic.value.shape[1]:
-            chosen.append((series, each, each.parasitic.column(0)))
-    return _along_stroke(cost, "parasitic", "Lowest parasitic frequency", chosen, "Hz")
 
 
 def _along_stroke(

@@ -49,8 +49,8 @@ from .elastic_design import (
     direction_words,
     drives_of,
     has_masses,
+    has_stiffness,
     over_levels,
-    require_stiffness,
     tolerances_of,
 )
 from .request import ReleaseRequest, Request
@@ -421,7 +421,13 @@ def compute(
 ) -> Made:
     """What a design costs; see `flexact.cost`."""
     data.require_sound()
-    require_stiffness(data)
+    if not has_stiffness(data):
+        raise model_error(
+            "no-stiffness",
+            "what it costs needs stiffness, and the model gives none",
+            "state ESTIFF for each flexible element behind the END of the kinematics (of a beam "
+            "EA, G It, E Iy, E Iz), or give sheets a material in Python",
+        )
     report = progress or (lambda _what, _done: None)
     report("analysing", 0.0)
     return _Computation(data, asked, name, report).cost(kind)

@@ -18,7 +18,6 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
-from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, Estimate, State, elastic
 from ..elasticity.imperfections import Imperfection, misalignment
 from ..elasticity.solution import Solution
@@ -60,11 +59,6 @@ class Ratios(NamedTuple):
     """(d, k) part of the work of each load that is done in each direction."""
 
 
-def scales_of(directions: Sequence[str], size: float) -> FloatArray:
-    """(d,) by which displacements are multiplied to be lengths: the size of a rotation."""
-    return np.array([size if unit_of_direction(each) == "rad" else 1.0 for each in directions])
-
-
 def able(compliance: FloatArray, scale: FloatArray) -> BoolArray:
     """(d,) directions that are not held."""
     own = np.diag(compliance) * scale**2
@@ -81,7 +75,7 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
     Args:
         before: (d, d) compliance.
         after: (d, d) likewise.
-        scale: (d,) see `scales_of`.
+        scale: (d,) as of `Measures`.
     """
     lost = np.isinf(np.diag(after)) & ~np.isinf(np.diag(before))
     if lost.any():
@@ -181,8 +175,9 @@ class Measures:
 
     @property
     def scale(self) -> FloatArray:
-        """(d,) see `keeping.scales_of`."""
-        return scales_of(self.directions, self.size)
+        """(d,) by which displacements are multiplied to be lengths: the size of a rotation."""
+        units = map(unit_of_direction, self.directions)
+        return np.array([self.size if unit == "rad" else 1.0 for unit in units])
 
     def compliance(self, state: State) -> FloatArray:
         """(d, d) at the point."""
@@ -249,43 +244,12 @@ def has_stiffness(data: ModelData) -> bool:
     return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
 
 
-def require_stiffness(data: ModelData) -> None:
-    """Raise where no element has a stiffness.
-
-    Raises:
-        ModelError: none has.
-    """
-    if not has_stiffness(data):
-        raise model_error(
-            "no-stiffness",
-            "what it costs needs stiffness, and the model gives none",
-            "state ESTIFF for each flexible element behind the END of the kinematics (of a beam "
-            "EA, G It, E Iy, E Iz), or give sheets a material in Python",
-        )
-
-
 def has_masses(data: ModelData) -> bool:
     """Whether any mass is given, so that there are frequencies."""
     given = data.properties
     return given is not None and any(
         bool((np.nan_to_num(part) > 0.0).any()) for part in (given.mass, given.node_mass)
     )
-
-
-def with_unit_mass(data: ModelData, node: int) -> ModelData:
-    """The model with the mass 1 kg, or inertia 1 kg m^2, at one node by its index, and no other.
-
-    Its lowest squared frequency is the lowest stiffness of that node.
-    """
-    assert data.properties is not None
-    mass = np.full_like(data.properties.node_mass, math.nan)
-    if data.arrays.node_kind[node] == NodeKind.ORIENTATION:
-        mass[node] = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
-    else:
-        mass[node, 0] = 1.0
-    given = data.properties
-    none = np.full_like(given.mass, math.nan)
-    return replace(data, properties=Properties(given.stiffness, none, mass))
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,9 +293,17 @@ class ElasticDesign(Frozen):
     @cached_property
     def measured(self) -> Elastic:
         """The model whose first frequency is watched: without masses that of a unit mass."""
-        if self.has_masses:
+        given, node = self.data.properties, self.watched
+        if self.has_masses or given is None:
             return self.elastic
-        return self._elastic(with_unit_mass(self.data, self.watched))
+        # With 1 kg, or 1 kg m^2, at the node alone the lowest square is the lowest stiffness.
+        mass = np.full_like(given.node_mass, math.nan)
+        if self.data.arrays.node_kind[node] == NodeKind.ORIENTATION:
+            mass[node] = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+        else:
+            mass[node, 0] = 1.0
+        none = np.full_like(given.mass, math.nan)
+        return self._elastic(replace(self.data, properties=Properties(given.stiffness, none, mass)))
 
     @cached_property
     def levels(self) -> tuple[Level, ...]:

@@ -27,17 +27,15 @@ class Table(NamedTuple):
     """The table as it is drawn.
 
     Attributes:
-        heads: Of the columns.
-        rows: The designs.
-        words: What each releases, in lines.
+        key: What it says.
+        words: What each design releases, in lines.
         place: Where these begin [inch].
         cells: Where the columns begin [inch].
         heights: Of the rows [inch].
         headline: Above it, in lines.
     """
 
-    heads: tuple[str, ...]
-    rows: tuple[KeyRow, ...]
+    key: Key
     words: tuple[list[str], ...]
     place: float
     cells: list[float]
@@ -78,7 +76,7 @@ def table_of(figure: Any, key: Key, headline: str) -> Table:
         place += each + gap
     heights = (_TABLE_ROW + _SECOND * max(len(lines) - 1, 0) for lines in words)
     lines = wrapped(figure, headline, _RIGHT_END - _MARGIN, _HEADLINE, "bold")
-    return Table(key.heads, key.rows, words, first, cells, tuple(heights), lines)
+    return Table(key, words, first, cells, tuple(heights), lines)
 
 
 def wrapped(figure: Any, text: str, room: float, size: float, weight: str = "normal") -> list[str]:
@@ -115,10 +113,10 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
     top += 0.04
     _text(figure, _MARGIN, top, ", ".join(choices_of(cost)), _WORDS, SOFT)
     top += _TABLE_ROW + 0.1
-    for place, head in zip(table.cells, table.heads, strict=True):
+    for place, head in zip(table.cells, table.key.heads, strict=True):
         _text(figure, place, top, head, _WORDS - 0.5, SOFT)
     top += _TABLE_ROW
-    for row, told, height in zip(table.rows, table.words, table.heights, strict=True):
+    for row, told, height in zip(table.key.rows, table.words, table.heights, strict=True):
         _draw_row(figure, table, row, told, top)
         top += height
 
@@ -233,30 +231,15 @@ def _axes(figure: Any, left: float, top: float, width: float, height: float) -> 
 
 
 def _draw_charts(figure: Any, charts: tuple[Chart, ...], top: float) -> None:
-    if not charts:
-        return
-    cell = (_WIDTH - 2 * _MARGIN + 0.15) / len(charts)
+    cell = (_WIDTH - 2 * _MARGIN + 0.15) / max(len(charts), 1)
     for k, chart in enumerate(charts):
-        axes = _axes(
-            figure,
-            _MARGIN + k * cell + _LEFT,
-            top + _ABOVE,
-            cell - _LEFT - _NAMES,
-            _CHART,
-        )
-        draw_chart(axes, chart)
+        left, width = _MARGIN + k * cell + _LEFT, cell - _LEFT - _NAMES
+        draw_chart(_axes(figure, left, top + _ABOVE, width, _CHART), chart)
 
 
 def _draw_bars(figure: Any, bars: tuple[BarChart, ...], top: float) -> None:
-    if not bars:
-        return
-    cell = (_WIDTH - 2 * _MARGIN) / len(bars)
+    cell = (_WIDTH - 2 * _MARGIN) / max(len(bars), 1)
     for k, chart in enumerate(bars):
-        axes = _axes(
-            figure,
-            _MARGIN + k * cell + _GROUPS,
-            top + _ABOVE,
-            cell - _GROUPS - _RIGHT,
-            _ROW * chart.height(ROW, BETWEEN),
-        )
-        draw_bars(axes, chart)
+        left, width = _MARGIN + k * cell + _GROUPS, cell - _GROUPS - _RIGHT
+        height = _ROW * chart.height(ROW, BETWEEN)
+        draw_bars(_axes(figure, left, top + _ABOVE, width, height), chart)

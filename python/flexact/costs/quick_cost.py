@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -63,10 +64,9 @@ class _QuickCost:
     """What the sentence is made of: the errors of a result that cost something."""
 
     def __init__(self, result: Result) -> None:
-        self.result, self.data = result, result.given
+        self.result, self.data, self.size = result, result.given, result.given.size
         self.places = Places(self.data, result.parts)
         self.errors = self.places.misalignments()
-        self.size = self.data.size
 
     def sentence(self) -> str:
         if not 0 < len(self.errors) <= _MOST_ERRORS:
@@ -79,7 +79,9 @@ class _QuickCost:
         if not order:
             return ""
         if len(self.errors) * mechanism.levels[-1].solution.solver.elements > _MOST_LOOKED_AT:
-            return f"{self._small(one, order[0])}. {self._more()}"
+            words = off(order[0], Number(_SMALL))
+            loads = self._loads(one, order[0], _SMALL)
+            return f"It costs: {words} loads {loads}, to first order. {self._more()}"
         name = FREQUENCY if mechanism.has_masses else STIFFNESS
         found = self._tightest(mechanism, order)
         if found is None:
@@ -147,10 +149,6 @@ class _QuickCost:
             return told
         return f"{told}; at {in_words(found.critical, found.misalignment.unit)} it buckles"
 
-    def _small(self, one: ElasticDesign, each: Misalignment) -> str:
-        loads = self._loads(one, each, _SMALL)
-        return f"It costs: {off(each, Number(_SMALL))} loads {loads}, to first order"
-
     def _loads(self, mechanism: ElasticDesign, each: Misalignment, size: float) -> str:
         """Such as "sheet 1 with 12 MPa": the flexure that an error stresses most, linearly."""
         parts = self.result.parts
@@ -164,7 +162,11 @@ class _QuickCost:
             level.solution.under(size * level.stresses((each,))[:, :, 0])
             for level in mechanism.levels
         ]
-        known = [e for e in which if _is_known(states[-1], e)]
+        known = []
+        for e in which:
+            with suppress(ElasticError):
+                peak_of(states[-1], e)
+                known.append(e)
         if known:
             values, unit = _of(states, known, lambda at, e: (peak_of(at, e),)), "Pa"
         else:
@@ -184,14 +186,6 @@ def _of(
     """(elements, k) numbers of elements, extrapolated."""
     made = [np.array([of(at, e) for e in which]) for at in states]
     return np.asarray(np.abs(Estimate.of(*made).value))
-
-
-def _is_known(at: Solution, element: int) -> bool:
-    try:
-        peak_of(at, element)
-    except ElasticError:
-        return False
-    return True
 
 
 def _moment_and_force(at: Solution, element: int) -> tuple[float, float]:

@@ -29,7 +29,7 @@ from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, r
 from .imperfections import Angle, Imperfection, misalignment, number_given, warmth
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
-from .reduced import Reducer, Resultants, peak_of, resultants_of
+from .reduced import Reducer, Resultants, Verdicts, peak_of, resultants_of
 from .solution import (
     DRIVES,
     HELD,
@@ -48,7 +48,6 @@ from .solution import (
     releases_given,
 )
 from .tolerance import Linear, Pair
-from .verdicts import Verdicts
 
 Match = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
 

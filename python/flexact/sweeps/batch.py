@@ -20,8 +20,6 @@ from typing import Any, NamedTuple
 from ..analysis.decomposition import Asked
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import AnalysisError, Certainty, Verdict
-from ..core.arrays import ModelArrays
-from ..core.progress import Progress
 from ..deck.rendering import DeckError, ProblemsError
 from ..model.reading import read_bytes
 from ..util.decks import FolderError, no_formula
@@ -76,12 +74,11 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
     start = time.perf_counter()
     try:
         data = read_bytes(raw, name)
-        result: Result = result_of(data, asked, name, _awake(data.arrays))
-        values: dict[str, Cell] = {
-            **row_of(result, want),
-            **{"rows": result.rows, "columns": result.columns},
-        }
-        made = DeckRow(values, result, None)
+        # Beside a thread this one hears signals.
+        hears = _nothing if data.arrays.element_number.size > _LONG else None
+        result: Result = result_of(data, asked, name, hears)
+        sizes = {"rows": result.rows, "columns": result.columns}
+        made = DeckRow({**row_of(result, want), **sizes}, result, None)
     except (DeckError, AnalysisError, MemoryError) as error:
         made = failed_row(error, name, want)
     except Exception as error:
@@ -93,9 +90,9 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
 
 def failed_row(error: Exception, name: str, want: str, seconds: float = 0.0) -> DeckRow:
     """The row of a deck that has no result."""
-    words = first_error(error, name)
-    values: dict[str, Cell] = {**error_row(words, want), "rows": None, "columns": None}
-    return DeckRow(values | {"seconds": seconds}, None, error)
+    row = error_row(first_error(error, name), want)
+    values = {**row, "rows": None, "columns": None, "seconds": seconds}
+    return DeckRow(values, None, error)
 
 
 def first_error(error: Exception, name: str) -> str:
@@ -111,11 +108,6 @@ def first_error(error: Exception, name: str) -> str:
     elif isinstance(error, FolderError):
         return harmless(no_formula(message))  # which names it
     return harmless(f"{place}: {message}")
-
-
-def _awake(arrays: ModelArrays) -> Progress | None:
-    """What lets a large model be analysed in a thread, while this one hears signals."""
-    return _nothing if arrays.element_number.size > _LONG else None
 
 
 def _nothing(_: str, __: float) -> None:

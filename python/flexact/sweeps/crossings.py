@@ -115,8 +115,9 @@ class Crossings(Frozen, Sequence[Crossing]):
     def __repr__(self) -> str:
         """How many, and the first; and what was given up."""
         told = "; ".join(
-            f"{_numbers(each.parameters) or _between_rows(each)}: {each.verdict}"
-            for each in self.found[:6]
+            f"{_numbers(e.parameters) or f'{e.share:.6g} from row {e.rows[0]} to {e.rows[1]}'}: "
+            f"{e.verdict}"
+            for e in self.found[:6]
         )
         more = "; ..." if len(self) > 6 else ""
         given_up = ""
@@ -126,10 +127,6 @@ class Crossings(Frozen, Sequence[Crossing]):
             what = f"{many} search{'es' * (many > 1)} given up"
             given_up = f"; {what}, {'first' if many > 1 else 'which'} at {at}: {first.error}"
         return f"<Crossings: {len(self)}{': ' * bool(told)}{told}{more}{given_up}>"
-
-
-def _between_rows(each: Crossing) -> str:
-    return f"{each.share:.6g} from row {each.rows[0]} to {each.rows[1]}"
 
 
 def _numbers(row: Row) -> str:

@@ -94,7 +94,9 @@ class Journal:
                 raise JournalError(
                     f"{path} does not begin as a journal does; delete it to start anew"
                 )
-            made._end_line()
+            if made._size and made._bytes(made._size - 1, 1) != b"\n":
+                # What is added begins a line, whatever a killed process has left half-written.
+                made._write(b"\n")
         except BaseException:
             made.close()
             raise
@@ -135,11 +137,6 @@ class Journal:
         return JournalError(
             f"{self.path} belongs to a run that is still going on; wait for its end"
         )
-
-    def _end_line(self) -> None:
-        """Let what is added begin a line, whatever a killed process has left half-written."""
-        if self._size and self._bytes(self._size - 1, 1) != b"\n":
-            self._write(b"\n")
 
     def entries(self) -> Iterator[tuple[int, Any]]:
         """Where lines begin with their records, in the order in which they were added."""

@@ -79,32 +79,27 @@ def add_legend(axes: Any, table: Rows, *, has_singular: bool, marks: bool) -> No
     from matplotlib.patches import Patch
 
     handles: list[Any] = []
-    mark: Any
     for verdict in Verdict:
         if count := int((table["verdict"] == verdict.value).sum()):
-            told = f"{verdict.value}: {count}"
-            handles.append(_of_verdict(verdict, told, marks))
+            dot: Any = {"label": f"{verdict.value}: {count}", "color": verdict.colour}
+            handles.append(
+                Line2D([], [], marker="o", ms=6, ls="none", **dot)
+                if marks
+                else Patch(facecolor=verdict.colour, label=dot["label"])
+            )
     if has_singular:
         handles.append(Line2D([], [], color=SINGULAR_COLOUR, lw=1.8, label="singular"))
     if count := int(table.is_doubtful.sum()):
-        mark = {"marker": "o", "mfc": "none", "mec": DOUBT_COLOUR, "ls": "none", "mew": 1.5}
-        handles.append(Line2D([], [], label=f"rank doubtful: {count}", ms=9, **mark))
+        ring: Any = {"marker": "o", "mfc": "none", "mec": DOUBT_COLOUR, "ls": "none", "mew": 1.5}
+        handles.append(Line2D([], [], label=f"rank doubtful: {count}", ms=9, **ring))
     if count := int(table.has_error.sum()):
-        mark = {"marker": "x", "color": ERROR_COLOUR, "ls": "none", "mew": 1.6}
-        handles.append(Line2D([], [], label=f"error: {count}", **mark))
+        cross: Any = {"marker": "x", "color": ERROR_COLOUR, "ls": "none", "mew": 1.6}
+        handles.append(Line2D([], [], label=f"error: {count}", **cross))
     if not handles:
         handles.append(Patch(facecolor="none", label="no variants"))
-    figure: Any = axes.get_figure()
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=9.5)
-
-
-def _of_verdict(verdict: Verdict, told: str, marks: bool) -> Any:
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-
-    if marks:
-        return Line2D([], [], marker="o", ms=6, ls="none", color=verdict.colour, label=told)
-    return Patch(facecolor=verdict.colour, label=told)
+    axes.get_figure().legend(
+        handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=9.5
+    )
 
 
 def verdict_colours(table: Rows) -> np.ndarray:
@@ -162,17 +157,9 @@ Segment = tuple[Point, Point]
 _PAIRS = (((0, 1), (2, 3)), ((0, 2), (1, 3)), ((0, 3), (1, 2)))
 
 
-class Curves(NamedTuple):
-    """What is drawn of singular places in a map."""
-
-    segments: list[Segment]
-    alone: list[Point]
-    """Places that are joined with no other one."""
-
-
 def curves_of(
     crossings: Sequence[Crossing], x: str, y: str, columns: tuple[np.ndarray, np.ndarray]
-) -> Curves:
+) -> tuple[list[Segment], list[Point]]:
     """Join the singular places on the edges of each cell.
 
     Args:
@@ -180,6 +167,9 @@ def curves_of(
         x: The parameter along the map.
         y: The parameter up the map.
         columns: The values of both, (variants,) each.
+
+    Returns:
+        What joins them, and those that are joined with no other one.
     """
     index = [np.unique(column, return_inverse=True)[1].tolist() for column in columns]
     cells: dict[tuple[int, int], list[Point]] = defaultdict(list)
@@ -201,7 +191,7 @@ def curves_of(
                 cells[i, j].append(point)
     segments = list(dict.fromkeys(s for there in cells.values() for s in _joined(there)))
     joined = {point for segment in segments for point in segment}
-    return Curves(segments, [point for point in dict.fromkeys(points) if point not in joined])
+    return segments, [point for point in dict.fromkeys(points) if point not in joined]
 
 
 def _number(each: Crossing, name: str) -> float:
@@ -516,11 +506,9 @@ def _round_levels(margin: FloatArray) -> list[float]:
     if not there.size:
         return []
     low, high = np.quantile(there, (0.03, 0.97))
-    first = int(np.floor(np.log10(low)))
-    last = int(np.ceil(np.log10(high)))
+    first, last = int(np.floor(np.log10(low))), int(np.ceil(np.log10(high)))
     every = [k * 10.0**e for e in range(first, last + 1) for k in (1, 2, 5)]
-    levels = [level for level in every if low < level < high]
-    return levels[-_MOST_CONTOURS:]
+    return [level for level in every if low < level < high][-_MOST_CONTOURS:]
 
 
 def _draw_singular(
@@ -529,11 +517,11 @@ def _draw_singular(
     from matplotlib.collections import LineCollection
 
     there = [each for each in crossings if x in each.parameters and y in each.parameters]
-    curves = curves_of(there, x, y, columns)
+    segments, alone = curves_of(there, x, y, columns)
     for colour, width in (("white", 4.0), (SINGULAR_COLOUR, 1.8)):
-        lines = LineCollection(curves.segments, colors=colour, linewidths=width, zorder=5)
+        lines = LineCollection(segments, colors=colour, linewidths=width, zorder=5)
         lines.set_capstyle("round")
         axes.add_collection(lines, autolim=False)
-    if curves.alone:
-        axes.plot(*zip(*curves.alone, strict=True), ".", color=SINGULAR_COLOUR, ms=5, zorder=5)
-    return bool(curves.segments or curves.alone)
+    if alone:
+        axes.plot(*zip(*alone, strict=True), ".", color=SINGULAR_COLOUR, ms=5, zorder=5)
+    return bool(segments or alone)

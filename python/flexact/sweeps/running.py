@@ -205,7 +205,7 @@ class ExecutorCrew:
 
 def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
     try:
-        results, seconds, error, _ = future.result()
+        return Answer(chunk, *future.result()[:3])
     except (BrokenExecutor, CancelledError) as reason:
         words = str(reason) or "cancelled"
         raise EngineError(f"the executor is broken ({words}); {_MEND}") from reason
@@ -214,4 +214,3 @@ def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
             f"the executor cannot send the function, an item or a result ({reason}): define the "
             "function in a module of its own, outside of other functions"
         ) from reason
-    return Answer(chunk, results, seconds, error)

@@ -175,7 +175,7 @@ class Table(Frozen):
             made = parameter_map(self, x, str(y), found)
         else:
             made = curve(self, x, y, found)
-        return finished(made, path, in_short(self), described(self))
+        return finished(made, path, in_short(self), self.describe())
 
     def model(self, variant: int | Crossing) -> Model:
         """The model of a row, by its number from 0, or of a singular variant between rows.
@@ -197,7 +197,18 @@ class Table(Frozen):
 
     def describe(self) -> str:
         """What the variants are, and where the margin is smallest, in plain English."""
-        return described(self)
+        of = ", ".join(f"{name} ({_values(self[name])})" for name in self.parameter_names)
+        lines = [f"{_counted(len(self), 'variant')}{' of ' * bool(of)}{of}."]
+        for words, count in counts_of(self):
+            lines.append(f"{_capital(words)}: {share_in_words(count, len(self))}.")
+        lines += _smallest(self)
+        if (wrong := np.flatnonzero(self.has_error)).size:
+            first = int(wrong[0])
+            lines.append(f"First error, {row_in_words(self, first)}: {self.error[first]}")
+        return "\n".join(
+            textwrap.fill(harmless(line), _WIDTH, subsequent_indent="  ", break_long_words=False)
+            for line in lines
+        )
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table as CSV, whole or not at all.
@@ -240,7 +251,16 @@ class Table(Frozen):
         return f"<Table: {in_short(self)}>"
 
     def _repr_html_(self) -> str:
-        return html_of(self)
+        heads = "".join(f"<th>{escape(harmless(name))}</th>" for name in self.columns)
+        first = (self[k].values() for k in range(min(len(self), _MOST_ROWS)))
+        cells = ("".join(f"<td>{escape(harmless(_value(v)))}</td>" for v in row) for row in first)
+        rows = "".join(f"<tr>{each}</tr>" for each in cells)
+        left = len(self) - _MOST_ROWS
+        more = f"<p>and {_counted(left, 'further row')}</p>" if left > 0 else ""
+        return (
+            f"<div><pre>{escape(self.describe())}</pre><table><thead><tr>{heads}</tr></thead>"
+            f"<tbody>{rows}</tbody></table>{more}</div>"
+        )
 
     def __reduce__(self) -> tuple[Callable[..., object], tuple[Any, ...]]:
         """Without the function that made the variants, where it cannot be pickled."""
@@ -305,22 +325,6 @@ def in_short(table: Table) -> str:
     return f"{_counted(len(table), 'variant')}{': ' * bool(told)}{', '.join(told)}"
 
 
-def described(table: Table) -> str:
-    """See `Table.describe`."""
-    of = ", ".join(f"{name} ({_values(table[name])})" for name in table.parameter_names)
-    lines = [f"{_counted(len(table), 'variant')}{' of ' * bool(of)}{of}."]
-    for words, count in counts_of(table):
-        lines.append(f"{_capital(words)}: {share_in_words(count, len(table))}.")
-    lines += _smallest(table)
-    if (wrong := np.flatnonzero(table.has_error)).size:
-        first = int(wrong[0])
-        lines.append(f"First error, {row_in_words(table, first)}: {table.error[first]}")
-    return "\n".join(
-        textwrap.fill(harmless(line), _WIDTH, subsequent_indent="  ", break_long_words=False)
-        for line in lines
-    )
-
-
 def counts_of(table: Table) -> list[tuple[str, int]]:
     """Each verdict that there is, what is doubtful, and errors, with how many rows have it."""
     every = [(each.value, int((table.verdict == each.value).sum())) for each in Verdict]
@@ -334,20 +338,6 @@ def row_in_words(table: Table, row: int) -> str:
     values = (f"{name} {_value(table[row][name])}" for name in table.parameter_names)
     told = ", ".join(values)
     return f"variant {row}{': ' * bool(told)}{told}"
-
-
-def html_of(table: Table) -> str:
-    """The words, and the first rows."""
-    heads = "".join(f"<th>{escape(harmless(name))}</th>" for name in table.columns)
-    first = (table[k].values() for k in range(min(len(table), _MOST_ROWS)))
-    cells = ("".join(f"<td>{escape(harmless(_value(v)))}</td>" for v in row) for row in first)
-    rows = "".join(f"<tr>{each}</tr>" for each in cells)
-    left = len(table) - _MOST_ROWS
-    more = f"<p>and {_counted(left, 'further row')}</p>" if left > 0 else ""
-    return (
-        f"<div><pre>{escape(described(table))}</pre><table><thead><tr>{heads}</tr></thead>"
-        f"<tbody>{rows}</tbody></table>{more}</div>"
-    )
 
 
 def _values(column: np.ndarray) -> str:

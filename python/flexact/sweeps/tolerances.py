@@ -29,7 +29,7 @@ from ..util.records import Frozen
 from ..util.text import in_short
 from .plots import finished, histograms, smallest_values
 from .sweep import sweep
-from .table import Table, described, per_cent, share_in_words
+from .table import Table, per_cent, share_in_words
 from .table import in_short as table_in_short
 
 if TYPE_CHECKING:
@@ -251,7 +251,7 @@ class Tolerances(Frozen):
             FlexactError: matplotlib is missing, or the file cannot be written.
         """
         figure = histograms(self.table, self.nominal, self.below)
-        return finished(figure, path, table_in_short(self.table), described(self.table))
+        return finished(figure, path, table_in_short(self.table), self.table.describe())
 
     def __repr__(self) -> str:
         """How many samples, and the verdicts."""
