@@ -211,12 +211,19 @@ class Search(NamedTuple):
         return self.rows[first], self.rows[first + 1], place - first
 
 
-@dataclass(frozen=True)
+@dataclass
 class Follow:
-    """The singular value between rows of a table, and searches along it."""
+    """The singular value between rows of a table, and searches along it.
+
+    Attributes:
+        table: The table.
+        source: How its variants came about.
+        calls: How many variants were made.
+    """
 
     table: Rows
     source: Source
+    calls: int = 0
 
     def parameters(self, a: int, b: int, share: float) -> Row:
         """The parameters between those of two rows, as Python's own numbers.
@@ -235,6 +242,7 @@ class Follow:
         self, a: int, b: int, share: float, rank: int | None = None, topology: int | None = None
     ) -> Signed | str:
         """The signed singular value between two rows of one topology, or why there is none."""
+        self.calls += 1
         try:
             data = variant_of(self.source, a, b, share, self.parameters(a, b, share))
             data.require_sound()
@@ -246,11 +254,9 @@ class Follow:
     def __call__(self, search: Search) -> Crossings:
         """What one search finds."""
         errors: list[tuple[float, str]] = []
-        calls = 0
+        before = self.calls
 
         def value_at(place: float) -> float | None:
-            nonlocal calls
-            calls += 1
             found = self.at(*search.between(place), search.rank, search.topology)
             if isinstance(found, str):
                 errors.append((place, found))
@@ -258,7 +264,9 @@ class Follow:
             return found.value
 
         crossings = []
-        for zero, kind in list(_zeros(search, value_at)):
+        zeros = list(_zeros(search, value_at))
+        calls = self.calls - before
+        for zero, kind in zeros:
             a, b, share = search.between(zero.place)
             row = self.parameters(a, b, share)
             try:
@@ -351,21 +359,23 @@ def crossings_of(
         signed, made = _signed_rows(follow, workers, missed), len(table)
     found: list[Crossing] = []
     searches: list[Search] = []
+    before = follow.calls
     for name, rows in lines:
         for run in _runs(follow, signed, rows):
-            candidates = _Candidates(follow, signed, name, run)
-            found += candidates.at_rows
-            searches += candidates.searches
-            missed += candidates.missed
-            made += candidates.evaluations
+            for each in _candidates(follow, signed, name, run, missed):
+                if isinstance(each, Crossing):
+                    found.append(each)
+                else:
+                    searches.append(each)
+    made += follow.calls - before
     few = len(searches) < _FEW
-    for each in results_of(follow, searches, workers=1 if few else workers):
-        if each.result is None:
-            missed.append(follow.missed(searches[each.index], 0.5, each.failure))
+    for done in results_of(follow, searches, workers=1 if few else workers):
+        if done.result is None:
+            missed.append(follow.missed(searches[done.index], 0.5, done.failure))
         else:
-            found += each.result.found
-            missed += each.result.missed
-            made += each.result.evaluations
+            found += done.result.found
+            missed += done.result.missed
+            made += done.result.evaluations
     order = sorted(found, key=lambda each: (*each.rows, each.share, each.along))
     missed.sort(key=lambda each: (*each.rows, each.along))
     return Crossings(tuple(_once(order)), made, tuple(missed))
@@ -434,80 +444,59 @@ def _runs(follow: Follow, signed: np.ndarray, rows: Sequence[int]) -> Iterator[l
         yield run
 
 
-class _Candidates:
+def _candidates(
+    follow: Follow, signed: np.ndarray, along: str, run: list[int], missed: list[Missed]
+) -> Iterator[Crossing | Search]:
     """Of a run of rows those that are singular themselves, and where to search between them."""
+    table, topology = follow.table, int(signed["topology"][run[0]])
+    ranks = table["rank"][run]
+    rank = int(ranks.max())
+    is_zero = ranks < rank
 
-    def __init__(self, follow: Follow, signed: np.ndarray, along: str, run: list[int]) -> None:
-        self._follow, self._along, self._run = follow, along, run
-        self._topology = int(signed["topology"][run[0]])
-        self.missed: list[Missed] = []
-        self.evaluations = 0
-        ranks = follow.table["rank"][run]
-        self._rank = int(ranks.max())
-        is_zero = ranks < self._rank
-        values = signed["value"][run].copy()
-        if self._rank < signed["size"][run[0]]:
-            # All are singular alike: what counts is the value that ends the rank.
-            values = np.array([self._at(k, k, 0.0) for k in range(len(run))])
-        values[is_zero] = 0.0
-        self.at_rows = [
-            self._at_row(k, float(abs(signed["value"][run[k]])))
-            for k in np.flatnonzero(is_zero).tolist()
-            if not all(is_zero[max(k - 1, 0) : k + 2])
-        ]
-        self.searches = [*self._changes(values, is_zero), *self._dips(values, is_zero)]
-
-    def _at(self, k: int, j: int, share: float) -> float:
+    def at(k: int, j: int, share: float) -> float:
         """The value between two rows of the run; NaN, which is told, where there is none."""
-        a, b = self._run[k], self._run[j]
-        self.evaluations += 1
-        found = self._follow.at(a, b, share, self._rank, self._topology)
+        a, b = run[k], run[j]
+        found = follow.at(a, b, share, rank, topology)
         if isinstance(found, str):
-            row = self._follow.parameters(a, b, share)
-            self.missed.append(Missed(row, self._along, (a, b), found))
+            missed.append(Missed(follow.parameters(a, b, share), along, (a, b), found))
             return math.nan
         return found.value
 
-    def _at_row(self, k: int, value: float) -> Crossing:
-        run, table = self._run, self._follow.table
-        beside = (k, max(k - 1, 0), min(k + 1, len(run) - 1))
-        verdicts = [Verdict(table["verdict"][run[j]]) for j in beside]
-        return Crossing(
-            self._follow.parameters(run[k], run[k], 0.0),
-            self._along,
-            (run[k], run[k]),
-            *(0.0, 0.0, "row", value, verdicts[0], verdicts[1], verdicts[2], 0),
-        )
-
-    def _changes(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
-        """Between which rows the sign changes; it has none at a row that is singular itself."""
-        for k in range(len(self._run) - 1):
-            low, high, there = 0.0, 1.0, [float(values[k]), float(values[k + 1])]
-            if is_zero[k] and not is_zero[k + 1]:
-                low = _BESIDE
-                there[0] = self._at(k, k + 1, low)
-            if is_zero[k + 1] and not is_zero[k]:
-                high = 1.0 - _BESIDE
-                there[1] = self._at(k, k + 1, high)
-            # Their product may be too small for a number.
-            if {*np.sign(there).tolist()} == {-1.0, 1.0}:
-                yield self._search(k, k + 2, there, (low, high))
-
-    def _dips(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
-        """Rows at which the value is lower than at those beside it."""
-        size = np.abs(values)
-        changes = np.sign(values[:-1]) * np.sign(values[1:]) < 0.0
-        for k in range(len(self._run)):
-            first, last = max(k - 1, 0), min(k + 1, len(self._run) - 1)
-            is_dip = size[k] <= size[first : last + 1].min() and first < last
-            if is_dip and not is_zero[first : last + 1].any() and not changes[first:last].any():
-                yield self._search(first, last + 1, values[first : last + 1].tolist())
-
-    def _search(
-        self, first: int, end: int, values: list[float], ends: tuple[float, float] | None = None
-    ) -> Search:
-        """Between some rows of the run: where the sign changes if `ends` are given, else a dip."""
-        return Search(
-            *(self._along, tuple(self._run[first:end]), self._rank),
-            *(tuple(values), self._topology, ends),
-        )
+    values = signed["value"][run].copy()
+    if rank < signed["size"][run[0]]:
+        # All are singular alike: what counts is the value that ends the rank.
+        values = np.array([at(k, k, 0.0) for k in range(len(run))])
+    values[is_zero] = 0.0
+    for k in np.flatnonzero(is_zero).tolist():
+        if not all(is_zero[max(k - 1, 0) : k + 2]):
+            value = float(abs(signed["value"][run[k]]))
+            beside = (k, max(k - 1, 0), min(k + 1, len(run) - 1))
+            verdicts = [Verdict(table["verdict"][run[j]]) for j in beside]
+            yield Crossing(
+                follow.parameters(run[k], run[k], 0.0),
+                along,
+                (run[k], run[k]),
+                *(0.0, 0.0, "row", value, verdicts[0], verdicts[1], verdicts[2], 0),
+            )
+    # Between which rows the sign changes; it has none at a row that is singular itself.
+    for k in range(len(run) - 1):
+        low, high, one, two = 0.0, 1.0, float(values[k]), float(values[k + 1])
+        if is_zero[k] and not is_zero[k + 1]:
+            low = _BESIDE
+            one = at(k, k + 1, low)
+        if is_zero[k + 1] and not is_zero[k]:
+            high = 1.0 - _BESIDE
+            two = at(k, k + 1, high)
+        # Their product may be too small for a number.
+        if {*np.sign((one, two)).tolist()} == {-1.0, 1.0}:
+            rows = tuple(run[k : k + 2])
+            yield Search(along, rows, rank, (one, two), topology, (low, high))
+    # Rows at which the value is lower than at those beside it.
+    size = np.abs(values)
+    changes = np.sign(values[:-1]) * np.sign(values[1:]) < 0.0
+    for k in range(len(run)):
+        first, last = max(k - 1, 0), min(k + 1, len(run) - 1)
+        near = slice(first, last + 1)
+        is_dip = size[k] <= size[near].min() and first < last
+        if is_dip and not is_zero[near].any() and not changes[first:last].any():
+            yield Search(along, tuple(run[near]), rank, tuple(values[near].tolist()), topology)
