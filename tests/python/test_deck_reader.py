@@ -2,7 +2,7 @@
 """One reader of the deck language: however a deck is typed, every feature takes it the same."""
 
 import re
-from typing import Any, cast
+from typing import Any
 
 import pytest
 from reference_decks import NAMES, text_of
@@ -17,7 +17,7 @@ from flexact.core.elements import Class
 from flexact.deck.comments import comments_of
 from flexact.deck.keywords import Block
 from flexact.deck.tokens import Tokens, tokens_of
-from flexact.elasticity.reduced import Reducer
+from flexact.elasticity.reduced import independent_of
 from flexact.model.data import ModelData
 from flexact.model.editing import edited_deck
 from flexact.model.prescribed import prescribed_in
@@ -113,7 +113,7 @@ def seen_by_editor(text: str) -> dict[str, Any]:
 def rows_of(data: ModelData) -> list[tuple[int, str | int]]:
     """Node and coordinate, or element and deformation, of each row of the reduced matrices."""
     made: list[tuple[int, str | int]] = []
-    for place in Reducer(data, cast(Any, None)).independent.tolist():
+    for place in independent_of(data).tolist():
         if place >= 0:
             made.append((int(data.arrays.node_number[place // 3]), "xyz"[place % 3]))
         else:

@@ -273,16 +273,9 @@ def _shape(
     return Shape(kind, words, value, rest.data, rest.configuration, unit_mode(rest.data, mode))
 
 
-class Reached(NamedTuple):
-    """What was reached of a stroke."""
-
-    states: tuple[State, ...]
-    values: FloatArray
-    """(n,) those that were reached, ascending."""
-    ends: tuple[float, float]
-    """How far it went each way: the ends that were asked for, or the last value reached."""
-    why: str
-    """Why not farther; empty where all was reached."""
+#: What was reached of a stroke: states with their values (n,), ascending; how far it went each
+#: way, the ends that were asked for or the last value reached; and why not farther, or nothing.
+Reached = tuple[tuple[State, ...], FloatArray, tuple[float, float], str]
 
 
 def follow(elastic: Elastic, asked: Stroke, values: FloatArray) -> Reached:
@@ -300,7 +293,7 @@ def follow(elastic: Elastic, asked: Stroke, values: FloatArray) -> Reached:
         why += [reason] if reason else []
     there = np.array(sorted(found))
     states = tuple(found[v] for v in there.tolist())
-    return Reached(states, there, (ends[0], ends[1]), "; ".join(why))
+    return states, there, (ends[0], ends[1]), "; ".join(why)
 
 
 def _one_way(
@@ -330,24 +323,25 @@ def curve_of(
     progress: Callable[[float], None],
 ) -> StrokeCurve | None:
     """A design along the states that were reached; None without any."""
-    if not reached.states:
+    states, values, *_ = reached
+    if not states:
         return None
     rows = []
-    for k, state in enumerate(reached.states):
+    for k, state in enumerate(states):
         rows.append(_row(measures, rest, state, drive, is_locked))
-        progress((k + 1) / len(reached.states))
+        progress((k + 1) / len(states))
     stiffness, kept, own, force, *hertz = (stacked(each) for each in zip(*rows, strict=True))
     if is_locked:
         # How the force changes with the value, where the drive is held.
         slope = np.zeros_like(force.value)
-        if reached.values.size > 1:
-            slope = np.gradient(force.value[:, 0], reached.values)[:, None]
+        if values.size > 1:
+            slope = np.gradient(force.value[:, 0], values)[:, None]
         own = Numbers(slope, np.zeros_like(slope))
     frequencies = parasitic = None
     if hertz and hertz[0].value.size:
         frequencies = hertz[0]
         others = []
-        for k, state in enumerate(reached.states):
+        for k, state in enumerate(states):
             count = len(state.alone[-1].frequencies)
             is_drive = (False,) * count if is_locked else drives_of(measures, state, count)
             left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
@@ -356,10 +350,10 @@ def curve_of(
     # With masses it is known from the frequencies whether a stiffness is negative.
     is_stable = [
         state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
-        for state in reached.states
+        for state in states
     ]
     return StrokeCurve(
-        reached.values,
+        values,
         stiffness,
         kept.column(0),
         own.column(0),
@@ -367,8 +361,8 @@ def curve_of(
         frequencies,
         parasitic,
         tuple(is_stable),
-        tuple(state.under_constrained for state in reached.states),
-        tuple(state.over_constrained for state in reached.states),
+        tuple(state.under_constrained for state in states),
+        tuple(state.over_constrained for state in states),
     )
 
 
@@ -562,11 +556,11 @@ class _Computation:
         if self.stroke is None:
             return None
         stroke, _ = self.stroke
-        why = next((way.why for way in ways if way.why), "")
+        why = next((why for *_, why in ways if why), "")
         if not why:
             return stroke
-        low = max(stroke.asked[0], *(way.ends[0] for way in ways))
-        high = min(stroke.asked[1], *(way.ends[1] for way in ways))
+        low = max(stroke.asked[0], *(ends[0] for _, _, ends, _ in ways))
+        high = min(stroke.asked[1], *(ends[1] for _, _, ends, _ in ways))
         return replace(stroke, reached=(low, high), why=why)
 
     def _left_out(self, designs: int) -> Iterator[str]:
@@ -615,11 +609,11 @@ def frequencies_of(
 def kept_beside(measures: Measures, before: ElasticDesign, after: ElasticDesign) -> Kept | None:
     """What a design keeps of the stiffness of the one as built; None where nothing can move."""
     one, two = before.rest, after.rest
-    found = measures.ratios(one.alone[-1], two.alone[-1])
-    if not found.mu.size:
+    finest, loads, shares = measures.ratios(one.alone[-1], two.alone[-1])
+    if not finest.size:
         return None
-    mu = over_levels(lambda a, b: measures.ratios(a, b).mu, one, two)
-    return Kept(mu, found.loads[:, 0], direction_words(found.shares[:, 0], measures.directions))
+    mu = over_levels(lambda a, b: measures.ratios(a, b)[0], one, two)
+    return Kept(mu, loads[:, 0], direction_words(shares[:, 0], measures.directions))
 
 
 def best(

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -48,15 +47,10 @@ _EQUAL = 1.0e-6
 _SHARE, _MOST_NAMED = 0.1, 2
 
 
-class Ratios(NamedTuple):
-    """mu ascending with their loads."""
-
-    mu: FloatArray
-    """(k,) of the k directions that can move."""
-    loads: FloatArray
-    """(d, k) loads v in the directions of the point, scaled: moments by the size."""
-    shares: FloatArray
-    """(d, k) part of the work of each load that is done in each direction."""
+#: All mu (k,) of the k directions that can move, ascending; their loads v (d, k) in the directions
+#: of the point, scaled: moments by the size; and the part (d, k) of the work of each load that is
+#: done in each direction.
+Ratios = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def able(compliance: FloatArray, scale: FloatArray) -> BoolArray:
@@ -83,7 +77,7 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
     free = np.flatnonzero(able(before, scale) & able(after, scale))
     if not free.size:
         none = np.zeros((scale.size, 0))
-        return Ratios(np.zeros(0), none, none)
+        return np.zeros(0), none, none
     one, two = ((each * np.outer(scale, scale))[np.ix_(free, free)] for each in (before, after))
     mu, vectors = _pairs((one + one.T) / 2.0, (two + two.T) / 2.0)
     loads, shares = (np.zeros((scale.size, mu.size)) for _ in range(2))
@@ -91,7 +85,7 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
     done = vectors * (two @ vectors)
     loads[free] = vectors / np.abs(vectors).max(axis=0)
     shares[free] = done / np.where(done.sum(axis=0) != 0.0, done.sum(axis=0), 1.0)
-    return Ratios(mu, loads, shares)
+    return mu, loads, shares
 
 
 def _pairs(one: FloatArray, two: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -119,12 +113,12 @@ def _nothing_left(
 ) -> Ratios:
     """The ratios where a motion without stiffness is new: 0 along it, then those of the rest."""
     inner = np.where(lost[:, None] | lost, 0.0, after)
-    rest = ratios(before, np.where(np.isfinite(inner), inner, 0.0), scale)
+    mu, loads, shares = ratios(before, np.where(np.isfinite(inner), inner, 0.0), scale)
     first = lost.astype(np.float64)[:, None]
-    return Ratios(
-        np.concatenate([[0.0], rest.mu]),
-        np.hstack([first, rest.loads]),
-        np.hstack([first / first.sum(), rest.shares]),
+    return (
+        np.concatenate([[0.0], mu]),
+        np.hstack([first, loads]),
+        np.hstack([first / first.sum(), shares]),
     )
 
 
@@ -196,7 +190,7 @@ class Measures:
 
     def worst(self, before: State, after: State) -> FloatArray:
         """(1,) smallest part that is kept; 1 of a point that cannot move."""
-        mu = self.ratios(before, after).mu
+        mu, *_ = self.ratios(before, after)
         return mu[:1] if mu.size else np.ones(1)
 
     def frequencies(self, state: State) -> FloatArray:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..model.deformations import is_word
 from ..util.errors import FlexactError
@@ -48,26 +48,11 @@ def _target(text: str) -> int | str:
     return int(text) if re.fullmatch(r"\d{1,9}", text) else text
 
 
-class StrokeRequest(NamedTuple):
-    """A stroke: of which point, along what, from where to where."""
-
-    point: object
-    coordinate: str
-    start: float
-    stop: float
-    is_offset: bool = False
-    """Whether the values count from where the point is in the deck."""
-
-
-class MisalignmentRequest(NamedTuple):
-    """A misalignment: of which clamp, along what, by how much, and about which point."""
-
-    clamp: object
-    coordinate: str
-    value: float
-    about: object = None
-
-
+#: A stroke: of which point, along what, from where to where, and whether these count from where
+#: the point is in the deck.
+StrokeRequest = tuple[object, str, float, float, bool]
+#: A misalignment: of which clamp, along what, by how much, and about which point.
+MisalignmentRequest = tuple[object, str, float, object]
 #: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
 #: (element, deformation) by numbers or names, or with the end as the third.
 ReleaseRequest = dict[tuple[Any, ...], float]
@@ -150,7 +135,7 @@ def stroke_of(text: str) -> StrokeRequest:
     if first == last:
         raise RequestError(f"the stroke {in_short(text)} ends where it begins")
     point = _target(found["point"])
-    return StrokeRequest(point, name, first, last, bool(found["by"]) or dots == "+-")
+    return point, name, first, last, bool(found["by"]) or dots == "+-"
 
 
 def misalignment_of(text: str) -> MisalignmentRequest:
@@ -169,12 +154,8 @@ def misalignment_of(text: str) -> MisalignmentRequest:
     name, unit = _coordinate(found["name"])
     if about and unit == "m":
         raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
-    return MisalignmentRequest(
-        _target(found["point"]),
-        name,
-        quantity(value, unit),
-        _target(about) if about else None,
-    )
+    pivot = _target(about) if about else None
+    return _target(found["point"]), name, quantity(value, unit), pivot
 
 
 def _coordinate(name: str) -> tuple[str, str]:
@@ -359,7 +340,7 @@ def _stroke(given: object) -> StrokeRequest:
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
         name, unit = _coordinate_given(name)
-        return StrokeRequest(point, name, measured(start, unit), measured(stop, unit))
+        return point, name, measured(start, unit), measured(stop, unit), False
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
@@ -384,9 +365,9 @@ def _misalignment(given: object) -> MisalignmentRequest:
     if isinstance(given, str):
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
-        clamp, name, value, *about = given
+        clamp, name, value, about = (*given, None)[:4]
         name, unit = _coordinate_given(name)
-        return MisalignmentRequest(clamp, name, measured(value, unit), *about)
+        return clamp, name, measured(value, unit), about
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

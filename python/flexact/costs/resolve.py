@@ -174,29 +174,29 @@ def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float]
     """
     made: list[tuple[Misalignment, float]] = []
     wrong: list[ModelError] = []
-    for each in asked.misalign:
+    for target, coordinate, value, about in asked.misalign:
         try:
-            clamp = places.clamp_of(node_of(places.parts, each.clamp))
+            clamp = places.clamp_of(node_of(places.parts, target))
             held = places.directions(clamp)
-            if each.coordinate not in held:
+            if coordinate not in held:
                 what = f"it holds {', '.join(held)}" if held else "it is free: no clamp"
-                words = f"node {clamp.node} does not hold {each.coordinate}"
+                words = f"node {clamp.node} does not hold {coordinate}"
                 raise model_error("not-held", words, what)
             if not asked.beyond:
-                words = f"the misalignment of {clamp.words} {words_of_direction(each.coordinate)}"
-                _require_within(each.value, places.data.size, each.coordinate, words)
-            about = None
-            if each.about is not None:
-                pivot = places.parts.place_of(node_of(places.parts, each.about))
+                words = f"the misalignment of {clamp.words} {words_of_direction(coordinate)}"
+                _require_within(value, places.data.size, coordinate, words)
+            centre = None
+            if about is not None:
+                pivot = places.parts.place_of(node_of(places.parts, about))
                 if pivot is None:
-                    words = f"node {each.about} is an orientation without a position"
+                    words = f"node {about} is an orientation without a position"
                     raise model_error("no-such-node", words)
-                about = places.numbers[pivot]
-            misalignment = Misalignment(clamp, each.coordinate, about)
+                centre = places.numbers[pivot]
+            misalignment = Misalignment(clamp, coordinate, centre)
             if any(misalignment == before for before, _ in made):
-                words = f"{each.coordinate} of node {clamp.node} is misaligned twice"
+                words = f"{coordinate} of node {clamp.node} is misaligned twice"
                 raise model_error("given-twice", words, "give it once, with their sum")
-            made.append((misalignment, each.value))
+            made.append((misalignment, value))
         except ModelError as error:
             wrong.append(error)
     if len(wrong) == 1:
@@ -215,36 +215,36 @@ def stroke_of(places: Places, asked: Request) -> tuple[Stroke, FloatArray] | Non
         ModelError: there is no such point, the coordinate is not there or is fixed, or the stroke
             leads farther than the model is large, and not `beyond`.
     """
-    wish = asked.stroke
-    if wish is None:
+    if asked.stroke is None:
         return None
-    node = _owner(places, node_of(places.parts, wish.point), wish.coordinate)
-    axis = "xyz".index(wish.coordinate[-1])
+    target, coordinate, start, stop, is_offset = asked.stroke
+    node = _owner(places, node_of(places.parts, target), coordinate)
+    axis = "xyz".index(coordinate[-1])
     data = places.data
     if data.arrays.coordinate_class[axis, node] == Class.FIXED:
         raise model_error(
             "fixed-drive",
-            f"{wish.coordinate} of node {places.numbers[node]} is fixed and cannot be driven",
+            f"{coordinate} of node {places.numbers[node]} is fixed and cannot be driven",
             "a clamp is moved with --misalign (misalign=)",
         )
     # Rotations begin at zero.
     turns = data.arrays.node_kind[node] > NodeKind.POSITION
     rest = 0.0 if turns else float(data.arrays.node_value[axis, node])
-    offset = rest if wish.is_offset else 0.0
+    offset = rest if is_offset else 0.0
     # An angle may be of any number of turns.
-    is_any = asked.beyond or wish.coordinate.startswith("r")
+    is_any = asked.beyond or coordinate.startswith("r")
     owner, number = node_words(places.parts, node), places.numbers[node]
-    first, last = sorted((wish.start + offset, wish.stop + offset))
-    for value in () if is_any else (wish.start + offset, wish.stop + offset):
-        what = f"the stroke of {owner} along {wish.coordinate}"
-        _require_within(value - rest, data.size, wish.coordinate, what)
+    first, last = sorted((start + offset, stop + offset))
+    for value in () if is_any else (start + offset, stop + offset):
+        what = f"the stroke of {owner} along {coordinate}"
+        _require_within(value - rest, data.size, coordinate, what)
     values = np.linspace(first, last, asked.points)
     if values[0] < rest < values[-1]:
         # Where it rests is one of them.
         values[int(np.argmin(np.abs(values - rest)))] = rest
-    words = f"node {number} ({owner}) {words_of_direction(wish.coordinate)}"
+    words = f"node {number} ({owner}) {words_of_direction(coordinate)}"
     whole = (float(values[0]), float(values[-1]))
-    return Stroke(number, wish.coordinate, words, rest, whole, whole), values
+    return Stroke(number, coordinate, words, rest, whole, whole), values
 
 
 def _require_within(value: float, size: float, coordinate: str, what: str) -> None:

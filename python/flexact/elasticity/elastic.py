@@ -11,6 +11,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..analysis.decomposition import asked_for
+from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elastic import RawMatrices
 from ..core.elements import Class, NodeKind
@@ -29,7 +31,7 @@ from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, r
 from .imperfections import Angle, Imperfection, misalignment, number_given, warmth
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
-from .reduced import Reducer, Resultants, Verdicts, peak_of, resultants_of
+from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
 from .solution import (
     DRIVES,
     HELD,
@@ -109,12 +111,11 @@ class Elastic(Frozen):
         return Reducer(self.data, self.policy)
 
     @cached_property
-    def verdicts(self) -> Verdicts:
-        """Judges configurations by the deck's classes; what is released counts as that."""
+    def result(self) -> Result:
+        """The analysis of the deck's classes at rest; what is released counts as that."""
         released = {pair: Class.DEPENDENT for pair in self.release}
         data = with_classes(self.data, released, {}) if released else self.data
-        _, c_t = self.solvers[-1].elastic
-        return Verdicts(data, c_t[self.solvers[-1].mesh.first])
+        return result_of(data, asked_for("auto", None), None, None, Result)
 
     @property
     def has_mass(self) -> bool:
@@ -151,7 +152,7 @@ class Elastic(Frozen):
         Raises:
             ElasticError: it is over-constrained, and held rigid.
         """
-        over = self.verdicts.result.over_constrained if self.held == "rigid" else 0
+        over = self.result.over_constrained if self.held == "rigid" else 0
         if over:
             raise ElasticError(
                 f"the mechanism is over-constrained by {over} and what "
@@ -701,7 +702,8 @@ class State(Frozen):
     @cached_property
     def _verdict(self) -> tuple[int, int, float]:
         mesh = self.finest.solver.mesh
-        return self.model.verdicts.of(mesh.own_nodes(self.finest.raw.configuration))
+        here = mesh.own_nodes(self.finest.raw.configuration)
+        return verdict_of(self.model.result, here, self.finest.solver.elastic[1][mesh.first])
 
     @property
     def under_constrained(self) -> int:
@@ -721,7 +723,7 @@ class State(Frozen):
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known about the numbers of this state."""
-        made, over = [], self.model.verdicts.result.over_constrained
+        made, over = [], self.model.result.over_constrained
         if self.model.held == "rigid" and self.finest.is_stressed and over:
             made.append(
                 f"over-constrained by {over} and held rigid: of all stresses in equilibrium with "

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..analysis.limits import NO_COMPLIANCE, NODE_RESTS, POINT_RESTS, ROUNDING
 from ..core import calls, elastic
-from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
+from ..core.arrays import BoolArray, FloatArray, ModelArrays, PackedModel, packed
 from ..core.elastic import (
     ElasticArrays,
     ElasticState,
@@ -125,8 +125,7 @@ def policy_of(data: ModelData, held: str, release: Mapping[tuple[int, int], floa
     plain = elastic_arrays(data, notch)
     # What is rigid has none in the core: here all of it is asked for.
     free = np.where(arrays.deformation_class == Class.NONE, Class.NONE, Class.DEPENDENT)
-    asked = arrays._replace(deformation_class=np.asfortranarray(free, np.int32))
-    own, _ = element_stiffness(packed(asked), plain)
+    own, _ = element_stiffness(packed_with(arrays, arrays.coordinate_class, free), plain)
     stiff = np.diagonal(own, axis1=1, axis2=2).T > 0.0
     rigid = arrays.deformation_class == Class.FIXED
     if held == "elastic":
@@ -134,6 +133,18 @@ def policy_of(data: ModelData, held: str, release: Mapping[tuple[int, int], floa
     for (element, k), stiffness in release.items():
         notch[k - 1, data.element_index[element]] = stiffness
     return Policy(elastic_arrays(data, notch), rigid, stiff)
+
+
+def packed_with(
+    arrays: ModelArrays, coordinates: np.ndarray, deformations: np.ndarray
+) -> PackedModel:
+    """A model with other classes of its coordinates and deformations, as the core takes it."""
+    return packed(
+        arrays._replace(
+            coordinate_class=np.asfortranarray(coordinates, np.int32),
+            deformation_class=np.asfortranarray(deformations, np.int32),
+        )
+    )
 
 
 def elastic_arrays(data: ModelData, notch: FloatArray) -> ElasticArrays:
@@ -233,7 +244,7 @@ class Solver:
             mesh.data.arrays.deformation_class == Class.NONE,
             Class.NONE,
             np.where(rigid, Class.FIXED, Class.DEPENDENT),
-        ).astype(np.int32)
+        )
         # At q notches are those of the last piece, all others of the first.
         is_first, is_last = mesh.ends
         there = np.repeat(is_first[None, :], 6, axis=0)
@@ -252,12 +263,7 @@ class Solver:
             classes = np.where(given > Class.FIXED, np.int32(Class.DEPENDENT), given)
             for node, axis in held:
                 classes[axis, node] = Class.FIXED
-            self._models[held] = packed(
-                arrays._replace(
-                    coordinate_class=np.asfortranarray(classes, np.int32),
-                    deformation_class=np.asfortranarray(self._classes),
-                )
-            )
+            self._models[held] = packed_with(arrays, classes, self._classes)
         return self._models[held]
 
     @property
