@@ -25,12 +25,14 @@ from ..motion import Ending, Followed, Held, Station, Wishes, follow, is_followe
 from ..motion.constraints import MOST_COORDINATES
 from ..motion.stations import Between, passing
 from ..show.drawing.movement import pose_in, poses_with_inner_nodes
+from ..show.drawing.pose import Pose
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
 from ..util.records import Frozen, cached_property
+from ..util.rotations import vector_of
 from .output import TRACES
-from .values import ROTATION, DeadPoint, Drive, Step, Traced, Way
+from .values import ROTATION, DeadPoint, Step, Traced, Way, drive_unit
 from .words import lines
 
 
@@ -138,10 +140,10 @@ def trace(
 def _analysed(given: object) -> Result:
     if isinstance(given, Result):
         return given
+    if isinstance(given, (str, bytes, os.PathLike)):
+        given = read(given)
     if isinstance(given, Model):
         return result_of(given.data, asked_for("auto", None))
-    if isinstance(given, (str, bytes, os.PathLike)):
-        return result_of(read(given).data, asked_for("auto", None))
     raise TypeError(
         f"a model, the path of a deck or an analysis can be traced, not {type(given).__name__}"
     )
@@ -212,19 +214,16 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
         f"{_TRIED * held.size:.2g} m along it, held deformations of {least.largest:.2g} of the "
         "model's size are left at the least"
     )
+    why = f"the motion is infinitesimal, or ends here; {tried}"
     if start.directions > 1:
-        here = f"the mechanism can move in {start.directions} independent directions here"
-        if least.largest <= TRUE:
-            raise TraceError(
-                f"the path cannot be begun: {here}, and the paths that are near leave in others "
-                "than this one. Trace from a configuration a little way along one of them"
-            )
-        raise TraceError(
-            f"the path cannot be begun: {here}, and no path leads along this one: {tried}"
+        why = f"the mechanism can move in {start.directions} independent directions here, and "
+        why += (
+            "the paths that are near leave in others than this one. Trace from a configuration a "
+            "little way along one of them"
+            if least.largest <= TRUE
+            else f"no path leads along this one: {tried}"
         )
-    raise TraceError(
-        f"the path cannot be begun: the motion is infinitesimal, or ends here; {tried}"
-    )
+    raise TraceError(f"the path cannot be begun: {why}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,7 +275,7 @@ class Stroke:
         """Keep what was followed; `zero` is up to where scaled singular values are zero."""
         self.result, self.held, self.zero = result, held, zero
         self.judged = held if shown.freedom is None else Held(result.data)
-        self.drive = None if shown.freedom is None else Drive(shown.freedom, held)
+        self.freedom = shown.freedom
 
     def steps(self, way: Followed) -> list[Step]:
         """The steps of a path one way, the reference first, dead points among them."""
@@ -300,7 +299,7 @@ class Stroke:
             moved = np.linalg.norm(self._speeds(before), axis=1) > _RESTS
             rests = np.linalg.norm(self._speeds(last), axis=1) <= _RESTS
             names = self._turning(np.flatnonzero(rests & moved).tolist(), rests)
-            rate = 1.0 if self.drive is None else self.drive.rate(last.within, last.tangent)
+            rate = self._rate(last.within, last.tangent)
             dead = DeadPoint(names, abs(rate) <= _RESTS, last.directions)
             made[-1] = replace(made[-1], dead=dead)
         return made
@@ -373,14 +372,39 @@ class Stroke:
         moves = _least_norm(came, goes) > _MOVES
         turns = resting & moves & (np.sum(came * goes, axis=1) < 0.0)
         names = self._turning(np.flatnonzero(turns).tolist(), resting)
-        if self.drive is None:
-            return names, False
         rates = [
-            sense * self.drive.rate(station.within, station.tangent)
+            sense * self._rate(station.within, station.tangent)
             for station, sense in (before, (here, 1.0), behind)
         ]
         least = _RESTS * max(abs(rate) for rate in rates)
         return names, rates[0] * rates[2] < 0.0 and abs(rates[1]) <= least
+
+    def _rate(self, where: Configuration, along: FloatArray) -> float:
+        """How fast what drives changes along a direction (n,); 1 where the path itself does."""
+        if self.freedom is None:
+            return 1.0
+        part, owner = self.freedom.place
+        if self.freedom.is_coordinate:
+            return float(self.held.at_nodes(along)[owner, part])
+        return self.held.rate(where, 6 * owner + part, along)
+
+    def _value(self, where: Configuration, pose: Pose) -> float:
+        """By how much what drives has changed since the reference [m, rad]; of a pose as given.
+
+        Of a declared rotation it is the component of the rotation vector; NaN of the path itself.
+        """
+        if self.freedom is None:
+            return np.nan
+        part, owner = self.freedom.place
+        is_length = drive_unit(self.freedom) == "m"
+        if not self.freedom.is_coordinate:
+            value = self.held.deformation(where, 6 * owner + part)
+            return value * self.held.sizes.unit if is_length else value
+        analysis = self.freedom.analysis
+        node = int(analysis.condensed.nodes[owner])
+        if not is_length:
+            return float(vector_of(pose.rotation[node][np.newaxis])[0, part])
+        return float(pose.position[node, part] - analysis.given.arrays.node_value[part, node])
 
     def _speeds(self, station: Station) -> FloatArray:
         """(nodes, 3) velocities along the path, that of the fastest node one."""
@@ -423,7 +447,7 @@ class Stroke:
             values[::-1][:_KEPT].copy(),
             columns - known,
             rows - known,
-            np.nan if self.drive is None else self.drive.value(where, pose),
+            self._value(where, pose),
         )
 
     def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[Found]:
@@ -431,16 +455,14 @@ class Stroke:
         before, behind = self._speeds(one), self._speeds(other)
         reverses = np.sum(before * behind, axis=1) < 0.0
         turning = np.flatnonzero((_least_norm(before, behind) > _MOVES) & reverses).tolist()
-        drive = self.drive
-        turns = drive is not None and (
-            drive.rate(one.within, one.tangent) * drive.rate(other.within, other.tangent) < 0.0
-        )
+        rates = (self._rate(each.within, each.tangent) for each in (one, other))
+        turns = math.prod(rates) < 0.0
         if turning or turns:
             between = Between(self.held, one, other)
-            if drive is not None and turns:
+            if turns:
                 place = passing(
                     between,
-                    lambda near: drive.rate(near.place.configuration, between.direction(near)),
+                    lambda near: self._rate(near.place.configuration, between.direction(near)),
                 )
                 found += [] if place is None else [Found(place.arc, place.where, is_drive=True)]
             while turning:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,11 +14,10 @@ from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, dual_table
 from ..model.configuration import Configuration
-from ..motion import Held, Stop
+from ..motion import Stop
 from ..show.drawing.pose import Pose
 from ..show.drawing.selection import Selection
 from ..util.records import Frozen
-from ..util.rotations import vector_of
 
 #: Before the name of a body that only turns back in its rotation.
 ROTATION = "rotation of "
@@ -53,36 +51,6 @@ def bodies_of(result: Result, most: int) -> dict[int, str]:
         if node is not None and len(made) < most:
             made[node] = result.parts.of_body(k).name
     return made
-
-
-class Drive(NamedTuple):
-    """What drives a path, and how to look at it."""
-
-    freedom: Freedom
-    held: Held
-
-    def rate(self, where: Configuration, along: FloatArray) -> float:
-        """How fast it changes along a direction (n,)."""
-        part, owner = self.freedom.place
-        if self.freedom.is_coordinate:
-            return float(self.held.at_nodes(along)[owner, part])
-        return self.held.rate(where, 6 * owner + part, along)
-
-    def value(self, where: Configuration, pose: Pose) -> float:
-        """By how much it has changed since the reference [m, rad]; of a pose as given.
-
-        Of a declared rotation it is the component of the rotation vector.
-        """
-        part, owner = self.freedom.place
-        if not self.freedom.is_coordinate:
-            value = self.held.deformation(where, 6 * owner + part)
-            return value * self.held.sizes.unit if drive_unit(self.freedom) == "m" else value
-        analysis = self.freedom.analysis
-        node = int(analysis.condensed.nodes[owner])
-        if drive_unit(self.freedom) == "m":
-            start = analysis.given.arrays.node_value[part, node]
-            return float(pose.position[node, part] - start)
-        return float(vector_of(pose.rotation[node][np.newaxis])[0, part])
 
 
 def drive_unit(freedom: Freedom) -> str:
