@@ -40,7 +40,7 @@ class Cost(CostValues):
             FlexactError: matplotlib is missing.
         """
         # It takes a while to load.
-        return load("flexact.costs.plot").plot_of(self)
+        return load("flexact.costs.charts").plot_of(self)
 
     def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
         """All numbers as one tidy table, a row a number; also written to a file, if one is named.
@@ -92,7 +92,7 @@ COSTS = Writers(
 
 @COSTS.register(STILLS, require=check_packages)
 def _picture(made: CostValues, path: Path) -> bytes:
-    return bytes(load("flexact.costs.plot").plot_bytes(made, path.suffix.lower()))
+    return bytes(load("flexact.costs.charts").plot_bytes(made, path.suffix.lower()))
 
 
 @COSTS.register(PAGES)

@@ -14,9 +14,8 @@ from ..show.page.viewer import Shaped
 from ..show.picture import has_packages, shape_bytes
 from ..show.writers import as_bytes
 from ..util.text import file_name, harmless
-from .charts import LARGEST, bars_of, charts_of, choices_of, key_of, typeset
+from .charts import LARGEST, bars_of, charts_of, choices_of, key_of, plot_bytes, typeset
 from .designs import CostValues, Design, Number, in_words
-from .plot import plot_bytes
 from .shape import Shape
 from .words import describe, first_line
 

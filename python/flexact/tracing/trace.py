@@ -31,9 +31,8 @@ from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
 from ..util.records import Frozen, cached_property
 from ..util.rotations import vector_of
-from .output import TRACES
+from .output import TRACES, lines
 from .values import ROTATION, DeadPoint, Step, Traced, Way, drive_unit
-from .words import lines
 
 
 @dataclass(frozen=True, eq=False, repr=False)
