@@ -18,7 +18,7 @@ from ..core.arrays import BoolArray, FloatArray
 from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
 from ..elasticity import Elastic, ElasticError, Estimate, State, elastic
-from ..elasticity.imperfections import Imperfection, misalignment
+from ..elasticity.equilibria import Imperfection, misalignment
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
 from ..model.attributes import Properties

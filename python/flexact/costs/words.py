@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..elasticity.drives import is_far
+from ..elasticity.equilibria import is_far
 from ..util.text import columns, harmless, table, wrapped
 from .designs import (
     FREQUENCY,

@@ -25,10 +25,21 @@ from ..util.quantities import Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.rotations import vector_of_euler
 from ..util.text import in_short
-from . import drives, imperfections
-from .drives import force_of, reaction_of, strokes_given, value_at, warn_where_far
+from . import equilibria
+from .equilibria import (
+    Angle,
+    Imperfection,
+    at_rest,
+    force_of,
+    misalignment,
+    number_given,
+    reaction_of,
+    strokes_given,
+    value_at,
+    warmth,
+    warn_where_far,
+)
 from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, require_within
-from .imperfections import Angle, Imperfection, misalignment, number_given, warmth
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
 from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
@@ -253,7 +264,7 @@ class Elastic(Frozen):
         for solver in self.solvers:
             key = (solver, *what)
             if key not in self._linears:
-                self._linears[key] = Linear(drives.at_rest(solver, self.locked), off)
+                self._linears[key] = Linear(at_rest(solver, self.locked), off)
             found.append(of(self._linears[key]))
         low, high = Estimate.of(*found).value.tolist()
         return low, high
@@ -285,7 +296,7 @@ class Elastic(Frozen):
         point = self.points.of(node)
         coordinates = self.points.coordinates(point)
         before, after = (
-            [drives.at_rest(s, self.locked).compliance(point, coordinates) for s in each.solvers]
+            [at_rest(s, self.locked).compliance(point, coordinates) for s in each.solvers]
             for each in (self, other)
         )
         found = [kept(*both) for both in zip(before, after, strict=True)]
@@ -316,7 +327,7 @@ class Elastic(Frozen):
 
     def undeformed(self) -> State:
         """As the deck gives it, without loads or anything off."""
-        made = tuple(drives.at_rest(each, self.locked) for each in self.solvers)
+        made = tuple(at_rest(each, self.locked) for each in self.solvers)
         return State(self, "undeformed", None, made)
 
     def assembled(self) -> State:
@@ -337,7 +348,7 @@ class Elastic(Frozen):
             ElasticError: the factor is no finite number.
         """
         factor = number_given(load, "the load")
-        made = tuple(drives.loaded(at, factor) for at in self._assembled())
+        made = tuple(equilibria.loaded(at, factor) for at in self._assembled())
         under = (
             f"under {factor:g} times the loads" if self.data.loads else "without loads in the deck"
         )
@@ -382,7 +393,7 @@ class Elastic(Frozen):
         given = list(values) if isinstance(values, (range, Iterator)) else values
         kind = self.points.kinds[drive.node]
         given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
-        rest = value_at(drives.at_rest(self.solvers[0], self.locked), drive)
+        rest = value_at(at_rest(self.solvers[0], self.locked), drive)
         is_turn = bool(kind == NodeKind.ORIENTATION)
         there = strokes_given(given, is_turn, rest if from_rest else 0.0)
         what = self.points.words(drive)
@@ -403,7 +414,7 @@ class Elastic(Frozen):
         is_turn = self.points.kinds[drive.node] == NodeKind.ORIENTATION
         there = strokes_given(list(values), bool(is_turn), 0.0)
         ways = [
-            drives.driven(at, self.points, drive, there, self.drive == "locked")
+            equilibria.driven(at, self.points, drive, there, self.drive == "locked")
             for at in self._assembled()
         ]
         words = self.points.words(drive)
@@ -454,9 +465,7 @@ class Elastic(Frozen):
             ElasticError: it is over-constrained, and held rigid.
             StrokeError: no equilibrium was found.
         """
-        return self._imperfect(
-            imperfections.misfit(self.points, element, deformation, value, beyond)
-        )
+        return self._imperfect(equilibria.misfit(self.points, element, deformation, value, beyond))
 
     def warmed(self, kelvin: float, expansion: float, elements: object = None) -> State:
         """Elements that are warmer than the ground, and so longer.
@@ -492,9 +501,9 @@ class Elastic(Frozen):
             UnknownError: something is not there.
             ElasticError: something is wrong with a value.
         """
-        moved = partial(imperfections.misalignment, self.points, beyond=beyond)
+        moved = partial(equilibria.misalignment, self.points, beyond=beyond)
         off = [moved(*each) for each in misaligned]
-        off += [imperfections.misfit(self.points, *each, beyond=beyond) for each in misfit]
+        off += [equilibria.misfit(self.points, *each, beyond=beyond) for each in misfit]
         if warmed is not None:
             off.append(warmth(self.points, *warmed))
         return replace(self, off=(*self.off, *off))
@@ -505,7 +514,7 @@ class Elastic(Frozen):
     def _assembled(self) -> tuple[Solution, ...]:
         if self.off:
             self.require_determined()
-        return tuple(drives.assembled(each, self.off, self.locked) for each in self.solvers)
+        return tuple(equilibria.assembled(each, self.off, self.locked) for each in self.solvers)
 
     def __repr__(self) -> str:
         """The choices."""

@@ -16,8 +16,8 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elastic import RawLinear
 from ..util.records import cached_property
+from .equilibria import Imperfection
 from .errors import ElasticError
-from .imperfections import Imperfection
 from .solution import Solution
 
 #: The level is met to this part of it.

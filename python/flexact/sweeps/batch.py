@@ -27,8 +27,7 @@ from ..util.errors import BatchError
 from ..util.loading import load
 from ..util.partial import why
 from ..util.text import harmless, in_short
-from .columns import COLUMNS, ERROR, Column, columns_of, error_row, row_of
-from .writing import Cell
+from .columns import COLUMNS, ERROR, Cell, Column, columns_of, error_row, row_of
 
 DECK = Column("deck", str, "the deck, as it was named", "verdict")
 _SIZE = (

@@ -24,11 +24,10 @@ from ..util.errors import FlexactError
 from ..util.loading import load
 from ..util.records import Frozen
 from ..util.text import harmless
-from .columns import COLUMNS, ERROR, Column
+from .columns import COLUMNS, ERROR, Column, write_table
 from .crossings import Crossing, Crossings, crossings_of, varying
 from .evaluate import MotionArrays, Positions, Source, StressArrays, variant_of
 from .plots import MOST_SEARCHED, chosen, curve, finished, parameter_map
-from .writing import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -32,10 +32,9 @@ from ...sweeps.batch import (
     filter_of,
     first_error,
 )
-from ...sweeps.columns import Column
+from ...sweeps.columns import Cell, Column, require_table, write_table
 from ...sweeps.journal import Journal, JournalError
 from ...sweeps.running import results_of
-from ...sweeps.writing import Cell, require_table, write_table
 from ...util.decks import DeckFile, FolderError, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import undisturbed, unwinding
