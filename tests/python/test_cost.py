@@ -409,7 +409,7 @@ def test_errors_are_ruled_out_without_changing_the_shortest() -> None:
     """All clamps of the spider: the core may leave out all that are not nearly as tight."""
     elastic = flexact.elastic(spider(), beams=4)
     made = cost(spider(), release=(), beams=4)
-    mechanism = ElasticDesign(elastic.data, 0, beams=4)
+    mechanism = ElasticDesign(elastic, 0)
     level = mechanism.levels[0]
     errors = Places(elastic.data, flexact.analyse(spider()).parts).misalignments()
     stresses = np.asfortranarray(level.stresses(errors))

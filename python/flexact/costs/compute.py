@@ -22,8 +22,9 @@ from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error
-from ..elasticity import Elastic, ElasticError, State, StrokeError
+from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
 from ..model.data import ModelData
+from ..model.model import Model
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
 from .designs import (
@@ -48,7 +49,6 @@ from .elastic_design import (
     curve_against,
     direction_words,
     drives_of,
-    has_masses,
     has_stiffness,
     over_levels,
     tolerances_of,
@@ -221,7 +221,7 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
         # Those whose section is known and that carry something.
         with suppress(ElasticError):
             finest.peak_stress(element)
-            if finest.model.policy.stiff[:, mechanism.data.element_index[element]].any():
+            if finest.model.policy.stiff[:, finest.model.data.element_index[element]].any():
                 known.append(element)
     if not known:
         sizes = np.abs(_of_elements(both[1]))
@@ -234,7 +234,7 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
     most = [int(np.argmax(each.value)) for each in found]
     largest = [each.at(k) for each, k in zip(found, most, strict=True)]
     peak = Numbers(*(np.array(each) for each in zip(*largest, strict=True)))
-    return peak, mechanism.data.element_index[known[most[1]]]
+    return peak, finest.model.data.element_index[known[most[1]]]
 
 
 #: How many parasitic frequencies are shown.
@@ -438,30 +438,29 @@ class _Computation:
         self.clamps = self.places.clamps()
         self.stroke = stroke_of(self.places, asked)
         self.given = given_of(self.places, asked)
-        self.measures = Measures(
-            self.point,
-            directions_of(data, self.point),
-            data.size,
-            self.places.drives(),
-            has_masses(data),
-        )
+        drives, directions = self.places.drives(), directions_of(data, self.point)
+        model = elastic(Model.from_data(data), asked.held, asked.drive, (), asked.beams)
+        watched = data.node_index[drives[0][0] if drives else self.point.node]
+        self.built = ElasticDesign(model, watched)
+        has_masses = self.built.has_masses
+        self.measures = Measures(self.point, directions, data.size, drives, has_masses)
 
     def cost(self, kind: type[Made]) -> Made:
         """All of it, as a kind of cost."""
         asked = self.asked
-        built, candidates = self._candidates()
+        built, candidates = self.built, self._candidates()
         misalignments = self.places.misalignments()
         designs: list[Design] = []
         ways: list[Reached] = []
         for k, candidate in enumerate(candidates):
-            mechanism = replace(built, release=candidate.pairs) if k else built
+            mechanism = with_release(built, candidate.pairs) if k else built
 
             def part(done: float, before: int = k) -> None:
                 label = _label(candidates[before].released)
                 self.report(label or "as built", (before + done) / len(candidates))
 
             part(0.0)
-            design, way = self._design(built, mechanism, candidate, misalignments, part)
+            design, way = self._design(mechanism, candidate, misalignments, part)
             designs.append(with_curve(design, mechanism, designs[0] if designs else design))
             ways += [] if way is None else [way]
         return kind(
@@ -481,25 +480,21 @@ class _Computation:
             tuple(self._left_out(len(designs))),
         )
 
-    def _candidates(self) -> tuple[ElasticDesign, tuple[Candidate, ...]]:
-        """The design as built, and what is to be looked at: as built first."""
+    def _candidates(self) -> tuple[Candidate, ...]:
+        """What is to be looked at: the design as built first."""
         asked = self.asked
-        driven = self.measures.drives
-        watched = self.data.node_index[driven[0][0] if driven else self.point.node]
-        built = ElasticDesign(self.data, watched, {}, asked.held, asked.drive, asked.beams)
         first = Candidate((), (), self.result.under_constrained, self.result.over_constrained)
         if asked.release is not None:
             others = tuple(given(self.result, each) for each in asked.release)
             labels = [each.pairs for each in others]
             if any(pairs in labels[:k] for k, pairs in enumerate(labels)):
                 raise model_error("repeated-release", "one release is asked for twice")
-            return built, (first, *others)
+            return first, *others
         self.report("looking for releases", 0.0)
-        return built, (first, *best(self.measures, built, proven(self.result, asked.bodies)))
+        return first, *best(self.measures, self.built, proven(self.result, asked.bodies))
 
     def _design(
         self,
-        built: ElasticDesign,
         mechanism: ElasticDesign,
         candidate: Candidate,
         misalignments: tuple[Misalignment, ...],
@@ -525,7 +520,7 @@ class _Computation:
             way = follow(mechanism.elastic, asked, values)
             drive = (asked.node, asked.coordinate)
             curve = curve_of(
-                *(measures, mechanism.rest, way, drive, mechanism.drive == "locked"),
+                *(measures, mechanism.rest, way, drive, mechanism.elastic.drive == "locked"),
                 lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
             )
         if self.given:
@@ -539,7 +534,7 @@ class _Computation:
             candidate.under_constrained,
             candidate.over_constrained,
             over_levels(measures.compliance, mechanism.rest),
-            None if mechanism is built else kept_beside(measures, built, mechanism),
+            None if mechanism is self.built else kept_beside(measures, self.built, mechanism),
             frequencies,
             is_drive,
             tolerances,
@@ -592,6 +587,11 @@ class _Computation:
             )
 
 
+def with_release(design: ElasticDesign, release: ReleaseRequest) -> ElasticDesign:
+    """The same with something released."""
+    return replace(design, elastic=replace(design.elastic, release=release))
+
+
 def frequencies_of(
     measures: Measures, mechanism: ElasticDesign
 ) -> tuple[Numbers | None, tuple[bool, ...]]:
@@ -601,7 +601,7 @@ def frequencies_of(
     found = over_levels(measures.frequencies, mechanism.rest)
     if not found.value.size:
         return None, ()
-    if mechanism.drive == "locked":
+    if mechanism.elastic.drive == "locked":
         return found, (False,) * found.value.size
     return found, drives_of(measures, mechanism.rest, found.value.size)
 
@@ -625,18 +625,19 @@ def best(
     likelier one. One beam an element is enough to tell: the stiffness of a straight sheet is exact
     with it.
     """
-    keys = {}
-    one = replace(built, beams=1)
-    for place, candidate in enumerate(candidates):
-        mechanism = replace(one, release=candidate.pairs)
+    one = replace(built, elastic=replace(built.elastic, beams=1))
+
+    def order(candidate: Candidate) -> list[float]:
+        mechanism = with_release(one, candidate.pairs)
         kept = kept_beside(measures, one, mechanism)
         worst = 1.0 if kept is None else kept.smallest.value
         found, drives = frequencies_of(measures, mechanism)
         hertz = () if found is None else tuple(found.value.tolist())
         parasitic = [f for f, is_drive in zip(hertz, drives, strict=False) if not is_drive]
-        order = (worst, *hertz[:1], *parasitic[:1])
-        keys[place] = (*(-float(f"{value:.{_DIGITS}g}") for value in order), place)
-    return tuple(candidates[place] for place in sorted(keys, key=keys.__getitem__)[:MOST])
+        found_of = (worst, *hertz[:1], *parasitic[:1])
+        return [-float(f"{value:.{_DIGITS}g}") for value in found_of]
+
+    return tuple(sorted(candidates, key=order)[:MOST])
 
 
 def with_curve(design: Design, mechanism: ElasticDesign, built: Design) -> Design:

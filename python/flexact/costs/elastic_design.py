@@ -10,20 +10,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
-from ..elasticity import Elastic, ElasticError, Estimate, State, elastic
+from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
 from ..model.attributes import Properties
 from ..model.data import ModelData
-from ..model.model import Model
 from ..util.records import Frozen, cached_property
 from .designs import (
     Misalignment,
@@ -35,7 +34,6 @@ from .designs import (
     unit_of_direction,
     words_of_direction,
 )
-from .request import AUTO, DRIVE, HELD, ReleaseRequest
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.
 _HELD = 1.0e-12
@@ -238,41 +236,17 @@ def has_stiffness(data: ModelData) -> bool:
     return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
 
 
-def has_masses(data: ModelData) -> bool:
-    """Whether any mass is given, so that there are frequencies."""
-    given = data.properties
-    return given is not None and any(
-        bool((np.nan_to_num(part) > 0.0).any()) for part in (given.mass, given.node_mass)
-    )
-
-
 @dataclass(frozen=True, eq=False)
 class ElasticDesign(Frozen):
     """A design: its elastic model, and its state at rest.
 
     Attributes:
-        data: The model as given.
+        elastic: The elastic model.
         watched: Index of the node of which the stiffness stands for frequencies without masses.
-        release: What is released.
-        held: What is made of held deformations, "elastic" or "rigid".
-        drive: And of declared coordinates, "free" or "locked".
-        beams: Beams a sheet, or "auto".
     """
 
-    data: ModelData
+    elastic: Elastic
     watched: int
-    release: ReleaseRequest = field(default_factory=dict)
-    held: str = HELD[0]
-    drive: str = DRIVE[0]
-    beams: int | str = AUTO
-
-    def _elastic(self, data: ModelData) -> Elastic:
-        return elastic(Model.from_data(data), self.held, self.drive, self.release, self.beams)
-
-    @cached_property
-    def elastic(self) -> Elastic:
-        """The elastic model."""
-        return self._elastic(self.data)
 
     @cached_property
     def rest(self) -> State:
@@ -281,29 +255,31 @@ class ElasticDesign(Frozen):
 
     @cached_property
     def has_masses(self) -> bool:
-        """Whether there are frequencies."""
-        return has_masses(self.data)
+        """Whether any mass is given, so that there are frequencies."""
+        given = self.elastic.data.properties
+        masses = () if given is None else (given.mass, given.node_mass)
+        return any((np.nan_to_num(each) > 0.0).any() for each in masses)
 
     @cached_property
-    def measured(self) -> Elastic:
-        """The model whose first frequency is watched: without masses that of a unit mass."""
-        given, node = self.data.properties, self.watched
+    def measured(self) -> State:
+        """At rest, what has a first frequency to watch: without masses that of a unit mass."""
+        data, node = self.elastic.data, self.watched
+        given = data.properties
         if self.has_masses or given is None:
-            return self.elastic
+            return self.rest
         # With 1 kg, or 1 kg m^2, at the node alone the lowest square is the lowest stiffness.
         mass = np.full_like(given.node_mass, math.nan)
-        if self.data.arrays.node_kind[node] == NodeKind.ORIENTATION:
+        if data.arrays.node_kind[node] == NodeKind.ORIENTATION:
             mass[node] = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
         else:
             mass[node, 0] = 1.0
-        none = np.full_like(given.mass, math.nan)
-        return self._elastic(replace(self.data, properties=Properties(given.stiffness, none, mass)))
+        properties = Properties(given.stiffness, np.full_like(given.mass, math.nan), mass)
+        return replace(self.elastic, data=replace(data, properties=properties)).undeformed()
 
     @cached_property
     def levels(self) -> tuple[Level, ...]:
         """The design with each number of beams, the fewest first."""
-        rest = self.rest if self.has_masses else self.measured.undeformed()
-        return tuple(Level(self, at) for at in rest.meshes)
+        return tuple(Level(self, at) for at in self.measured.meshes)
 
 
 class Level:

@@ -14,10 +14,11 @@ from ..analysis.naming import filled, sentence
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
-from ..elasticity import ElasticError, Estimate
+from ..elasticity import ElasticError, Estimate, elastic
 from ..elasticity.reduced import peak_of, resultants_of
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH
+from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless
@@ -73,8 +74,9 @@ class _QuickCost:
             return ""
         drives = self.places.drives()
         node = drives[0][0] if drives else self.places.point(None).node
-        mechanism = ElasticDesign(self.data, self.data.node_index[node])
-        one = replace(mechanism, beams=1)
+        model = elastic(Model.from_data(self.data))
+        mechanism = ElasticDesign(model, self.data.node_index[node])
+        one = replace(mechanism, elastic=replace(model, beams=1))
         order = self._in_order(one)
         if not order:
             return ""
