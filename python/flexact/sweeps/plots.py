@@ -6,10 +6,10 @@ from __future__ import annotations
 import os
 from collections import defaultdict
 from collections.abc import Sequence
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from math import dist
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -177,27 +177,16 @@ def curves_of(
     for each in crossings:
         if each.along not in (x, y):
             continue
-        point = (_number(each, x), _number(each, y))
+        point = (float(cast(float, each.parameters[x])), float(cast(float, each.parameters[y])))
         points.append(point)
-        places = [(index[0][row], index[1][row]) for row in each.rows]
-        low = [min(place[axis] for place in places) for axis in (0, 1)]
-        high = [max(place[axis] for place in places) for axis in (0, 1)]
+        ends = [sorted(of_axis[row] for row in each.rows) for of_axis in index]
         # An edge has a cell on each side, a corner four round it.
-        around = [
-            range(a - 1, a + 1) if a == b else range(a, b) for a, b in zip(low, high, strict=True)
-        ]
-        for i in around[0]:
-            for j in around[1]:
-                cells[i, j].append(point)
+        across, up = (range(a - 1, a + 1) if a == b else range(a, b) for a, b in ends)
+        for cell in product(across, up):
+            cells[cell].append(point)
     segments = list(dict.fromkeys(s for there in cells.values() for s in _joined(there)))
     joined = {point for segment in segments for point in segment}
     return segments, [point for point in dict.fromkeys(points) if point not in joined]
-
-
-def _number(each: Crossing, name: str) -> float:
-    value = each.parameters[name]
-    assert isinstance(value, (int, float))
-    return float(value)
 
 
 def _joined(there: list[Point]) -> list[Segment]:
@@ -219,14 +208,6 @@ _MOST_JOINED = 2_000
 _MOST_TOLD = 6
 
 
-class _Quantity(NamedTuple):
-    words: str
-    values: FloatArray
-    is_logarithmic: bool
-    falls: bool
-    """Whether it is zero at singular places."""
-
-
 def curve(table: Rows, x: str | None, y: str | None, crossings: Crossings) -> Any:
     """The figure of a curve over a parameter, or over the rows; see `Table.plot`."""
     quantities = _quantities(table, y)
@@ -238,24 +219,24 @@ def curve(table: Rows, x: str | None, y: str | None, crossings: Crossings) -> An
     else:
         values = [each.parameters.get(x) for each in crossings]
         places = [float(value) for value in values if isinstance(value, (int, float))]
-    for axes, quantity in zip(panels, quantities, strict=True):
-        _draw(axes, table, along, quantity, _lines(table, x), places)
-        label(axes, "" if axes is not panels[-1] else x or "variant", quantity.words)
+    for axes, (words, *quantity) in zip(panels, quantities, strict=True):
+        _draw(axes, table, along, _lines(table, x), places, *quantity)
+        label(axes, "" if axes is not panels[-1] else x or "variant", words)
     for place in places if len(places) <= _MOST_TOLD else ():
         _note(panels[0], place, f"{place:.6g}", color=SINGULAR_COLOUR)
     add_legend(panels[0], table, has_singular=bool(places), marks=True)
     return figure
 
 
-def _quantities(table: Rows, y: str | None) -> list[_Quantity]:
+def _quantities(table: Rows, y: str | None) -> list[tuple[Any, ...]]:
+    """Words, values, whether their axis is logarithmic, and whether singular places have zero."""
     if y is not None:
-        values = table[y].astype(float)
-        return [_Quantity(y, values, y in _LOGARITHMIC, y in _FALLING)]
+        return [(y, table[y].astype(float), y in _LOGARITHMIC, y in _FALLING)]
     if "gap" not in table.columns:
-        return [_Quantity("rank of D(c)", table["rank"], False, False)]
+        return [("rank of D(c)", table["rank"], False, False)]
     return [
-        _Quantity("smallest singular value", smallest_values(table), True, True),
-        _Quantity("margin [m]", table["margin"], True, True),
+        ("smallest singular value", smallest_values(table), True, True),
+        ("margin [m]", table["margin"], True, True),
     ]
 
 
@@ -276,23 +257,24 @@ def _draw(
     axes: Any,
     table: Rows,
     along: FloatArray,
-    quantity: _Quantity,
     lines: Sequence[Sequence[int]],
     places: Sequence[float],
+    given: np.ndarray,
+    is_logarithmic: bool,
+    falls: bool,
 ) -> None:
-    there = np.isfinite(quantity.values) & ~table.has_error
-    values = np.where(there, quantity.values, np.nan)
+    values = np.where(np.isfinite(given) & ~table.has_error, given, np.nan)
     floor = np.nan
-    if quantity.is_logarithmic:
+    if is_logarithmic:
         axes.set_yscale("log")
         above = values[values > _ZERO * np.nanmax(values, initial=0.0)]
-        zeros = bool((values <= 0.0).any()) or (quantity.falls and bool(places))
+        zeros = bool((values <= 0.0).any()) or (falls and bool(places))
         # The lower edge of the axis: a decade below the least, where zero is reached.
         floor = float(above.min() / (10.0 if zeros else 1.5)) if above.size else 0.1
         values = np.maximum(values, floor)
     for rows in lines:
         xs, ys = along[list(rows)], values[list(rows)]
-        if quantity.falls and len(lines) == 1:
+        if falls and len(lines) == 1:
             # The curve comes down to zero at singular places between the rows.
             xs = np.concatenate((xs, places))
             ys = np.concatenate((ys, np.full(len(places), floor)))[np.argsort(xs, kind="stable")]
@@ -303,13 +285,13 @@ def _draw(
     size = 26 if len(table) <= FEW_ROWS else 2 if many else 9
     points: Any = {"s": size, "c": verdict_colours(table)[there], "rasterized": many}
     axes.scatter(along[there], values[there], zorder=4, clip_on=False, **points)
-    if quantity.is_logarithmic:
+    if is_logarithmic:
         axes.set_ylim(bottom=floor)
     for place in places:
         axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, zorder=3)
     bottom = np.full(len(table), axes.get_ylim()[0])
     mark_rows(axes, table, along, np.where(there, values, bottom))
-    if quantity.values.dtype.kind == "i":
+    if given.dtype.kind == "i":
         axes.yaxis.get_major_locator().set_params(integer=True)
     axes.grid(True, which="major", color="#e5e7eb", lw=0.7, zorder=0)
     axes.set_axisbelow(True)
@@ -467,8 +449,7 @@ def _draw_cells(
     image[cells < 0] = 0.0
     edges = [_edges(np.unique(column)) for column in columns]
     axes.pcolormesh(*edges, image, rasterized=True)
-    axes.set_xlim(edges[0][0], edges[0][-1])
-    axes.set_ylim(edges[1][0], edges[1][-1])
+    axes.set(xlim=edges[0][[0, -1]], ylim=edges[1][[0, -1]])
 
 
 def _edges(values: FloatArray) -> FloatArray:

@@ -187,12 +187,12 @@ class Table(Frozen):
         """
         source = self._known_source()
         if isinstance(variant, Crossing):
-            where = (*variant.rows, variant.share, variant.parameters)
-            return Model.from_data(variant_of(source, *where))
-        row = range(len(self))[variant]
-        own = self._row(row)
-        parameters = {name: own[name] for name in self.parameter_names}
-        return Model.from_data(variant_of(source, row, row, 0.0, parameters))
+            a, b, share, parameters = *variant.rows, variant.share, variant.parameters
+        else:
+            a = b = range(len(self))[variant]
+            own, share = self._row(a), 0.0
+            parameters = {name: own[name] for name in self.parameter_names}
+        return Model.from_data(variant_of(source, a, b, share, parameters))
 
     def describe(self) -> str:
         """What the variants are, and where the margin is smallest, in plain English."""
@@ -311,11 +311,9 @@ class Table(Frozen):
 
 def _column_of(name: str, array: Array) -> Column:
     """What the writers are told of a column; those of results they know."""
-    known = next((column for column in (*COLUMNS, ERROR) if column.name == name), None)
-    if known is not None:
-        return known
     kind = {"b": bool, "i": int, "f": float}.get(array.dtype.kind, str)
-    return Column(name, kind, "parameter", "verdict")
+    known = (column for column in (*COLUMNS, ERROR) if column.name == name)
+    return next(known, Column(name, kind, "parameter", "verdict"))
 
 
 def in_short(table: Table) -> str:
@@ -334,8 +332,7 @@ def counts_of(table: Table) -> list[tuple[str, int]]:
 
 def row_in_words(table: Table, row: int) -> str:
     """A row by its number, and by its parameters."""
-    values = (f"{name} {_value(table[row][name])}" for name in table.parameter_names)
-    told = ", ".join(values)
+    told = ", ".join(f"{name} {_value(table[row][name])}" for name in table.parameter_names)
     return f"variant {row}{': ' * bool(told)}{told}"
 
 
