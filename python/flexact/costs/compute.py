@@ -226,8 +226,7 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
     if not known:
         sizes = np.abs(_of_elements(both[1]))
         moment = sizes[:, 1:].max(axis=1)
-        column = moment if moment.any() else sizes[:, 0]
-        return None, int(np.argmax(column))
+        return None, int(np.argmax(moment if moment.any() else sizes[:, 0]))
     found = [
         over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each) for each in both
     ]
@@ -442,8 +441,7 @@ class _Computation:
         model = elastic(Model.from_data(data), asked.held, asked.drive, (), asked.beams)
         watched = data.node_index[drives[0][0] if drives else self.point.node]
         self.built = ElasticDesign(model, watched)
-        has_masses = self.built.has_masses
-        self.measures = Measures(self.point, directions, data.size, drives, has_masses)
+        self.measures = Measures(self.point, directions, data.size, drives, self.built.has_masses)
 
     def cost(self, kind: type[Made]) -> Made:
         """All of it, as a kind of cost."""

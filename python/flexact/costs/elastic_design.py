@@ -224,8 +224,7 @@ def _moved(measures: Measures, state: State, mode: int, node: int, name: str) ->
     """How far a coordinate moves in a mode, as a part of what moves farthest."""
     shape = np.asarray(state.modes[mode], np.float64)
     index = state.data.node_index[node]
-    turns = state.data.arrays.node_kind > 2
-    sizes = np.abs(shape) * np.where(turns, measures.size, 1.0)[:, None]
+    sizes = np.abs(shape) * np.where(state.data.arrays.node_kind > 2, measures.size, 1.0)[:, None]
     largest = float(sizes.max(initial=0.0))
     return float(sizes[index, "xyz".index(name[-1])]) / largest if largest > 0.0 else 0.0
 

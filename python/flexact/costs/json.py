@@ -228,8 +228,11 @@ def _with_units(cost: CostValues, given: StrokeCurve | Effect) -> dict[str, Any]
 
 def _tolerance(each: Tolerance) -> dict[str, Any]:
     numbers = ("negative", "positive", "critical_negative", "critical_positive")
-    unit = each.misalignment.unit
-    return {**_place(each.misalignment), "unit": unit, **_of_fields(each, *numbers)}
+    return {
+        **_place(each.misalignment),
+        "unit": each.misalignment.unit,
+        **_of_fields(each, *numbers),
+    }
 
 
 def _place(each: Misalignment) -> dict[str, Any]:

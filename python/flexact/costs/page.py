@@ -88,8 +88,7 @@ def _side(series: int, design: Design, key: Key) -> Side:
 def _unit(design: Design, shape: Shape) -> str:
     """Of the error at which it buckles."""
     units = {each.critical.value: each.misalignment.unit for each in design.tolerances}
-    near = min(units, key=lambda size: abs(size - abs(shape.value)), default=0.0)
-    return units.get(near, "m")
+    return units.get(min(units, key=lambda size: abs(size - abs(shape.value)), default=0.0), "m")
 
 
 def _label(design: Design, shape: Shape) -> str:

@@ -134,8 +134,7 @@ def stroke_of(text: str) -> StrokeRequest:
     first, last = quantity(start, unit), quantity(stop, unit)
     if first == last:
         raise RequestError(f"the stroke {in_short(text)} ends where it begins")
-    point = _target(found["point"])
-    return point, name, first, last, bool(found["by"]) or dots == "+-"
+    return _target(found["point"]), name, first, last, bool(found["by"]) or dots == "+-"
 
 
 def misalignment_of(text: str) -> MisalignmentRequest:
@@ -154,8 +153,7 @@ def misalignment_of(text: str) -> MisalignmentRequest:
     name, unit = _coordinate(found["name"])
     if about and unit == "m":
         raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
-    pivot = _target(about) if about else None
-    return _target(found["point"]), name, quantity(value, unit), pivot
+    return _target(found["point"]), name, quantity(value, unit), _target(about) if about else None
 
 
 def _coordinate(name: str) -> tuple[str, str]:

@@ -135,8 +135,7 @@ class Places:
             points = [n for n in body.positions if (self.classes[:, n] > Class.FIXED).any()]
             hanging = {part for n in points for part in self.parts.at(n)}
             if points and (best is None or len(hanging) > best[0]):
-                point = max(points, key=lambda n: len(self.parts.elements_at(n)))
-                best = len(hanging), point
+                best = len(hanging), max(points, key=lambda n: len(self.parts.elements_at(n)))
         return None if best is None else best[1]
 
     def _made(self, node: int, reason: str) -> Point:

@@ -394,8 +394,7 @@ class Elastic(Frozen):
         kind = self.points.kinds[drive.node]
         given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
         rest = value_at(at_rest(self.solvers[0], self.locked), drive)
-        is_turn = bool(kind == NodeKind.ORIENTATION)
-        there = strokes_given(given, is_turn, rest if from_rest else 0.0)
+        there = strokes_given(given, bool(kind == NodeKind.ORIENTATION), rest if from_rest else 0.0)
         what = self.points.words(drive)
         # An angle may be of any number of turns.
         for value in () if beyond or kind > NodeKind.POSITION else there:
@@ -576,8 +575,7 @@ class State(Frozen):
     @cached_property
     def configuration(self) -> Configuration:
         """Where the nodes of the finer mesh are; those of the deck come first."""
-        kinds = self.data.arrays.node_kind
-        return Configuration(kinds, self.finest.raw.configuration.T)
+        return Configuration(self.data.arrays.node_kind, self.finest.raw.configuration.T)
 
     def position(self, node: object) -> FloatArray | Angle:
         """Where a node is.
@@ -626,8 +624,7 @@ class State(Frozen):
             UnknownError: there is no such element.
         """
         e = self.model.points.element(element)
-        stress = self.best(lambda at: at.stress[:, e])
-        return resultants_of(self.model.data, e, stress)
+        return resultants_of(self.model.data, e, self.best(lambda at: at.stress[:, e]))
 
     def peak_stress(self, element: object) -> float:
         """The largest normal stress [Pa] anywhere in an element, or part, of known section.

@@ -113,14 +113,12 @@ class Imperfection(Frozen):
                 made[0, node] += self.value
             elif kind == NodeKind.ORIENTATION:
                 # Of single Euler parameters those that are held count.
-                rotation = self.value * direction[None]
-                made[:, node] = turned(value[:, node][None], rotation)[0]
+                made[:, node] = turned(value[:, node][None], self.value * direction[None])[0]
             else:
                 old = value[:3, node]
                 new = old + self.value * direction
                 if self.is_turn:
-                    turn = matrix_of(self.value * direction)
-                    new = self.centre + turn @ (old - self.centre)
+                    new = self.centre + matrix_of(self.value * direction) @ (old - self.centre)
                 made[:3, node][there] = new[there]
         return made
 
@@ -254,8 +252,7 @@ def warmth(
     offset = np.einsum("eij,ei->ej", frames.frame, way)
     size = np.zeros(roles.shape)
     for role in _LENGTHS:
-        axis = role - Role.OFFSET_X
-        value = frames.length if role == Role.ELONGATION else offset[:, axis]
+        value = frames.length if role == Role.ELONGATION else offset[:, role - Role.OFFSET_X]
         size += np.where(roles == role, value, 0.0)
     off = np.zeros(size.shape)
     off[:, which] = alpha * size[:, which]
@@ -453,8 +450,7 @@ def _reached(start: Solution, way: Waypoint, begin: float, end: float, what: str
         StrokeError: it was not reached.
     """
     solver = start.solver
-    model = solver.model(start.held)
-    found = elastic.equilibrium(model, solver.arrays, start.raw, start.way, way)
+    found = elastic.equilibrium(solver.model(start.held), solver.arrays, start.raw, start.way, way)
     if found.status == "done":
         return Solution(solver, found.state, way, start.held)
     reached = begin + found.reached * (end - begin)

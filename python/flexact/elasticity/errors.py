@@ -105,8 +105,7 @@ class Estimate(Frozen):
             raise ValueError(f"the quantity has shapes {one.shape} and {two.shape}")
         both = np.isfinite(one) & np.isfinite(two)
         step = np.where(both, np.where(both, two, 0.0) - np.where(both, one, 0.0), 0.0) / 3.0
-        unknown = np.where(np.isfinite(two) & ~both, np.inf, SAFETY * np.abs(step))
-        return cls(two + step, unknown)
+        return cls(two + step, np.where(np.isfinite(two) & ~both, np.inf, SAFETY * np.abs(step)))
 
     @classmethod
     def fixed(cls, value: ArrayLike) -> Estimate:

@@ -280,11 +280,10 @@ def _divided(mesh: Mesh) -> ModelData:
     names = own.element_names
     look, given = own.given_appearance, own.properties
     if look is not None:
-        columns = (getattr(look, name)[owner] for name in Appearance.__dataclass_fields__)
-        look = Appearance(*columns)
+        look = Appearance(*(getattr(look, name)[owner] for name in Appearance.__dataclass_fields__))
     if given is not None:
-        more = np.full((2 * new, given.node_mass.shape[1]), np.nan)
-        node_mass = np.vstack([given.node_mass, more])
+        none = np.full((2 * new, given.node_mass.shape[1]), np.nan)
+        node_mass = np.vstack([given.node_mass, none])
         given = Properties(given.stiffness[owner], given.mass[owner], node_mass)
     return replace(
         own,

@@ -92,8 +92,7 @@ class Points:
 
     def turned_at(self, position: int) -> list[int]:
         """Indices of all orientation nodes at a position node, each once."""
-        here = self._pairs[0] == position
-        return list(dict.fromkeys(self._pairs[1, here].tolist()))
+        return list(dict.fromkeys(self._pairs[1, self._pairs[0] == position].tolist()))
 
     def coordinates(self, point: Point) -> list[Coordinate]:
         """All coordinates of a point in the order x y z rx ry rz, planar x y rz."""

@@ -222,8 +222,7 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
 
 def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:
     """The matrix with infinity, signed, where a projector has entries."""
-    there = np.abs(along) > ROUNDING
-    return np.where(there, np.copysign(np.inf, along), finite)
+    return np.where(np.abs(along) > ROUNDING, np.copysign(np.inf, along), finite)
 
 
 #: Part of the compliance of all elements in parallel that is rounding.
@@ -305,8 +304,7 @@ class Solver:
     @cached_property
     def least_compliance(self) -> float:
         """What is more compliant than this [m/N] is so for a reason; 0 without any stiffness."""
-        stiffness = np.diagonal(self.elastic[0], axis1=1, axis2=2)
-        whole = float(stiffness[self.is_elastic.T].sum())
+        whole = float(np.diagonal(self.elastic[0], axis1=1, axis2=2)[self.is_elastic.T].sum())
         return _ROUNDED_COMPLIANCE / whole if whole > 0.0 else 0.0
 
     def loads(self, factor: float) -> tuple[FloatArray, FloatArray]:
@@ -484,8 +482,7 @@ class Solution:
     def energy(self) -> float:
         """Elastic energy [J]."""
         stiffness, c_t = self.solver.elastic
-        data = self.solver.mesh.data
-        here = calls.assemble(data.packed, self.raw.configuration, c_t).deformation
+        here = calls.assemble(self.solver.mesh.data.packed, self.raw.configuration, c_t).deformation
         strain = np.where(self.solver.is_elastic, here - self.way.misfit, 0.0).T
         return float(np.einsum("ei,eij,ej->", strain, stiffness, strain)) / 2.0
 

@@ -59,8 +59,7 @@ def _at_top(function: Function, level: float, low: float, high: float) -> float:
     for _ in range(_MOST):
         best, value = (one, at_one) if at_one > at_two else (two, at_two)
         if value >= level:
-            first = function(begin) - level
-            return _root(function, level, (begin, first), (best, value - level))
+            return _root(function, level, (begin, function(begin) - level), (best, value - level))
         if high - low < 1.0e-6 * high:
             break
         if at_one > at_two:

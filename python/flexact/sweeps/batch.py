@@ -90,8 +90,7 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
 def failed_row(error: Exception, name: str, want: str, seconds: float = 0.0) -> DeckRow:
     """The row of a deck that has no result."""
     row = error_row(first_error(error, name), want)
-    values = {**row, "rows": None, "columns": None, "seconds": seconds}
-    return DeckRow(values, None, error)
+    return DeckRow({**row, "rows": None, "columns": None, "seconds": seconds}, None, error)
 
 
 def first_error(error: Exception, name: str) -> str:

@@ -270,8 +270,9 @@ class Follow:
             a, b, share = search.between(zero.place)
             row = self.parameters(a, b, share)
             try:
-                data = variant_of(self.source, a, b, share, row)
-                result = self._singular(data, search, zero, kind)
+                result = self._singular(
+                    variant_of(self.source, a, b, share, row), search, zero, kind
+                )
             except FlexactError as error:
                 errors.append((zero.place, in_a_line(error)))
                 continue
@@ -419,8 +420,7 @@ def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> n
             every[done.index] = done.result
         elif not table["error"][done.index]:
             row = follow.parameters(done.index, done.index, 0.0)
-            error = done.result or done.failure
-            missed.append(Missed(row, ROWS, (done.index, done.index), error))
+            missed.append(Missed(row, ROWS, (done.index, done.index), done.result or done.failure))
     return signed_column(every)
 
 
@@ -489,8 +489,7 @@ def _candidates(
             two = at(k, k + 1, high)
         # Their product may be too small for a number.
         if {*np.sign((one, two)).tolist()} == {-1.0, 1.0}:
-            rows = tuple(run[k : k + 2])
-            yield Search(along, rows, rank, (one, two), topology, (low, high))
+            yield Search(along, tuple(run[k : k + 2]), rank, (one, two), topology, (low, high))
     # Rows at which the value is lower than at those beside it.
     size = np.abs(values)
     changes = np.sign(values[:-1]) * np.sign(values[1:]) < 0.0

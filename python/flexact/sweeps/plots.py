@@ -195,8 +195,7 @@ def _joined(there: list[Point]) -> list[Segment]:
         best = min(_PAIRS, key=lambda pairs: sum(dist(points[a], points[b]) for a, b in pairs))
         return [(points[a], points[b]) for a, b in best]
     if len(points) == 3:
-        ranked = sorted(combinations(points, 2), key=lambda pair: dist(*pair))
-        return list(ranked[:2])
+        return sorted(combinations(points, 2), key=lambda pair: dist(*pair))[:2]
     return list(pairwise(points))
 
 
@@ -289,8 +288,7 @@ def _draw(
         axes.set_ylim(bottom=floor)
     for place in places:
         axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, zorder=3)
-    bottom = np.full(len(table), axes.get_ylim()[0])
-    mark_rows(axes, table, along, np.where(there, values, bottom))
+    mark_rows(axes, table, along, np.where(there, values, np.full(len(table), axes.get_ylim()[0])))
     if given.dtype.kind == "i":
         axes.yaxis.get_major_locator().set_params(integer=True)
     axes.grid(True, which="major", color="#e5e7eb", lw=0.7, zorder=0)
@@ -334,8 +332,8 @@ def _draw_histogram(
     if positive.size:
         low = max(positive.min(), _NONE_BELOW * np.median(positive))
         drawn = [place for place, _ in lines if np.isfinite(place) and place > low]
-        high = max([positive.max() * 1.0001, *drawn])
-        edges = np.geomspace(low, max(high, 1.001 * low), _BINS + 1)
+        high = max([positive.max() * 1.0001, 1.001 * low, *drawn])
+        edges = np.geomspace(low, high, _BINS + 1)
         found = [
             (each, np.clip(values[there & (table["verdict"] == each.value)], edges[0], edges[-1]))
             for each in Verdict
@@ -429,8 +427,7 @@ def _shaded(table: Rows) -> FloatArray:
     logs = np.log10(values[there])
     low, high = np.quantile(logs, _ENDS)
     share = np.clip((logs - low) / max(high - low, 1e-12), 0.0, 1.0)
-    pale = (_PALEST * (1.0 - share))[:, None]
-    colours[there] += (1.0 - colours[there]) * pale
+    colours[there] += (1.0 - colours[there]) * (_PALEST * (1.0 - share))[:, None]
     return colours
 
 

@@ -140,8 +140,7 @@ class Member:
         if part.is_last:
             self.chunks.popleft()
             self.done = 0
-        some = chunk.part(first, first + len(part.results))
-        return [Answer(some, *part[:3])]
+        return [Answer(chunk.part(first, first + len(part.results)), *part[:3])]
 
     def buried(self) -> list[Answer]:
         """What it leaves: what it was about, and what it had not begun."""

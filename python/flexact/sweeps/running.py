@@ -115,8 +115,7 @@ def _crew(function: Callable[[Any], Any], executor: Any, workers: int | None) ->
         return ExecutorCrew(function, executor, workers)
     if isinstance(executor, str) and executor != "dask" and ":" not in executor:
         raise ValueError(f'the executor must be "dask" or as "tcp://host:port", not {executor!r}')
-    of_dask = type(executor).__module__.partition(".")[0] == "distributed"
-    if isinstance(executor, str) or of_dask:
+    if isinstance(executor, str) or type(executor).__module__.split(".")[0] == "distributed":
         crew = load("flexact.sweeps.dask").DaskCrew(function, executor, workers)
         return crew
     raise TypeError(

@@ -129,8 +129,7 @@ def answers_of(
     try:
         with closing(results):
             for done in results:
-                answer = done.result or failed(done.failure, want)
-                answers[sent[done.index]] = answer
+                answers[sent[done.index]] = done.result or failed(done.failure, want)
                 if progress is not None:
                     share = len(answers) / count if count else 0.0
                     progress(f"variant {len(answers)}", min(share, 1.0))

@@ -56,8 +56,7 @@ def misaligned(model: Model, sd: FloatArray, samples: int, seed: int) -> FloatAr
     data = model.data
     positions = model.positions
     point = points_of(data)
-    errors = np.random.default_rng(seed).standard_normal((samples, *positions.shape))
-    moved = errors[:, point] * sd
+    moved = np.random.default_rng(seed).standard_normal((samples, *positions.shape))[:, point] * sd
     for nodes, shares in _inner(data, positions):
         ends = moved[:, [nodes[0], nodes[-1]]]
         moved[:, nodes[1:-1]] = (
@@ -73,8 +72,7 @@ def points_of(data: ModelData) -> IntArray:
     first: dict[tuple[float, ...], int] = {}
     made = np.arange(arrays.node_kind.size)
     for node in np.flatnonzero(arrays.node_kind <= NodeKind.POSITION).tolist():
-        place = tuple((arrays.node_value[:3, node] + 0.0).tolist())
-        made[node] = first.setdefault(place, node)
+        made[node] = first.setdefault(tuple((arrays.node_value[:3, node] + 0.0).tolist()), node)
     return made.astype(np.int32)
 
 
@@ -84,8 +82,7 @@ def _inner(data: ModelData, positions: FloatArray) -> list[tuple[list[int], Floa
     for chain in data.chains:
         nodes = list(chain.positions)
         steps = [float(np.linalg.norm(positions[b] - positions[a])) for a, b in pairwise(nodes)]
-        shares = np.cumsum(steps)[:-1] / sum(steps)
-        made.append((nodes, shares))
+        made.append((nodes, np.cumsum(steps)[:-1] / sum(steps)))
     return made
 
 

@@ -259,8 +259,7 @@ def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
         )
     axes[-1].set_xlabel("along the path [m]", fontsize=11)
     _legend(figure, trace)
-    name = file_name(trace.result.given.name) or "path"
-    return still_bytes(figure, suffix, name, harmless(what))
+    return still_bytes(figure, suffix, file_name(trace.result.given.name) or "path", harmless(what))
 
 
 def _draw_values(axes: Any, trace: Traced) -> None:
@@ -293,8 +292,7 @@ def _draw_places(axes: Any, trace: Traced) -> None:
         if size > _SAME * largest and is_new and len(curves) < _MOST_CURVES:
             curves.append((name, curve))
     for colour, (name, curve) in zip(_CURVES, curves, strict=False):
-        told = harmless(name).replace("$", r"\$")
-        axes.plot(trace.arc, curve, color=colour, lw=1.4, label=told)
+        axes.plot(trace.arc, curve, color=colour, lw=1.4, label=harmless(name).replace("$", r"\$"))
     axes.set_ylabel("displacement [m]", fontsize=11)
     if curves:
         axes.legend(fontsize=9, frameon=False, ncols=3, loc="best")
@@ -337,8 +335,7 @@ def played(trace: Traced, target: Path) -> Collection:
     poses = {file: trace.steps[k].pose for file, k in zip(files, steps, strict=True)}
     start = steps.index(trace.reference)
     order = [*range(start, len(steps)), *range(len(steps) - 2, -1, -1), *range(1, start + 1)]
-    arc = trace.arc[steps][order]
-    times = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(arc)))))
+    times = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(trace.arc[steps][order])))))
     shown = {time: files[k] for time, k in zip(times.tolist(), order, strict=True)}
     return Collection(target, shown, lambda path: meshes.moved(poses[path]))
 

@@ -299,8 +299,9 @@ class Stroke:
             rests = np.linalg.norm(self._speeds(last), axis=1) <= _RESTS
             names = self._turning(np.flatnonzero(rests & moved).tolist(), rests)
             rate = self._rate(last.within, last.tangent)
-            dead = DeadPoint(names, abs(rate) <= _RESTS, last.directions)
-            made[-1] = replace(made[-1], dead=dead)
+            made[-1] = replace(
+                made[-1], dead=DeadPoint(names, abs(rate) <= _RESTS, last.directions)
+            )
         return made
 
     def at_reference(self, steps: Sequence[Step], ways: Sequence[Followed]) -> tuple[Step, ...]:
@@ -317,8 +318,7 @@ class Stroke:
             # What moves to second order only turns a little on both sides: that is none.
             names = tuple(name for name in names if not name.startswith(ROTATION))
         if names or directions or is_drive:
-            dead = DeadPoint(names, is_drive, directions)
-            made[place] = replace(made[place], dead=dead)
+            made[place] = replace(made[place], dead=DeadPoint(names, is_drive, directions))
         return tuple(made)
 
     def _turning(self, nodes: Sequence[int], resting: np.ndarray) -> tuple[str, ...]:

@@ -59,8 +59,7 @@ def drive_unit(freedom: Freedom) -> str:
     arrays = freedom.analysis.data.arrays
     if freedom.is_coordinate:
         return "m" if arrays.node_kind[owner] <= NodeKind.POSITION else "rad"
-    turns = dual_table()[arrays.element_kind[owner], part] == Dual.MOMENT
-    return "rad" if turns else "m"
+    return "rad" if dual_table()[arrays.element_kind[owner], part] == Dual.MOMENT else "m"
 
 
 @dataclass(frozen=True, eq=False)
