@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,12 +77,12 @@ def marks_of(cost: CostValues, curve: Curve) -> Iterable[Mark]:
     ):
         values = [v for v, _ in pair if curve.x[0] - room <= v <= curve.x[-1] + room]
         points = [(value, float(np.interp(value, curve.x, curve.y))) for value in values]
-        unit = found.misalignment.unit
+        sizes = [f"{words} {told(value, found.misalignment.unit)}" for value in values]
         if len(values) == 2 and abs(sum(values)) < _MIRRORED * abs(values[1]):
-            yield Mark(curve.series, tuple(points), f"{words} ±{told(values[1], unit)}")
+            size = told(values[1], found.misalignment.unit)
+            yield Mark(curve.series, tuple(points), f"{words} ±{size}")
         else:
-            for value, point in zip(values, points, strict=True):
-                yield Mark(curve.series, (point,), f"{words} {told(value, unit)}")
+            yield from (Mark(curve.series, (p,), s) for p, s in zip(points, sizes, strict=True))
 
 
 def _shift(cost: CostValues) -> str:
@@ -100,11 +100,10 @@ _BEYOND = 0.2
 
 def bars_of(cost: CostValues) -> tuple[BarChart, ...]:
     """Tolerances of displacements and of rotations, where there are any that matter."""
-    made = (_bars(cost, "m"), _bars(cost, "rad"))
-    return tuple(chart for chart in made if chart is not None)
+    return *_bars(cost, "m"), *_bars(cost, "rad")
 
 
-def _bars(cost: CostValues, unit: str) -> BarChart | None:
+def _bars(cost: CostValues, unit: str) -> Iterator[BarChart]:
     found = [
         {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
         for design in cost.designs
@@ -117,7 +116,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         if each.tightest.value <= limit
     ]
     if not finite:
-        return None
+        return
     least: dict[Clamp, float] = {}
     for misalignment, each in found[0].items():
         clamp = misalignment.clamp
@@ -141,7 +140,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     many = "clamp bears" if left_out == 1 else "clamps bear"
     more = f"; {left_out} more {many} more" if left_out else ""
     note = f"Arrows: more than {told(limit, unit, 2)}{more}"
-    return BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
+    yield BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
 
 
 def _row(
@@ -173,20 +172,18 @@ def charts_of(cost: CostValues) -> tuple[Chart, ...]:
         if each.parasitic is not None and each.parasitic.value.shape[1]
     ]
     parasitic = _along_stroke(cost, "parasitic", "Lowest parasitic frequency", hertz, "Hz")
-    made = (_stiffness(cost), parasitic, _misaligned(cost))
-    return tuple(chart for chart in made if chart is not None)
+    return *_stiffness(cost), *parasitic, *_misaligned(cost)
 
 
-def _stiffness(cost: CostValues) -> Chart | None:
+def _stiffness(cost: CostValues) -> Iterator[Chart]:
     """In the direction that loses most of what it has as built at rest."""
     strokes = _strokes(cost)
     chosen = _direction(cost, strokes) if strokes else None
-    if chosen is None:
-        return None
-    name = cost.directions[chosen]
-    title = f"Support stiffness {words_of_direction(name)}"
-    chosen_of = [(series, each, each.stiffness.column(chosen)) for series, each in strokes]
-    return _along_stroke(cost, "stiffness", title, chosen_of, stiffness_unit(name))
+    if chosen is not None:
+        name = cost.directions[chosen]
+        title = f"Support stiffness {words_of_direction(name)}"
+        chosen_of = [(series, each, each.stiffness.column(chosen)) for series, each in strokes]
+        yield from _along_stroke(cost, "stiffness", title, chosen_of, stiffness_unit(name))
 
 
 def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> int | None:
@@ -212,25 +209,25 @@ def _along_stroke(
     title: str,
     chosen: Iterable[tuple[int, StrokeCurve, Numbers]],
     unit: str,
-) -> Chart | None:
-    """A chart of numbers of designs along the stroke; None where none can be drawn."""
+) -> Iterator[Chart]:
+    """A chart of numbers of designs along the stroke; none where none can be drawn."""
     asked, labels = cost.stroke, short_labels(cost)
     if asked is None:
-        return None
+        return
     made = (
         Curve(series, labels[series], curve.values - asked.rest, *_drawn(numbers))
         for series, curve, numbers in chosen
     )
     curves = tuple(curve for curve in made if curve.runs)
     if not curves:
-        return None
+        return
     first, last = sorted(value - asked.rest for value in asked.reached)
     room = 0.03 * (last - first)
     along = exact_scale(first - room, last + room, asked.unit)
-    return Chart(name, title, f"stroke of {asked.words}", along, _up(curves, unit), curves)
+    yield Chart(name, title, f"stroke of {asked.words}", along, _up(curves, unit), curves)
 
 
-def _misaligned(cost: CostValues) -> Chart | None:
+def _misaligned(cost: CostValues) -> Iterator[Chart]:
     """The measure against the misalignment that matters most, to both sides."""
     labels = short_labels(cost)
     curves = tuple(
@@ -239,17 +236,16 @@ def _misaligned(cost: CostValues) -> Chart | None:
         if each.curve is not None and each.curve.values.size > 1
     )
     if not curves or cost.as_built.curve is None:
-        return None
+        return
     chosen = cost.as_built.curve.misalignment
-    is_frequency = cost.measure == FREQUENCY
     # A stiffness without masses has the unit of the direction of the drive, which a stroke names.
     turns = cost.stroke is not None and cost.stroke.unit == "rad"
-    unit = "Hz" if is_frequency else "N m/rad" if turns else "N/m"
+    unit = "Hz" if cost.measure == FREQUENCY else "N m/rad" if turns else "N/m"
     far = np.concatenate([curve.x for curve in curves])
     first, last = float(far.min()), float(far.max())
     verb = "turned" if chosen.unit == "rad" else "off"
     words = f"{chosen.clamp.label} {verb} {words_of_direction(chosen.direction)}"
-    return Chart(
+    yield Chart(
         "misaligned",
         cost.measure.capitalize(),
         words,
@@ -531,16 +527,6 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
         top += height
 
 
-def notes_of(figure: Any, cost: CostValues) -> list[str]:
-    """What the deck does not allow, in lines that fit; measured on any figure."""
-    room = _RIGHT_END - _MARGIN
-    return [
-        line
-        for note in cost.left_out[:_NOTES]
-        for line in wrapped(figure, harmless(f"{note[:1].upper()}{note[1:]}."), room, _SMALL)
-    ]
-
-
 def draw_notes(figure: Any, notes: list[str]) -> None:
     """Lines at the lower edge."""
     top = figure.get_figheight() - _SECOND * len(notes) - _ROOM
@@ -607,7 +593,13 @@ def plot_of(cost: CostValues) -> Any:
     charts, bars = charts_of(cost), bars_of(cost)
     table = table_of(measure, key_of(cost), typeset(first_line(cost)))
     rows = max((each.height(ROW, BETWEEN) for each in bars), default=0.0)
-    notes = notes_of(measure, cost)
+    notes = [
+        line
+        for note in cost.left_out[:_NOTES]
+        for line in wrapped(
+            *(measure, harmless(f"{note[:1].upper()}{note[1:]}.")), _RIGHT_END - _MARGIN, _SMALL
+        )
+    ]
     heights = (
         _TOP + _LINE * len(table.headline) + 2 * _TABLE_ROW + sum(table.heights) + _ROOM,
         (_TITLE + _CHART + _BELOW) * bool(charts),
