@@ -279,22 +279,13 @@ class Solver:
     def at_rest(self) -> ElasticState:
         """As the deck gives it, without stress."""
         value = np.asfortranarray(self.mesh.data.arrays.node_value)
-        return ElasticState(value, self.no_misfit, self.no_force)
+        none = np.zeros((6, self.elements), order="F"), np.zeros((3, self.nodes), order="F")
+        return ElasticState(value, *none)
 
     @cached_property
     def nothing(self) -> Waypoint:
         """All held coordinates where the deck has them, no load, no misfit."""
-        return Waypoint(self.at_rest.configuration, self.no_misfit, self.no_force, np.zeros(3))
-
-    @cached_property
-    def no_misfit(self) -> FloatArray:
-        """(6, pieces) zeros."""
-        return np.zeros((6, self.elements), order="F")
-
-    @cached_property
-    def no_force(self) -> FloatArray:
-        """(3, nodes) zeros."""
-        return np.zeros((3, self.nodes), order="F")
+        return Waypoint(*self.at_rest, np.zeros(3))
 
     @cached_property
     def elastic(self) -> tuple[FloatArray, FloatArray]:
@@ -310,7 +301,7 @@ class Solver:
     def loads(self, factor: float) -> tuple[FloatArray, FloatArray]:
         """(3, nodes) forces and (3,) gravity of the deck, times a factor."""
         given = self.mesh.own.loads
-        force, gravity = self.no_force.copy(order="F"), np.zeros(3)
+        force, gravity = np.zeros((3, self.nodes), order="F"), np.zeros(3)
         if given is not None:
             force[:, : self.mesh.nodes] = factor * (given.force + given.increment).T
             gravity = factor * np.array(given.gravity)

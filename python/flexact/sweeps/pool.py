@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from queue import SimpleQueue
-from typing import Any
+from typing import Any, cast
 
 from ..util.errors import reason_of
 from ..util.interruption import SIGNALS
@@ -47,10 +47,16 @@ def serve(
     threading.Thread(target=_listen, args=(line, inbox), daemon=True).start()
     # BLAS and OpenMP: their libraries may be loaded already, and ask no environment any more.
     load("threadpoolctl").threadpool_limits(1)
-    called = _loaded(function, line) if isinstance(function, bytes) else function
+    if isinstance(function, bytes):
+        try:
+            function = cast("Callable[[Any], Any]", pickle.loads(function))
+        except Exception as error:
+            told = f"a worker process cannot load the function ({error}): define it in a module"
+            line.send(Part(raised=Raised(EngineError(told), "")))
+            raise SystemExit(1) from error
     line.send(Part())
     while True:
-        for part in parts_of(called, inbox.get(), _FLUSH):
+        for part in parts_of(function, inbox.get(), _FLUSH):
             _send(line, part)
 
 
@@ -74,16 +80,6 @@ def _listen(line: Connection, inbox: SimpleQueue[Sequence[Any]]) -> None:
         except Exception as error:
             message = f"an item cannot be read in a worker process: {error}"
             line.send(Part(raised=Raised(EngineError(message), "")))
-
-
-def _loaded(pickled: bytes, line: Connection) -> Callable[[Any], Any]:
-    try:
-        function: Callable[[Any], Any] = pickle.loads(pickled)
-    except Exception as error:
-        message = f"a worker process cannot load the function ({error}): define it in a module"
-        line.send(Part(raised=Raised(EngineError(message), "")))
-        raise SystemExit(1) from error
-    return function
 
 
 def _send(line: Connection, part: Part) -> None:
