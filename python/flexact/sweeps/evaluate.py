@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -392,28 +392,22 @@ def failed(message: str, want: str) -> Answer:
     return Answer(tuple(error_row(message, want).values()))
 
 
-def of_function(make: Make, want: str, asked: Asked, row: Row) -> Answer:
-    """The variant that a function makes of some parameters."""
-    return _answer(lambda: made_by(make, row), want, asked, want != "verdict")
+def answer_of(source: ModelData | Make, want: str, asked: Asked, item: Any) -> Answer:
+    """What is known of the variant that a function makes of parameters, or of one of a model.
 
-
-def of_model(
-    data: ModelData,
-    want: str,
-    asked: Asked,
-    variant: tuple[FloatArray | None, BoolArray | None],
-) -> Answer:
-    """The variant of a model at some positions, with some deformations held."""
-    return _answer(lambda: varied(data, *variant), want, asked, False)
-
-
-def _answer(make: Callable[[], ModelData], want: str, asked: Asked, is_signed: bool) -> Answer:
+    Args:
+        source: The function, or the model.
+        want: One of `WANTS`.
+        asked: How it is to be analysed.
+        item: The parameters, or where the nodes are and what is held.
+    """
     try:
-        data = make()
+        data = varied(source, *item) if isinstance(source, ModelData) else made_by(source, item)
         result: Result = result_of(data, asked)
         modes = modes_of(result) if want == "all" else None
         signed = None
-        if is_signed and result.rows * result.columns <= _MOST_SIGNED:
+        is_small = result.rows * result.columns <= _MOST_SIGNED
+        if is_small and want != "verdict" and not isinstance(source, ModelData):
             with suppress(AnalysisError, MemoryError, np.linalg.LinAlgError):
                 signed = signed_value(data)
         return Answer(tuple(row_of(result, want).values()), signed, modes)

@@ -25,9 +25,8 @@ from .evaluate import (
     Make,
     Positions,
     Source,
+    answer_of,
     failed,
-    of_function,
-    of_model,
     signed_column,
     swept,
 )
@@ -224,24 +223,25 @@ def sweep(
         raise TypeError("a function needs parameters: sweep(make, {'angle': [...]})")
     else:
         source = of
-    work = (want, workers, executor, progress)
-    if not isinstance(source, Positions):
+    if isinstance(source, Positions):
+        kept = _labels(parameters, source.count)
+        if executor is None and asked == _PLAIN and want != "all":
+            return table_of(kept, swept(source, want, workers, progress), want, source)
+        count: int | None = source.count
+        items: Iterator[Any] = map(source.one, range(source.count))
+        function = partial(answer_of, source.data, want, asked)
+    else:
         rows, count = given(parameters)
-        kept: list[Row] = []
+        kept = []
 
         def taken() -> Iterator[Row | str]:
             for row in rows:
                 kept.append({} if isinstance(row, str) else row)
                 yield row
 
-        answers = answers_of(partial(of_function, source, want, asked), taken(), count, *work)
-        return table_of_answers(kept, answers, want, source)
-    labels = _labels(parameters, source.count)
-    if executor is None and asked == _PLAIN and want != "all":
-        return table_of(labels, swept(source, want, workers, progress), want, source)
-    items = map(source.one, range(source.count))
-    function = partial(of_model, source.data, want, asked)
-    return table_of_answers(labels, answers_of(function, items, source.count, *work), want, source)
+        function, items = partial(answer_of, source, want, asked), taken()
+    answers = answers_of(function, items, count, want, workers, executor, progress)
+    return table_of_answers(kept, answers, want, source)
 
 
 def _source_of(model: Model, positions: ArrayLike | None, held: ArrayLike | None) -> Positions:
