@@ -54,7 +54,7 @@ from .elastic_design import (
     tolerances_of,
 )
 from .request import ReleaseRequest, Request
-from .resolve import Places, directions_of, given_of, stroke_of
+from .resolve import Places, given_of, stroke_of
 from .shape import Shape, unit_mode
 
 #: How many proven releases stand beside the design as built, and how many are measured for that.
@@ -437,8 +437,10 @@ class _Computation:
         self.clamps = self.places.clamps()
         self.stroke = stroke_of(self.places, asked)
         self.given = given_of(self.places, asked)
-        drives, directions = self.places.drives(), directions_of(data, self.point)
+        drives = self.places.drives()
         model = elastic(Model.from_data(data), asked.held, asked.drive, (), asked.beams)
+        points = model.points
+        directions = tuple(map(points.name, points.coordinates(points.of(self.point.node))))
         watched = data.node_index[drives[0][0] if drives else self.point.node]
         self.built = ElasticDesign(model, watched)
         self.measures = Measures(self.point, directions, data.size, drives, self.built.has_masses)

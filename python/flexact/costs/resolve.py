@@ -14,7 +14,7 @@ from ..elasticity import ElasticError
 from ..elasticity.errors import require_within
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from .designs import DIRECTIONS, PLANAR, Clamp, Misalignment, Point, Stroke, words_of_direction
+from .designs import Clamp, Misalignment, Point, Stroke, words_of_direction
 from .request import Request
 
 
@@ -151,17 +151,6 @@ class Places:
         )
         words = f"node {number} ({own})" if own else f"node {number}"
         return Point(number, None if turned is None else self.numbers[turned], words, reason)
-
-
-def directions_of(data: ModelData, point: Point) -> tuple[str, ...]:
-    """Directions of a point: six, three in the plane, without an orientation its displacements."""
-    every = PLANAR if data.planar else DIRECTIONS
-    kind = data.arrays.node_kind[data.node_index[point.node]]
-    if kind > NodeKind.POSITION:
-        return tuple(name for name in every if name.startswith("r"))
-    if point.orientation is None:
-        return tuple(name for name in every if not name.startswith("r"))
-    return every
 
 
 def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float], ...]:

@@ -133,7 +133,27 @@ def trace(
         raise TraceError(larger_in_words("the length", f"{wished:g} m", whole, "20mm"))
     most = size / steps
     wishes = Wishes(size, most, most, _LEAST * min(most, 0.1), 100 * steps + 2000, through)
-    return _traced(result, shown, held, wishes, progress)
+    direction = held.direction(shown.motion.analysed)
+    zero = result.gap.zero_elsewhere(result.raw.noise)
+    rank = result.rank
+    if shown.freedom is not None:
+        values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
+        rank = int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
+    stroke = Stroke(result, shown, held, zero)
+    ways: list[Followed] = []
+    for number, sense in enumerate((-1.0, 1.0)):
+
+        def report(arc: float, before: int = number) -> None:
+            if progress is not None:
+                progress(min(1.0, 0.5 * (before + arc / wishes.length)))
+
+        ways.append(follow(held, sense * direction, rank, wishes, zero, report))
+    _require_begun(result, ways, held)
+    against, along = (stroke.steps(way) for way in ways)
+    both = (*(replace(step, arc=-step.arc) for step in against[:0:-1]), *along)
+    made = stroke.at_reference(both, ways)
+    ends = (Way(way.length * held.size, way.stop) for way in ways)
+    return Trace(result, shown, held.size, made, *ends)
 
 
 def _analysed(given: object) -> Result:
@@ -161,36 +181,6 @@ def _checked(length: Quantity | None, steps: int) -> float | None:
     if not (math.isfinite(length) and length > 0.0):
         raise ValueError("the length must be positive and finite")
     return float(length)
-
-
-def _traced(
-    result: Result,
-    shown: Selection,
-    held: Held,
-    wishes: Wishes,
-    progress: Callable[[float], None] | None,
-) -> Trace:
-    direction = held.direction(shown.motion.analysed)
-    zero = result.gap.zero_elsewhere(result.raw.noise)
-    rank = result.rank
-    if shown.freedom is not None:
-        values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
-        rank = int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
-    stroke = Stroke(result, shown, held, zero)
-    ways: list[Followed] = []
-    for number, sense in enumerate((-1.0, 1.0)):
-
-        def report(arc: float, before: int = number) -> None:
-            if progress is not None:
-                progress(min(1.0, 0.5 * (before + arc / wishes.length)))
-
-        ways.append(follow(held, sense * direction, rank, wishes, zero, report))
-    _require_begun(result, ways, held)
-    against, along = (stroke.steps(way) for way in ways)
-    steps = (*(replace(step, arc=-step.arc) for step in against[:0:-1]), *along)
-    whole = stroke.at_reference(steps, ways)
-    ends = (Way(way.length * held.size, way.stop) for way in ways)
-    return Trace(result, shown, held.size, whole, *ends)
 
 
 def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
