@@ -413,7 +413,7 @@ def test_errors_are_ruled_out_without_changing_the_shortest() -> None:
     level = mechanism.levels[0]
     errors = Places(elastic.data, flexact.analyse(spider()).parts).misalignments()
     stresses = np.asfortranarray(level.stresses(errors))
-    square = level.first_square * 0.95**2
+    square = level.square_at(-0.05)
     lengths = np.array([elastic.data.size if e.unit == "rad" else 1.0 for e in errors])
     every = np.abs(level.errors(stresses, square)).min(axis=1) * lengths
     near = every < 1.2 * every.min()

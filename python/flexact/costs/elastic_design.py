@@ -288,9 +288,8 @@ class Level:
         """Keep the design, and its state at rest of one mesh."""
         self.mechanism, self.solution = mechanism, solution
 
-    @cached_property
-    def first_square(self) -> float:
-        """Square of the first angular frequency [rad^2/s^2].
+    def square_at(self, shift: float) -> float:
+        """Square of the first angular frequency [rad^2/s^2], shifted by a part of itself.
 
         Raises:
             ElasticError: a motion has no stiffness, or the design is unstable.
@@ -301,7 +300,7 @@ class Level:
         values = self.solution.squares.values
         if not values.size or not values[0] > 0.0:
             raise ElasticError("no mass moves, or the undeformed state is unstable")
-        return float(values[0])
+        return float(values[0]) * (1.0 + shift) ** 2
 
     def response(self, misalignments: Sequence[Misalignment]) -> tuple[FloatArray, RawLinear]:
         """(3, nodes, k) moves of the supports for unit errors, and what they do.
@@ -391,8 +390,7 @@ def tolerances_of(
     """
     found, able = [], np.ones(len(misalignments), bool)
     for k, level in enumerate(mechanism.levels):
-        square = level.first_square * (1.0 + shift) ** 2
-        stresses = level.stresses(misalignments)
+        square, stresses = level.square_at(shift), level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
         critical = level.errors(stresses, 0.0)

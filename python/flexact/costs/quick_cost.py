@@ -119,29 +119,28 @@ class _QuickCost:
         With the coarser division all but those that are about as tight are ruled out.
         """
         coarse = mechanism.levels[0]
-        square = coarse.first_square * (1.0 + SHIFT) ** 2
         stresses, lengths = coarse.stresses(order), self._lengths(order)
         able: BoolArray = np.asarray(np.isfinite(stresses).all(axis=(0, 1)))
         stresses = np.asfortranarray(stresses[:, :, able])
         some = [each for each, fits in zip(order, able, strict=True) if fits]
-        least = np.abs(coarse.errors(stresses, square, lengths[able])).min(axis=1) * lengths[able]
+        least = (
+            np.abs(coarse.errors(stresses, coarse.square_at(SHIFT), lengths[able])).min(axis=1)
+            * lengths[able]
+        )
         # Of equal ones, which symmetry makes, the first of the model is enough.
         first = sorted(np.flatnonzero(np.isfinite(least)), key=lambda k: self.errors.index(some[k]))
         near = {f"{least[k]:.5g}": some[k] for k in reversed(first)}
         chosen = sorted(near.values(), key=self.errors.index)[:_MOST_NEAR]
         if len(chosen) > 1:
-            chosen = [self._tighter(mechanism, chosen)]
+            # The one with which less is enough, with both divisions.
+            found = (
+                level.errors(np.asfortranarray(level.stresses(chosen)), level.square_at(SHIFT))
+                for level in mechanism.levels
+            )
+            sizes = np.abs(Estimate.of(*found).value).min(axis=1) * self._lengths(chosen)
+            chosen = [chosen[int(np.argmin([float(f"{size:.5g}") for size in sizes]))]]
         made = tolerances_of(mechanism, chosen, SHIFT, self.size, lambda _done: None)
         return smallest(made, self.size, lambda each: each.tightest)
-
-    def _tighter(self, mechanism: ElasticDesign, chosen: list[Misalignment]) -> Misalignment:
-        """The one of several with which less is enough, with both divisions."""
-        found = []
-        for level in mechanism.levels:
-            square = level.first_square * (1.0 + SHIFT) ** 2
-            found.append(level.errors(np.asfortranarray(level.stresses(chosen)), square))
-        least = np.abs(Estimate.of(*found).value).min(axis=1) * self._lengths(chosen)
-        return chosen[int(np.argmin([float(f"{value:.5g}") for value in least]))]
 
     def _behind(self, mechanism: ElasticDesign, found: Tolerance) -> str:
         """What is stressed most at the tolerance, and where the same error makes it buckle."""

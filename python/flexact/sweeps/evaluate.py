@@ -184,11 +184,10 @@ class Positions(Frozen):
 
     def variant(self, a: int, b: int, share: float) -> ModelData:
         """Each position on the straight line between its two places."""
-        between = None
-        if self.positions is not None:
-            first, last = self.positions[a], self.positions[b]
-            between = first + share * (last - first)
-        return varied(self.data, between, None if self.held is None else self.held[a])
+        first, held = self.one(a)
+        if first is not None and self.positions is not None:
+            first = first + share * (self.positions[b] - first)
+        return varied(self.data, first, held)
 
     def one(self, k: int) -> tuple[FloatArray | None, BoolArray | None]:
         """Where the nodes of a variant are, and what it holds; None as in the model."""
