@@ -358,17 +358,16 @@ def crossings_of(
     follow = Follow(table, source)
     if signed is None or bool(((signed["topology"] < 0) & ~table.has_error).any()):
         signed, made = _signed_rows(follow, workers, missed), len(table)
-    found: list[Crossing] = []
-    searches: list[Search] = []
     before = follow.calls
-    for name, rows in lines:
-        for run in _runs(follow, signed, rows):
-            for each in _candidates(follow, signed, name, run, missed):
-                if isinstance(each, Crossing):
-                    found.append(each)
-                else:
-                    searches.append(each)
+    candidates = [
+        each
+        for name, rows in lines
+        for run in _runs(follow, signed, rows)
+        for each in _candidates(follow, signed, name, run, missed)
+    ]
     made += follow.calls - before
+    found = [each for each in candidates if isinstance(each, Crossing)]
+    searches = [each for each in candidates if isinstance(each, Search)]
     few = len(searches) < _FEW
     for done in results_of(follow, searches, workers=1 if few else workers):
         if done.result is None:

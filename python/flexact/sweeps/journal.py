@@ -112,31 +112,20 @@ class Journal:
 
     def _lock(self) -> None:
         """Keep other processes away until this one ends, however it does."""
-        if sys.platform == "win32":
-            self._lock_on_windows()
-            return
         try:
-            # Of this process alone: what it has forked may live a little longer.
-            fcntl.lockf(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if sys.platform == "win32":
+                os.lseek(self._handle, _LOCKED, os.SEEK_SET)
+                library = load("msvcrt")
+                library.locking(self._handle, library.LK_NBLCK, 1)
+            else:
+                # Of this process alone: what it has forked may live a little longer.
+                fcntl.lockf(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except (BlockingIOError, PermissionError):
-            raise self._in_use() from None
+            raise JournalError(
+                f"{self.path} belongs to a run that is still going on; wait for its end"
+            ) from None
         except OSError:
             return  # a file system without locks
-
-    def _lock_on_windows(self) -> None:
-        os.lseek(self._handle, _LOCKED, os.SEEK_SET)
-        try:
-            library = load("msvcrt")
-            library.locking(self._handle, library.LK_NBLCK, 1)
-        except PermissionError:
-            raise self._in_use() from None
-        except OSError:
-            return
-
-    def _in_use(self) -> JournalError:
-        return JournalError(
-            f"{self.path} belongs to a run that is still going on; wait for its end"
-        )
 
     def entries(self) -> Iterator[tuple[int, Any]]:
         """Where lines begin with their records, in the order in which they were added."""
