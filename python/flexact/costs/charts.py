@@ -527,14 +527,6 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
         top += height
 
 
-def draw_notes(figure: Any, notes: list[str]) -> None:
-    """Lines at the lower edge."""
-    top = figure.get_figheight() - _SECOND * len(notes) - _ROOM
-    for line in notes:
-        _text(figure, _MARGIN, top, line, _SMALL, SOFT)
-        top += _SECOND
-
-
 def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: float) -> None:
     from matplotlib.lines import Line2D
 
@@ -610,7 +602,11 @@ def plot_of(cost: CostValues) -> Any:
     draw_head(figure, cost, table)
     _draw_charts(figure, charts, heights[0])
     _draw_bars(figure, bars, heights[0] + heights[1])
-    draw_notes(figure, notes)
+    # At the lower edge.
+    top = figure.get_figheight() - _SECOND * len(notes) - _ROOM
+    for line in notes:
+        _text(figure, _MARGIN, top, line, _SMALL, SOFT)
+        top += _SECOND
     return figure
 
 

@@ -184,15 +184,11 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
 
 def _behind(mechanism: ElasticDesign, given: Given) -> tuple[State, float]:
     """The state with the misalignments, or with the largest part of them that is found."""
-
-    def with_part(part: float) -> State:
-        off = [(each.clamp.node, each.direction, part * value, each.about) for each, value in given]
-        return mechanism.elastic.imperfect(misaligned=off, beyond=True).assembled()
-
     part, why = 1.0, None
     for _ in range(_HALVINGS):
+        off = [(each.clamp.node, each.direction, part * value, each.about) for each, value in given]
         try:
-            return with_part(part), part
+            return mechanism.elastic.imperfect(off, beyond=True).assembled(), part
         except StrokeError as error:
             why = why or error
             # A hair less than what was reached, or half where nothing was.

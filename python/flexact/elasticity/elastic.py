@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -31,15 +32,22 @@ from .equilibria import (
     Imperfection,
     at_rest,
     force_of,
+    is_far,
     misalignment,
     number_given,
     reaction_of,
     strokes_given,
     value_at,
     warmth,
-    warn_where_far,
 )
-from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, require_within
+from .errors import (
+    ElasticError,
+    Estimate,
+    StrokeWarning,
+    matched_by_order,
+    matched_by_sign,
+    require_within,
+)
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
 from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
@@ -386,7 +394,7 @@ class Elastic(Frozen):
             StrokeError: a value was not reached; `reached` is the last one that was.
         """
         drive = self.points.coordinate(node, coordinate)
-        if self.points.has_class(drive, Class.FIXED):
+        if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:
             raise ElasticError(
                 f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
             )
@@ -399,8 +407,14 @@ class Elastic(Frozen):
         # An angle may be of any number of turns.
         for value in () if beyond or kind > NodeKind.POSITION else there:
             require_within(value - rest, self.data.size, False, f"a stroke of {what}")
-        if not from_rest:
-            warn_where_far(there, rest, what)
+        if not from_rest and is_far(there, rest):
+            warnings.warn(
+                f"{what} rests at {rest:.6g}, and the stroke from {there[0]:.6g} to "
+                f"{there[-1]:.6g} begins {abs(there[0] - rest):.6g} from there: is from_rest=True "
+                "meant?",
+                StrokeWarning,
+                stacklevel=2,
+            )
         return self.driven(drive, there)
 
     def driven(self, drive: Coordinate, values: Sequence[float]) -> tuple[State, ...]:

@@ -7,7 +7,6 @@ Not as designed are clamps moved or turned, elements of other lengths, and warmt
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -22,7 +21,7 @@ from ..util.quantities import without_units
 from ..util.records import Frozen
 from ..util.rotations import matrix_of, turned
 from ..util.text import in_short
-from .errors import ElasticError, StrokeError, StrokeWarning, require_within
+from .errors import ElasticError, StrokeError, require_within
 from .mesh import Mesh
 from .points import Coordinate, Points
 from .solution import Held, Solution, Solver
@@ -340,17 +339,6 @@ def is_far(values: Sequence[float], rest: float) -> bool:
     low, high, most = min(values), max(values), max(map(abs, values))
     away = max(low - rest, rest - high)
     return away > most and (low <= 0.0 <= high or away > 3.0 * most)
-
-
-def warn_where_far(values: Sequence[float], rest: float, what: str) -> None:
-    """Warn of a stroke that is surely meant from where it rests."""
-    if is_far(values, rest):
-        warnings.warn(
-            f"{what} rests at {rest:.6g}, and the stroke from {values[0]:.6g} to {values[-1]:.6g} "
-            f"begins {abs(values[0] - rest):.6g} from there: is from_rest=True meant?",
-            StrokeWarning,
-            stacklevel=3,
-        )
 
 
 def with_drive(solver: Solver, target: FloatArray, drive: Coordinate, value: float) -> FloatArray:

@@ -148,11 +148,6 @@ class Points:
             raise UnknownError(f"node {in_short(given)} is an orientation without a position")
         return np.array(self.data.arrays.node_value[:3, position])
 
-    def has_class(self, coordinate: Coordinate, wanted: Class) -> bool:
-        """Whether the deck gives a coordinate this class."""
-        node, axis = coordinate
-        return bool(self.data.arrays.coordinate_class[axis, node] == wanted)
-
     def element(self, given: object) -> int:
         """Index of an element by its number, its name, or what a model handed out.
 

@@ -21,21 +21,6 @@ _ANSWER, _NO_WORKER = 10.0, 60.0
 LOOK = 2.0
 
 
-def dask_or_error() -> Any:
-    """The package distributed.
-
-    Raises:
-        EngineError: It is missing.
-    """
-    try:
-        import distributed
-    except ImportError as error:
-        raise EngineError(
-            f"Dask needs the package distributed: pip install distributed ({error})"
-        ) from error
-    return distributed
-
-
 def _set_levels(levels: dict[str, int]) -> None:
     for name, level in levels.items():
         logging.getLogger(name).setLevel(level)
@@ -77,7 +62,12 @@ class DaskCrew:
         Raises:
             EngineError: Dask is missing, or the function cannot be sent.
         """
-        self._dask = dask_or_error()
+        try:
+            self._dask: Any = load("distributed")
+        except ImportError as error:
+            raise EngineError(
+                f"Dask needs the package distributed: pip install distributed ({error})"
+            ) from error
         self._function = _pickled(function, "the function")
         self._executor, self._count = executor, workers
         self._client: Any = None
