@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -297,13 +297,7 @@ def _in_threads(run: Callable[[int], int], items: Sequence[int], threads: int) -
         yield from map(run, items)
         return
     with ThreadPoolExecutor(threads) as pool:
-        futures: list[Future[int]] = [pool.submit(run, item) for item in items]
-        try:
-            for future in as_completed(futures):
-                yield future.result()
-        finally:
-            for future in futures:
-                future.cancel()
+        yield from pool.map(run, items)
 
 
 def _perhaps_condensed(some: Positions) -> BoolArray:
