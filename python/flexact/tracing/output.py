@@ -162,19 +162,17 @@ def csv_bytes(trace: Traced) -> bytes:
     """The table as CSV; numbers read back to the last bit."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header(trace))
     writer.writerows(rows(trace))
     return as_bytes(text.getvalue())
 
 
-def header(trace: Traced) -> list[str]:
-    """The names of the columns, with units."""
-    kept = max(step.values.size for step in trace.steps)
+def rows(trace: Traced) -> Iterator[list[Cell]]:
+    """The names of the columns, with units, then a row a step; the reference is step 0."""
+    planar, drive = trace.result.given.planar, trace.shown.freedom
     points, bodies = (each(trace.result, _MOST_PLACES) for each in (points_of, bodies_of))
-    axes = "xy" if trace.result.given.planar else "xyz"
-    turns = ("rz",) if trace.result.given.planar else ("rx", "ry", "rz")
-    drive = trace.shown.freedom
-    return [
+    kept = max(step.values.size for step in trace.steps)
+    axes, turns = ("xy", ("rz",)) if planar else ("xyz", ("rx", "ry", "rz"))
+    yield [
         *("step", "arc [m]", "residual [size]"),
         *(f"sigma {k + 1}" for k in range(kept)),
         *("under_constrained", "over_constrained", "verdict", "dead_point"),
@@ -182,24 +180,17 @@ def header(trace: Traced) -> list[str]:
         *(f"{name} {axis} [m]" for name in points.values() for axis in axes),
         *(f"{name} {turn} [rad]" for name in bodies.values() for turn in turns),
     ]
-
-
-def rows(trace: Traced) -> Iterator[list[Cell]]:
-    """A row a step; the reference is step 0."""
-    planar = trace.result.given.planar
-    points, bodies = (list(each(trace.result, _MOST_PLACES)) for each in (points_of, bodies_of))
-    kept = max(step.values.size for step in trace.steps)
     first = trace.reference
     for number, step in enumerate(trace.steps):
         values = [*step.values.tolist(), *[math.nan] * (kept - step.values.size)]
-        places = step.pose.position[points, : 2 if planar else 3].ravel().tolist()
-        turned = vector_of(step.pose.rotation[bodies])[:, 2 if planar else 0 :].ravel().tolist()
+        places = step.pose.position[list(points), : len(axes)].ravel().tolist()
+        turned = vector_of(step.pose.rotation[list(bodies)])[:, -len(turns) :].ravel().tolist()
         yield [
             *(number - first, step.arc, step.residual),
             *("" if math.isnan(value) else value for value in values),
             *(step.under_constrained, step.over_constrained, step.verdict.value),
             "" if step.dead is None else dead_in_words(step, step.dead),
-            *([] if trace.shown.freedom is None else [step.drive]),
+            *([] if drive is None else [step.drive]),
             *places,
             *turned,
         ]
