@@ -224,9 +224,7 @@ def variant_of(source: Source, a: int, b: int, share: float, row: Row) -> ModelD
     Raises:
         Exception: whatever a function of the user raises.
     """
-    if isinstance(source, Positions):
-        return source.variant(a, b, share)
-    return made_by(source, row)
+    return source.variant(a, b, share) if isinstance(source, Positions) else made_by(source, row)
 
 
 def made_by(make: Make, row: Row) -> ModelData:
