@@ -585,13 +585,9 @@ def plot_of(cost: CostValues) -> Any:
     charts, bars = charts_of(cost), bars_of(cost)
     table = table_of(measure, key_of(cost), typeset(first_line(cost)))
     rows = max((each.height(ROW, BETWEEN) for each in bars), default=0.0)
-    notes = [
-        line
-        for note in cost.left_out[:_NOTES]
-        for line in wrapped(
-            *(measure, harmless(f"{note[:1].upper()}{note[1:]}.")), _RIGHT_END - _MARGIN, _SMALL
-        )
-    ]
+    told_of = [harmless(f"{note[:1].upper()}{note[1:]}.") for note in cost.left_out[:_NOTES]]
+    room = _RIGHT_END - _MARGIN
+    notes = [line for each in told_of for line in wrapped(measure, each, room, _SMALL)]
     heights = (
         _TOP + _LINE * len(table.headline) + 2 * _TABLE_ROW + sum(table.heights) + _ROOM,
         (_TITLE + _CHART + _BELOW) * bool(charts),

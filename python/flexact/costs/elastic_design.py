@@ -432,8 +432,10 @@ def curve_against(
         end if abs(end) <= _NEAR * reach else math.copysign(reach, end) for end in (low, high)
     )
     values = np.concatenate([_places(first, low)[::-1], [0.0], _places(last, high)])
-    units = [(each, each.stresses((tolerance.misalignment,))[:, :, 0]) for each in mechanism.levels]
-    rows = ([level.measure(v * stress) for v in values.tolist()] for level, stress in units)
+    rows = []
+    for level in mechanism.levels:
+        stress = level.stresses((tolerance.misalignment,))[:, :, 0]
+        rows.append([level.measure(value * stress) for value in values.tolist()])
     whole = Estimate.of(*rows)
     is_lost = (values <= low) | (values >= high)
     measure = np.where(is_lost, 0.0, np.maximum(whole.value, 0.0))

@@ -420,10 +420,8 @@ def driven(
         if k is None:
             here, last = start, begin
             continue
-        before, way = (
-            each.way._replace(target=with_drive(solver, each.way.target, drive, value))
-            for each, value in ((here, last), (start, values[k]))
-        )
+        before = here.way._replace(target=with_drive(solver, here.way.target, drive, last))
+        way = start.way._replace(target=with_drive(solver, start.way.target, drive, values[k]))
         held_here = Solution(solver, here.raw, before, held)
         here = _reached(held_here, way, last, values[k], points.words(drive))
         last = values[k]

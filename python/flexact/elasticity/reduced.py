@@ -43,19 +43,12 @@ def independent_of(data: ModelData) -> IntArray:
     dynamic = (arrays.coordinate_class == Class.INDEPENDENT) & ~inputs.coordinates
     modes = (arrays.deformation_class == Class.INDEPENDENT) & ~inputs.deformations
     # As the statements name them, then all others.
-    nodes, elements = (
-        dict.fromkeys(
-            [
-                *(index[n] for which, n, _ in named if which == letter and n in index),
-                *range(count),
-            ]
-        )
-        for named in [list(class_statements(data, "DYN"))]
-        for letter, index, count in (
-            ("X", data.node_index, dynamic.shape[1]),
-            ("E", data.element_index, modes.shape[1]),
-        )
-    )
+    named = {"X": list[int](), "E": list[int]()}
+    for which, number, _ in class_statements(data, "DYN"):
+        index = data.node_index if which == "X" else data.element_index
+        named[which] += [index[number]] if number in index else []
+    nodes = dict.fromkeys([*named["X"], *range(dynamic.shape[1])])
+    elements = dict.fromkeys([*named["E"], *range(modes.shape[1])])
     places = [
         3 * node + axis
         for node in nodes
