@@ -68,7 +68,7 @@ def by_numpy(model: flexact.Model, count: int) -> float:
     positions = positions_of(model, count)
     for first in range(0, count, CHUNK):
         part = positions[first : first + CHUNK]
-        ready = np.array([scaled_jacobian(with_positions(model.data, p)).matrix for p in part])
+        ready = np.array([scaled_jacobian(with_positions(model.data, p))[0] for p in part])
         taken += seconds(lambda ready=ready: np.linalg.svd(ready, compute_uv=False))
     return taken
 

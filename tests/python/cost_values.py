@@ -18,7 +18,6 @@ from reference_decks import ROOT
 import flexact
 from flexact.core.elements import NodeKind
 from flexact.costs.designs import (
-    DIRECTIONS,
     FREQUENCY,
     Clamp,
     CostValues,
@@ -38,6 +37,7 @@ from flexact.costs.shape import Shape
 from flexact.model.configuration import Configuration
 from flexact.model.reading import read_file
 
+DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 CLAMPS = tuple(
     Clamp(node, node + 1, f"clamp {node}", f"clamp {node}") for node in range(11, 71, 10)

@@ -17,9 +17,16 @@ from cost_values import CRITICAL, made_up_cost, numbers, without_masses, without
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.costs.charts import MOST_CLAMPS, bars_of, charts_of, choices_of, key_of
+from flexact.costs.charts import (
+    MOST_CLAMPS,
+    bars_of,
+    charts_of,
+    choices_of,
+    key_of,
+    plot_bytes,
+    plot_of,
+)
 from flexact.costs.designs import CostValues, Number, Released
-from flexact.costs.plot import plot_bytes, plot_of
 from flexact.show.charts import STYLES, apart, exact_scale, linear_scale, log_scale, told, unit_for
 
 matplotlib = pytest.importorskip("matplotlib")

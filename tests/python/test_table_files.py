@@ -12,8 +12,7 @@ from typing import Any
 
 import pytest
 
-from flexact.sweeps.columns import COLUMNS, Column
-from flexact.sweeps.writing import Cell, require_table, write_table
+from flexact.sweeps.columns import COLUMNS, Cell, Column, require_table, write_table
 from flexact.util.outputs import OutputError
 
 NAMES = (
@@ -148,7 +147,7 @@ def test_names_that_are_no_unicode_are_spelled_out(tmp_path: Path) -> None:
 
 def test_parquet_is_written_in_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
-    monkeypatch.setattr("flexact.sweeps.writing._GROUP", 3)
+    monkeypatch.setattr("flexact.sweeps.columns._GROUP", 3)
     write_table(tmp_path / "table.parquet", NAMES[1:2], ([k] for k in range(8)))
     assert parquet.ParquetFile(tmp_path / "table.parquet").num_row_groups == 3
     assert read(tmp_path / "table.parquet")[1:] == [[k] for k in range(8)]

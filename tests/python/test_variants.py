@@ -3,15 +3,17 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import flexact
 from flexact.core.elements import Class
+from flexact.model.data import ModelData
 from flexact.model.variation import positions_given
+from flexact.sweeps import evaluate
 from flexact.sweeps.columns import WANTS, row_of
-from flexact.sweeps.evaluate import swept
 
 DECKS = Path(__file__).resolve().parents[2] / "input_decks"
 SAMPLES = (
@@ -28,6 +30,16 @@ CLOSE = {
     "margin": 1e-6,
     "margin_angle": 1e-6,
 }
+
+
+def swept(
+    data: ModelData,
+    positions: np.ndarray | None = None,
+    held: np.ndarray | None = None,
+    want: str = "values",
+    **how: Any,
+) -> dict[str, np.ndarray]:
+    return evaluate.swept(evaluate.Positions(data, positions, held), want, **how)
 
 
 def deck(name: str) -> flexact.Model:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from ..util.errors import FlexactError
 from ..util.records import Word
+from .limits import ZERO_ELSEWHERE
 
 
 class Verdict(Word):
@@ -81,6 +83,15 @@ class Gap(NamedTuple):
         if self.smallest_nonzero is None or self.largest_zero is None:
             return None
         return self.largest_zero / self.smallest_nonzero
+
+    def zero_elsewhere(self, noise: float) -> float:
+        """Up to where scaled singular values are zero in other configurations.
+
+        Rounding of places is magnified there; what is small at the reference and not zero stays so.
+        """
+        above = self.smallest_nonzero or 1.0
+        below = max(noise, self.largest_zero or 0.0)
+        return max(min(ZERO_ELSEWHERE, math.sqrt(above * below)), noise)
 
 
 class Certainty(Word):

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a cost shows as curves: along the stroke, and against the misalignment that matters most."""
+"""What a cost shows as a picture: a table, curves, and bars.
+
+Curves are along the stroke, and against the misalignment that matters most.
+"""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,8 +28,12 @@ from ..show.charts import (
     exact_scale,
     linear_scale,
     log_scale,
+    style_of,
     told,
 )
+from ..show.picture.charts import BETWEEN, INK, ROW, SOFT, draw_bars, draw_chart, width_of, written
+from ..show.picture.files import still_bytes
+from ..show.picture.make import shown_figure
 from ..util.text import file_name, harmless
 from .designs import (
     FREQUENCY,
@@ -44,6 +52,7 @@ from .designs import (
     stiffness_unit,
     words_of_direction,
 )
+from .words import first_line
 
 #: Two values that differ by less than this part of them mirror each other.
 _MIRRORED = 0.02
@@ -68,12 +77,12 @@ def marks_of(cost: CostValues, curve: Curve) -> Iterable[Mark]:
     ):
         values = [v for v, _ in pair if curve.x[0] - room <= v <= curve.x[-1] + room]
         points = [(value, float(np.interp(value, curve.x, curve.y))) for value in values]
-        unit = found.misalignment.unit
+        sizes = [f"{words} {told(value, found.misalignment.unit)}" for value in values]
         if len(values) == 2 and abs(sum(values)) < _MIRRORED * abs(values[1]):
-            yield Mark(curve.series, tuple(points), f"{words} ±{told(values[1], unit)}")
+            size = told(values[1], found.misalignment.unit)
+            yield Mark(curve.series, tuple(points), f"{words} ±{size}")
         else:
-            for value, point in zip(values, points, strict=True):
-                yield Mark(curve.series, (point,), f"{words} {told(value, unit)}")
+            yield from (Mark(curve.series, (p,), s) for p, s in zip(points, sizes, strict=True))
 
 
 def _shift(cost: CostValues) -> str:
@@ -91,11 +100,10 @@ _BEYOND = 0.2
 
 def bars_of(cost: CostValues) -> tuple[BarChart, ...]:
     """Tolerances of displacements and of rotations, where there are any that matter."""
-    made = (_bars(cost, "m"), _bars(cost, "rad"))
-    return tuple(chart for chart in made if chart is not None)
+    return *_bars(cost, "m"), *_bars(cost, "rad")
 
 
-def _bars(cost: CostValues, unit: str) -> BarChart | None:
+def _bars(cost: CostValues, unit: str) -> Iterator[BarChart]:
     found = [
         {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
         for design in cost.designs
@@ -108,7 +116,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         if each.tightest.value <= limit
     ]
     if not finite:
-        return None
+        return
     least: dict[Clamp, float] = {}
     for misalignment, each in found[0].items():
         clamp = misalignment.clamp
@@ -132,8 +140,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     many = "clamp bears" if left_out == 1 else "clamps bear"
     more = f"; {left_out} more {many} more" if left_out else ""
     note = f"Arrows: more than {told(limit, unit, 2)}{more}"
-    scale = log_scale(finite, unit, _BEYOND)
-    return BarChart(name, title, scale, tuple(groups), note)
+    yield BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
 
 
 def _row(
@@ -159,20 +166,24 @@ _ABOVE = 1.08
 
 def charts_of(cost: CostValues) -> tuple[Chart, ...]:
     """The charts for which there are values, in the order in which they are read."""
-    made = (_stiffness(cost), _parasitic(cost), _misaligned(cost))
-    return tuple(chart for chart in made if chart is not None)
+    hertz = [
+        (series, each, each.parasitic.column(0))
+        for series, each in _strokes(cost)
+        if each.parasitic is not None and each.parasitic.value.shape[1]
+    ]
+    parasitic = _along_stroke(cost, "parasitic", "Lowest parasitic frequency", hertz, "Hz")
+    return *_stiffness(cost), *parasitic, *_misaligned(cost)
 
 
-def _stiffness(cost: CostValues) -> Chart | None:
+def _stiffness(cost: CostValues) -> Iterator[Chart]:
     """In the direction that loses most of what it has as built at rest."""
     strokes = _strokes(cost)
-    chosen = _direction(cost, strokes) if strokes and cost.stroke is not None else None
-    if chosen is None:
-        return None
-    name = cost.directions[chosen]
-    title = f"Support stiffness {words_of_direction(name)}"
-    chosen_of = [(series, each, each.stiffness.column(chosen)) for series, each in strokes]
-    return _along_stroke(cost, "stiffness", title, chosen_of, stiffness_unit(name))
+    chosen = _direction(cost, strokes) if strokes else None
+    if chosen is not None:
+        name = cost.directions[chosen]
+        title = f"Support stiffness {words_of_direction(name)}"
+        chosen_of = [(series, each, each.stiffness.column(chosen)) for series, each in strokes]
+        yield from _along_stroke(cost, "stiffness", title, chosen_of, stiffness_unit(name))
 
 
 def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> int | None:
@@ -192,39 +203,31 @@ def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> 
     return None if best is None else best[1]
 
 
-def _parasitic(cost: CostValues) -> Chart | None:
-    chosen = []
-    for series, each in _strokes(cost):
-        if each.parasitic is not None and each.parasitic.value.shape[1]:
-            chosen.append((series, each, each.parasitic.column(0)))
-    return _along_stroke(cost, "parasitic", "Lowest parasitic frequency", chosen, "Hz")
-
-
 def _along_stroke(
     cost: CostValues,
     name: str,
     title: str,
     chosen: Iterable[tuple[int, StrokeCurve, Numbers]],
     unit: str,
-) -> Chart | None:
-    """A chart of numbers of designs along the stroke; None where none can be drawn."""
+) -> Iterator[Chart]:
+    """A chart of numbers of designs along the stroke; none where none can be drawn."""
     asked, labels = cost.stroke, short_labels(cost)
     if asked is None:
-        return None
+        return
     made = (
         Curve(series, labels[series], curve.values - asked.rest, *_drawn(numbers))
         for series, curve, numbers in chosen
     )
     curves = tuple(curve for curve in made if curve.runs)
     if not curves:
-        return None
+        return
     first, last = sorted(value - asked.rest for value in asked.reached)
     room = 0.03 * (last - first)
     along = exact_scale(first - room, last + room, asked.unit)
-    return Chart(name, title, f"stroke of {asked.words}", along, _up(curves, unit), curves)
+    yield Chart(name, title, f"stroke of {asked.words}", along, _up(curves, unit), curves)
 
 
-def _misaligned(cost: CostValues) -> Chart | None:
+def _misaligned(cost: CostValues) -> Iterator[Chart]:
     """The measure against the misalignment that matters most, to both sides."""
     labels = short_labels(cost)
     curves = tuple(
@@ -233,17 +236,16 @@ def _misaligned(cost: CostValues) -> Chart | None:
         if each.curve is not None and each.curve.values.size > 1
     )
     if not curves or cost.as_built.curve is None:
-        return None
+        return
     chosen = cost.as_built.curve.misalignment
-    is_frequency = cost.measure == FREQUENCY
     # A stiffness without masses has the unit of the direction of the drive, which a stroke names.
     turns = cost.stroke is not None and cost.stroke.unit == "rad"
-    unit = "Hz" if is_frequency else "N m/rad" if turns else "N/m"
+    unit = "Hz" if cost.measure == FREQUENCY else "N m/rad" if turns else "N/m"
     far = np.concatenate([curve.x for curve in curves])
     first, last = float(far.min()), float(far.max())
     verb = "turned" if chosen.unit == "rad" else "off"
     words = f"{chosen.clamp.label} {verb} {words_of_direction(chosen.direction)}"
-    return Chart(
+    yield Chart(
         "misaligned",
         cost.measure.capitalize(),
         words,
@@ -417,3 +419,221 @@ def _lowest_parasitic(design: Design) -> str:
     if told.endswith(" Hz") and lowest.endswith(" Hz"):
         told = told.removesuffix(" Hz")
     return typeset(f"{told} -> {lowest}")
+
+
+#: Measures of the head [inch], and sizes of its letters [pt].
+_MARGIN, _LABEL, _RIGHT_END, _TOP, _ROOM = 0.3, 0.8, 11.8, 0.2, 0.12
+_LINE, _TABLE_ROW, _SECOND = 0.31, 0.245, 0.17
+_HEADLINE, _WORDS, _SMALL = 16.0, 10.5, 9.0
+#: Least and most room between columns [inch]; what is released takes at most so many lines.
+_GAP, _MOST_GAP, _LINES = 0.2, 0.4, 2
+
+
+class Table(NamedTuple):
+    """The table as it is drawn.
+
+    Attributes:
+        key: What it says.
+        words: What each design releases, in lines.
+        place: Where these begin [inch].
+        cells: Where the columns begin [inch].
+        heights: Of the rows [inch].
+        headline: Above it, in lines.
+    """
+
+    key: Key
+    words: tuple[list[str], ...]
+    place: float
+    cells: list[float]
+    heights: tuple[float, ...]
+    headline: list[str]
+
+
+def table_of(figure: Any, key: Key, headline: str) -> Table:
+    """The table as wide as the figure; what is released has the room that is left.
+
+    Args:
+        figure: Any figure, with which letters are measured.
+        key: What it says.
+        headline: What stands above.
+    """
+
+    def width(words: Iterable[str], weight: str = "normal") -> float:
+        return max((width_of(figure, each, _WORDS, weight) for each in words), default=0.0)
+
+    first = _LABEL + width((row.label for row in key.rows), "bold") + _GAP
+    wide = [
+        max(
+            width([head]),
+            width([key.rows[0].cells[k]], "bold"),
+            width(row.cells[k] for row in key.rows[1:]),
+        )
+        for k, head in enumerate(key.heads)
+    ]
+    told = [row.words if row.words != row.label else "" for row in key.rows]
+    left = max(_RIGHT_END - first - sum(wide) - _GAP * (len(wide) + 1), 1.0)
+    words = tuple(wrapped(figure, each, left, _WORDS) for each in told)
+    needed = width(line for lines in words for line in lines)
+    # What is not needed goes between the columns.
+    gap = _GAP + max(0.0, min((left - needed) / (len(wide) + 1), _MOST_GAP - _GAP))
+    place, cells = first + needed + gap * (needed > 0.0), []
+    for each in wide:
+        cells.append(place)
+        place += each + gap
+    heights = (_TABLE_ROW + _SECOND * max(len(lines) - 1, 0) for lines in words)
+    lines = wrapped(figure, headline, _RIGHT_END - _MARGIN, _HEADLINE, "bold")
+    return Table(key, words, first, cells, tuple(heights), lines)
+
+
+def wrapped(figure: Any, text: str, room: float, size: float, weight: str = "normal") -> list[str]:
+    """Words in two lines that fit; what does not fit into the last is cut."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        is_last = len(lines) == _LINES
+        if lines and (is_last or width_of(figure, longer, size, weight) <= room + 0.02):
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return [_cut(figure, line, room, size, weight) for line in lines]
+
+
+def _cut(figure: Any, line: str, room: float, size: float, weight: str) -> str:
+    told = line
+    while len(line) > 1 and width_of(figure, told, size, weight) > room + 0.02:
+        line = line[:-1].rstrip(" ;:,-")
+        told = f"{line}\N{HORIZONTAL ELLIPSIS}"
+    return told
+
+
+#: How many notes stand in the picture; the words have them all.
+_NOTES = 4
+
+
+def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
+    """The headline, how it was found, and the table."""
+    top = _TOP
+    for line in table.headline:
+        _text(figure, _MARGIN, top, line, _HEADLINE, INK, fontweight="bold")
+        top += _LINE
+    top += 0.04
+    _text(figure, _MARGIN, top, ", ".join(choices_of(cost)), _WORDS, SOFT)
+    top += _TABLE_ROW + 0.1
+    for place, head in zip(table.cells, table.key.heads, strict=True):
+        _text(figure, place, top, head, _WORDS - 0.5, SOFT)
+    top += _TABLE_ROW
+    for row, words, height in zip(table.key.rows, table.words, table.heights, strict=True):
+        _draw_row(figure, table, row, words, top)
+        top += height
+
+
+def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: float) -> None:
+    from matplotlib.lines import Line2D
+
+    look = style_of(row.series)
+    whole, wide = figure.get_figheight(), figure.get_figwidth()
+    middle = 1.0 - (top + 0.09) / whole
+    figure.add_artist(
+        Line2D(
+            [_MARGIN / wide, (_LABEL - 0.1) / wide],
+            [middle, middle],
+            color=look.colour,
+            lw=look.width,
+            ls=(0, look.dashes) if look.dashes else "-",
+        )
+    )
+    weight = "bold" if row.series == 0 else "normal"
+    _text(figure, _LABEL, top, row.label, _WORDS, look.colour, fontweight=weight)
+    for k, line in enumerate(told):
+        _text(figure, table.place, top + k * _SECOND, line, _WORDS, INK)
+    for place, cell in zip(table.cells, row.cells, strict=True):
+        _text(figure, place, top, cell, _WORDS, INK, fontweight=weight)
+
+
+def _text(
+    figure: Any, left: float, top: float, words: str, size: float, colour: str, **more: Any
+) -> None:
+    figure.text(
+        left / figure.get_figwidth(),
+        1.0 - top / figure.get_figheight(),
+        written(words),
+        fontsize=size,
+        color=colour,
+        ha="left",
+        va="top",
+        **more,
+    )
+
+
+#: Width [inch] and pixels an inch: 1200 pixels wide.
+_WIDTH, _DPI = 12.0, 100
+#: Heights of what stands below each other [inch].
+_CHART, _ROW, _TITLE, _BELOW = 2.15, 0.15, 0.3, 0.48
+_END = 0.58
+#: Room beside charts and bars for what stands there [inch].
+_LEFT, _NAMES, _GROUPS, _RIGHT = 0.62, 0.82, 1.05, 0.35
+
+
+def plot_of(cost: CostValues) -> Any:
+    """The picture as a figure of matplotlib, which a notebook shows.
+
+    Raises:
+        FlexactError: matplotlib is missing.
+    """
+    # Words are measured before there is a figure with room for them.
+    measure = shown_figure(dpi=_DPI)
+    charts, bars = charts_of(cost), bars_of(cost)
+    table = table_of(measure, key_of(cost), typeset(first_line(cost)))
+    rows = max((each.height(ROW, BETWEEN) for each in bars), default=0.0)
+    told_of = [harmless(f"{note[:1].upper()}{note[1:]}.") for note in cost.left_out[:_NOTES]]
+    room = _RIGHT_END - _MARGIN
+    notes = [line for each in told_of for line in wrapped(measure, each, room, _SMALL)]
+    heights = (
+        _TOP + _LINE * len(table.headline) + 2 * _TABLE_ROW + sum(table.heights) + _ROOM,
+        (_TITLE + _CHART + _BELOW) * bool(charts),
+        (_TITLE + _ROW * rows + _END) * bool(bars),
+    )
+    below = (_SECOND * len(notes) + _ROOM) * bool(notes)
+    figure = shown_figure(figsize=(_WIDTH, sum(heights) + below), dpi=_DPI)
+    draw_head(figure, cost, table)
+    _draw_charts(figure, charts, heights[0])
+    _draw_bars(figure, bars, heights[0] + heights[1])
+    # At the lower edge.
+    top = figure.get_figheight() - _SECOND * len(notes) - _ROOM
+    for line in notes:
+        _text(figure, _MARGIN, top, line, _SMALL, SOFT)
+        top += _SECOND
+    return figure
+
+
+def plot_bytes(cost: CostValues, suffix: str = ".png") -> bytes:
+    """The picture as a file: .png, .svg or .pdf.
+
+    Raises:
+        FlexactError: matplotlib is missing.
+    """
+    words = file_name(cost.name) or "cost", typeset(first_line(cost))
+    return still_bytes(plot_of(cost), suffix, *words)
+
+
+def _axes(figure: Any, left: float, top: float, width: float, height: float) -> Any:
+    """Axes at a place from the upper left corner [inch]."""
+    whole = figure.get_figheight()
+    return figure.add_axes(
+        (left / _WIDTH, 1.0 - (top + height) / whole, width / _WIDTH, height / whole)
+    )
+
+
+def _draw_charts(figure: Any, charts: tuple[Chart, ...], top: float) -> None:
+    cell = (_WIDTH - 2 * _MARGIN + 0.15) / max(len(charts), 1)
+    for k, chart in enumerate(charts):
+        left, width = _MARGIN + k * cell + _LEFT, cell - _LEFT - _NAMES
+        draw_chart(_axes(figure, left, top + _TITLE, width, _CHART), chart)
+
+
+def _draw_bars(figure: Any, bars: tuple[BarChart, ...], top: float) -> None:
+    cell = (_WIDTH - 2 * _MARGIN) / max(len(bars), 1)
+    for k, chart in enumerate(bars):
+        left, width = _MARGIN + k * cell + _GROUPS, cell - _GROUPS - _RIGHT
+        height = _ROW * chart.height(ROW, BETWEEN)
+        draw_bars(_axes(figure, left, top + _TITLE, width, height), chart)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
@@ -21,11 +22,11 @@ from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error
-from ..elasticity import ElasticError, Estimate, State, StrokeError
+from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
 from ..model.data import ModelData
+from ..model.model import Model
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
-from . import stroke as strokes
 from .designs import (
     FREQUENCY,
     STIFFNESS,
@@ -37,28 +38,24 @@ from .designs import (
     Numbers,
     Released,
     Stroke,
+    StrokeCurve,
     Tolerance,
     in_words,
     stacked,
-    words_of_direction,
 )
 from .elastic_design import (
-    Choice,
     ElasticDesign,
     Measures,
+    curve_against,
+    direction_words,
     drives_of,
-    has_masses,
-    kept_of,
-    number,
-    numbers,
+    has_stiffness,
     over_levels,
-    require_stiffness,
+    tolerances_of,
 )
 from .request import ReleaseRequest, Request
-from .resolve import Places, directions_of, given_of, stroke_of
+from .resolve import Places, given_of, stroke_of
 from .shape import Shape, unit_mode
-from .stroke import Reached
-from .tolerances import curve_against, tolerances_of
 
 #: How many proven releases stand beside the design as built, and how many are measured for that.
 MOST, LOOKED_AT = 5, 12
@@ -167,9 +164,8 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
     both = (mechanism.rest, behind)
 
     def found(quantity: Callable[[State], FloatArray]) -> Numbers:
-        return stacked([numbers(over_levels(quantity, each)) for each in both])
+        return stacked([over_levels(quantity, each) for each in both])
 
-    kept = over_levels(measures.worst, *both)
     peak, where = _peaks(mechanism, both)
     hertz = found(measures.frequencies) if measures.has_masses else None
     return Effect(
@@ -180,7 +176,7 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
         found(lambda state: np.asarray(np.abs(_of_elements(state)).max(axis=0))),
         peak,
         part_words(parts.of_element(where)),
-        number(Estimate(kept.value[0], kept.uncertainty[0])),
+        over_levels(measures.worst, *both).at(0),
         all(each.is_stable for each in behind.alone),
         reached,
     )
@@ -188,15 +184,11 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
 
 def _behind(mechanism: ElasticDesign, given: Given) -> tuple[State, float]:
     """The state with the misalignments, or with the largest part of them that is found."""
-
-    def with_part(part: float) -> State:
-        off = [(each.clamp.node, each.direction, part * value, each.about) for each, value in given]
-        return mechanism.elastic.imperfect(misaligned=off, beyond=True).assembled()
-
     part, why = 1.0, None
     for _ in range(_HALVINGS):
+        off = [(each.clamp.node, each.direction, part * value, each.about) for each, value in given]
         try:
-            return with_part(part), part
+            return mechanism.elastic.imperfect(off, beyond=True).assembled(), part
         except StrokeError as error:
             why = why or error
             # A hair less than what was reached, or half where nothing was.
@@ -220,36 +212,24 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
 
     None of it where no section is known: then the element with the largest moment, or force.
     """
-    known = _known(both[1])
+    finest, known = both[1].alone[-1], []
+    for element in finest.model.data.arrays.element_number.tolist():
+        # Those whose section is known and that carry something.
+        with suppress(ElasticError):
+            finest.peak_stress(element)
+            if finest.model.policy.stiff[:, finest.model.data.element_index[element]].any():
+                known.append(element)
     if not known:
         sizes = np.abs(_of_elements(both[1]))
         moment = sizes[:, 1:].max(axis=1)
-        column = moment if moment.any() else sizes[:, 0]
-        return None, int(np.argmax(column))
+        return None, int(np.argmax(moment if moment.any() else sizes[:, 0]))
     found = [
-        numbers(over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each))
-        for each in both
+        over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each) for each in both
     ]
     most = [int(np.argmax(each.value)) for each in found]
-    peak = Numbers(
-        np.array([each.value[k] for each, k in zip(found, most, strict=True)]),
-        np.array([each.uncertainty[k] for each, k in zip(found, most, strict=True)]),
-    )
-    return peak, mechanism.data.element_index[known[most[1]]]
-
-
-def _known(state: State) -> list[int]:
-    """Numbers of the elements whose section is known and that carry something."""
-    made = []
-    finest = state.alone[-1]
-    for element in state.model.data.arrays.element_number.tolist():
-        try:
-            finest.peak_stress(element)
-        except ElasticError:
-            continue
-        if finest.model.policy.stiff[:, finest.model.data.element_index[element]].any():
-            made.append(element)
-    return made
+    largest = [each.at(k) for each, k in zip(found, most, strict=True)]
+    peak = Numbers(*(np.array(each) for each in zip(*largest, strict=True)))
+    return peak, finest.model.data.element_index[known[most[1]]]
 
 
 #: How many parasitic frequencies are shown.
@@ -288,6 +268,125 @@ def _shape(
     return Shape(kind, words, value, rest.data, rest.configuration, unit_mode(rest.data, mode))
 
 
+#: What was reached of a stroke: states with their values (n,), ascending; how far it went each
+#: way, the ends that were asked for or the last value reached; and why not farther, or nothing.
+Reached = tuple[tuple[State, ...], FloatArray, tuple[float, float], str]
+
+
+def follow(elastic: Elastic, asked: Stroke, values: FloatArray) -> Reached:
+    """The states along a stroke, each way from where it rests, as far as they are found."""
+    found: dict[float, State] = {}
+    ends, why = [asked.rest, asked.rest], []
+    for end, sense in enumerate((-1.0, 1.0)):
+        way = np.sort(sense * values[sense * values >= sense * asked.rest]) * sense
+        if end == 1:
+            way = way[way != asked.rest]
+        states, reached, reason = _one_way(elastic, asked, way.tolist())
+        found.update(zip(way.tolist(), states, strict=False))
+        if way.size:
+            ends[end] = reached
+        why += [reason] if reason else []
+    there = np.array(sorted(found))
+    states = tuple(found[v] for v in there.tolist())
+    return states, there, (ends[0], ends[1]), "; ".join(why)
+
+
+def _one_way(
+    elastic: Elastic, asked: Stroke, way: Sequence[float]
+) -> tuple[tuple[State, ...], float, str]:
+    """States from the one at rest outward, how far that is, and why not farther."""
+    reached, why, rest = way[-1] if way else asked.rest, "", asked.rest
+    while way:
+        try:
+            drive = elastic.points.coordinate(asked.node, asked.coordinate)
+            return elastic.driven(drive, way), reached, why
+        except StrokeError as error:
+            why = why or str(error)
+            reached = error.reached
+            shorter = [v for v in way if abs(v - rest) <= abs(reached - rest)]
+            # What was reached on the way to a place may be out of reach by a hair.
+            way = shorter if len(shorter) < len(way) else way[:-1]
+    return (), reached, why
+
+
+def curve_of(
+    measures: Measures,
+    rest: State,
+    reached: Reached,
+    drive: tuple[int, str],
+    is_locked: bool,
+    progress: Callable[[float], None],
+) -> StrokeCurve | None:
+    """A design along the states that were reached; None without any."""
+    states, values, *_ = reached
+    if not states:
+        return None
+    rows = []
+    for k, state in enumerate(states):
+        rows.append(_row(measures, rest, state, drive, is_locked))
+        progress((k + 1) / len(states))
+    stiffness, kept, own, force, *hertz = (stacked(each) for each in zip(*rows, strict=True))
+    if is_locked:
+        # How the force changes with the value, where the drive is held.
+        slope = np.zeros_like(force.value)
+        if values.size > 1:
+            slope = np.gradient(force.value[:, 0], values)[:, None]
+        own = Numbers(slope, np.zeros_like(slope))
+    frequencies = parasitic = None
+    if hertz and hertz[0].value.size:
+        frequencies = hertz[0]
+        others = []
+        for k, state in enumerate(states):
+            count = len(state.alone[-1].frequencies)
+            is_drive = (False,) * count if is_locked else drives_of(measures, state, count)
+            left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
+            others.append(Numbers(frequencies.value[k, left], frequencies.uncertainty[k, left]))
+        parasitic = stacked(others)
+    # With masses it is known from the frequencies whether a stiffness is negative.
+    is_stable = [
+        state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
+        for state in states
+    ]
+    return StrokeCurve(
+        values,
+        stiffness,
+        kept.column(0),
+        own.column(0),
+        force.column(0),
+        frequencies,
+        parasitic,
+        tuple(is_stable),
+        tuple(state.under_constrained for state in states),
+        tuple(state.over_constrained for state in states),
+    )
+
+
+def _row(
+    measures: Measures, rest: State, state: State, drive: tuple[int, str], is_locked: bool
+) -> list[Numbers]:
+    """Stiffness, what is kept of it in the worst direction, of the drive, force, frequencies."""
+
+    def own(one: State) -> FloatArray:
+        """(1,) stiffness of the driven coordinate itself; infinite where it is held."""
+        if is_locked:
+            return np.zeros(1)
+        node, name = drive
+        points = one.model.points
+        names = [points.name(each) for each in points.coordinates(points.of(node))]
+        value = one.compliance(node)[(names.index(name),) * 2]
+        return np.array([1.0 / value if value != 0.0 else np.inf])
+
+    made = [
+        over_levels(measures.stiffness, state),
+        over_levels(measures.worst, rest, state),
+        over_levels(own, state),
+        over_levels(lambda one: np.atleast_1d(one.force), state),
+    ]
+    if measures.has_masses:
+        made.append(over_levels(measures.frequencies, state))
+    return made
+
+
 Report = Callable[[str, float], None]
 #: Parts of the work of a design that its tolerances, curve, stroke and effect are.
 _TOLERANCES, _CURVE, _STROKE = 0.4, 0.5, 0.9
@@ -311,7 +410,13 @@ def compute(
 ) -> Made:
     """What a design costs; see `flexact.cost`."""
     data.require_sound()
-    require_stiffness(data)
+    if not has_stiffness(data):
+        raise model_error(
+            "no-stiffness",
+            "what it costs needs stiffness, and the model gives none",
+            "state ESTIFF for each flexible element behind the END of the kinematics (of a beam "
+            "EA, G It, E Iy, E Iz), or give sheets a material in Python",
+        )
     report = progress or (lambda _what, _done: None)
     report("analysing", 0.0)
     return _Computation(data, asked, name, report).cost(kind)
@@ -328,30 +433,30 @@ class _Computation:
         self.clamps = self.places.clamps()
         self.stroke = stroke_of(self.places, asked)
         self.given = given_of(self.places, asked)
-        self.measures = Measures(
-            self.point,
-            directions_of(data, self.point),
-            self.places.size,
-            self.places.drives(),
-            has_masses(data),
-        )
+        drives = self.places.drives()
+        model = elastic(Model.from_data(data), asked.held, asked.drive, (), asked.beams)
+        points = model.points
+        directions = tuple(map(points.name, points.coordinates(points.of(self.point.node))))
+        watched = data.node_index[drives[0][0] if drives else self.point.node]
+        self.built = ElasticDesign(model, watched)
+        self.measures = Measures(self.point, directions, data.size, drives, self.built.has_masses)
 
     def cost(self, kind: type[Made]) -> Made:
         """All of it, as a kind of cost."""
         asked = self.asked
-        built, candidates = self._candidates()
+        built, candidates = self.built, self._candidates()
         misalignments = self.places.misalignments()
         designs: list[Design] = []
         ways: list[Reached] = []
         for k, candidate in enumerate(candidates):
-            mechanism = built if k == 0 else built.released(candidate.pairs)
+            mechanism = with_release(built, candidate.pairs) if k else built
 
             def part(done: float, before: int = k) -> None:
                 label = _label(candidates[before].released)
                 self.report(label or "as built", (before + done) / len(candidates))
 
             part(0.0)
-            design, way = self._design(built, mechanism, candidate, misalignments, part)
+            design, way = self._design(mechanism, candidate, misalignments, part)
             designs.append(with_curve(design, mechanism, designs[0] if designs else design))
             ways += [] if way is None else [way]
         return kind(
@@ -371,26 +476,21 @@ class _Computation:
             tuple(self._left_out(len(designs))),
         )
 
-    def _candidates(self) -> tuple[ElasticDesign, tuple[Candidate, ...]]:
-        """The design as built, and what is to be looked at: as built first."""
+    def _candidates(self) -> tuple[Candidate, ...]:
+        """What is to be looked at: the design as built first."""
         asked = self.asked
-        driven = self.measures.drives
-        watched = self.data.node_index[driven[0][0] if driven else self.point.node]
-        choice = Choice(asked.held, asked.drive, asked.beams)
-        built = ElasticDesign(self.data, choice, {}, watched)
         first = Candidate((), (), self.result.under_constrained, self.result.over_constrained)
         if asked.release is not None:
             others = tuple(given(self.result, each) for each in asked.release)
             labels = [each.pairs for each in others]
             if any(pairs in labels[:k] for k, pairs in enumerate(labels)):
                 raise model_error("repeated-release", "one release is asked for twice")
-            return built, (first, *others)
+            return first, *others
         self.report("looking for releases", 0.0)
-        return built, (first, *best(self.measures, built, proven(self.result, asked.bodies)))
+        return first, *best(self.measures, self.built, proven(self.result, asked.bodies))
 
     def _design(
         self,
-        built: ElasticDesign,
         mechanism: ElasticDesign,
         candidate: Candidate,
         misalignments: tuple[Misalignment, ...],
@@ -412,10 +512,11 @@ class _Computation:
             remarks.append(f"No tolerances: {error}.")
         curve = way = effect = None
         if self.stroke is not None:
-            way = strokes.follow(mechanism.elastic, self.stroke)
-            drive = (self.stroke.node, self.stroke.coordinate)
-            curve = strokes.curve_of(
-                *(measures, mechanism.rest, way, drive, mechanism.choice.drive == "locked"),
+            asked, values = self.stroke
+            way = follow(mechanism.elastic, asked, values)
+            drive = (asked.node, asked.coordinate)
+            curve = curve_of(
+                *(measures, mechanism.rest, way, drive, mechanism.elastic.drive == "locked"),
                 lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
             )
         if self.given:
@@ -428,8 +529,8 @@ class _Computation:
             candidate.alike,
             candidate.under_constrained,
             candidate.over_constrained,
-            numbers(mechanism.rest.estimate(measures.compliance)),
-            None if mechanism is built else kept_beside(measures, built, mechanism),
+            over_levels(measures.compliance, mechanism.rest),
+            None if mechanism is self.built else kept_beside(measures, self.built, mechanism),
             frequencies,
             is_drive,
             tolerances,
@@ -443,17 +544,15 @@ class _Computation:
 
     def _stroke(self, ways: Sequence[Reached]) -> Stroke | None:
         """The stroke as far as every design could be followed; None where none was asked for."""
-        asked = self.stroke
-        if asked is None:
+        if self.stroke is None:
             return None
-        owner = self.places.words(asked.node)
-        words = f"node {asked.node} ({owner}) {words_of_direction(asked.coordinate)}"
-        whole = (float(asked.values[0]), float(asked.values[-1]))
-        low = max((way.ends[0] for way in ways), default=whole[0])
-        high = min((way.ends[1] for way in ways), default=whole[1])
-        why = next((way.why for way in ways if way.why), "")
-        reached = (max(low, whole[0]), min(high, whole[1])) if why else whole
-        return Stroke(asked.node, asked.coordinate, words, asked.rest, whole, reached, why)
+        stroke, _ = self.stroke
+        why = next((why for *_, why in ways if why), "")
+        if not why:
+            return stroke
+        low = max(stroke.asked[0], *(ends[0] for _, _, ends, _ in ways))
+        high = min(stroke.asked[1], *(ends[1] for _, _, ends, _ in ways))
+        return replace(stroke, reached=(low, high), why=why)
 
     def _left_out(self, designs: int) -> Iterator[str]:
         """What the deck's data do not allow, and what was not looked at."""
@@ -484,26 +583,33 @@ class _Computation:
             )
 
 
+def with_release(design: ElasticDesign, release: ReleaseRequest) -> ElasticDesign:
+    """The same with something released."""
+    return replace(design, elastic=replace(design.elastic, release=release))
+
+
 def frequencies_of(
     measures: Measures, mechanism: ElasticDesign
 ) -> tuple[Numbers | None, tuple[bool, ...]]:
     """The lowest frequencies at rest, and which are the drive's."""
     if not measures.has_masses:
         return None, ()
-    found = numbers(over_levels(measures.frequencies, mechanism.rest))
+    found = over_levels(measures.frequencies, mechanism.rest)
     if not found.value.size:
         return None, ()
-    if mechanism.choice.drive == "locked":
+    if mechanism.elastic.drive == "locked":
         return found, (False,) * found.value.size
     return found, drives_of(measures, mechanism.rest, found.value.size)
 
 
 def kept_beside(measures: Measures, before: ElasticDesign, after: ElasticDesign) -> Kept | None:
-    """What a design keeps of the stiffness of the one as built."""
+    """What a design keeps of the stiffness of the one as built; None where nothing can move."""
     one, two = before.rest, after.rest
-    finest = measures.ratios(one.alone[-1], two.alone[-1])
-    mu = numbers(over_levels(lambda a, b: measures.ratios(a, b).mu, one, two))
-    return kept_of(finest, mu, measures.directions)
+    finest, loads, shares = measures.ratios(one.alone[-1], two.alone[-1])
+    if not finest.size:
+        return None
+    mu = over_levels(lambda a, b: measures.ratios(a, b)[0], one, two)
+    return Kept(mu, loads[:, 0], direction_words(shares[:, 0], measures.directions))
 
 
 def best(
@@ -515,18 +621,19 @@ def best(
     likelier one. One beam an element is enough to tell: the stiffness of a straight sheet is exact
     with it.
     """
-    keys = {}
-    one = built.with_beams(1)
-    for place, candidate in enumerate(candidates):
-        mechanism = one.released(candidate.pairs)
+    one = replace(built, elastic=replace(built.elastic, beams=1))
+
+    def order(candidate: Candidate) -> list[float]:
+        mechanism = with_release(one, candidate.pairs)
         kept = kept_beside(measures, one, mechanism)
         worst = 1.0 if kept is None else kept.smallest.value
         found, drives = frequencies_of(measures, mechanism)
         hertz = () if found is None else tuple(found.value.tolist())
         parasitic = [f for f, is_drive in zip(hertz, drives, strict=False) if not is_drive]
-        order = (worst, *hertz[:1], *parasitic[:1])
-        keys[place] = (*(-float(f"{value:.{_DIGITS}g}") for value in order), place)
-    return tuple(candidates[place] for place in sorted(keys, key=keys.__getitem__)[:MOST])
+        found_of = (worst, *hertz[:1], *parasitic[:1])
+        return [-float(f"{value:.{_DIGITS}g}") for value in found_of]
+
+    return tuple(sorted(candidates, key=order)[:MOST])
 
 
 def with_curve(design: Design, mechanism: ElasticDesign, built: Design) -> Design:

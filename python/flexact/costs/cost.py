@@ -40,7 +40,7 @@ class Cost(CostValues):
             FlexactError: matplotlib is missing.
         """
         # It takes a while to load.
-        return load("flexact.costs.plot").plot_of(self)
+        return load("flexact.costs.charts").plot_of(self)
 
     def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
         """All numbers as one tidy table, a row a number; also written to a file, if one is named.
@@ -81,8 +81,7 @@ class Cost(CostValues):
 
     def _repr_html_(self) -> str:
         # Notebooks alone ask for it.
-        made: str = load("flexact.costs.page").html_of(self)
-        return made
+        return str(load("flexact.costs.page").html_of(self))
 
 
 #: Of costs. Pictures and pages take a while to load.
@@ -93,14 +92,12 @@ COSTS = Writers(
 
 @COSTS.register(STILLS, require=check_packages)
 def _picture(made: CostValues, path: Path) -> bytes:
-    content: bytes = load("flexact.costs.plot").plot_bytes(made, path.suffix.lower())
-    return content
+    return bytes(load("flexact.costs.charts").plot_bytes(made, path.suffix.lower()))
 
 
 @COSTS.register(PAGES)
 def _page(made: CostValues, path: Path) -> bytes:
-    content: bytes = load("flexact.costs.page").page_bytes(made)
-    return content
+    return bytes(load("flexact.costs.page").page_bytes(made))
 
 
 @COSTS.register((".csv",))

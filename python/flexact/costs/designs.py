@@ -15,9 +15,6 @@ from ..model.data import ModelData
 from ..util.records import Frozen
 from .shape import Shape
 
-#: Directions of a point or clamp, in the order of all arrays; planar ones have x y rz.
-DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
-PLANAR = ("x", "y", "rz")
 #: What the first frequency is called where the deck has no masses.
 FREQUENCY, STIFFNESS = "first frequency", "lowest stiffness"
 
@@ -70,6 +67,10 @@ class Numbers(NamedTuple):
     def each(self) -> list[Number]:
         """All of one dimension."""
         return [self.at(k) for k in range(self.value.size)]
+
+    def row(self, k: int) -> list[Number]:
+        """Those of a row of two dimensions."""
+        return Numbers(self.value[k], self.uncertainty[k]).each()
 
 
 def stacked(rows: Sequence[Numbers]) -> Numbers:

@@ -1,36 +1,39 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A design on the mechanism: its elastic model, its state at rest, and what pushes it off."""
+"""A design on the mechanism: its elastic model, its state at rest, and what pushes it off.
+
+Stresses are in proportion to the error d. A frequency omega is reached where
+K - omega^2 M + d G is singular, with G of the stresses of a unit error: one eigenvalue problem an
+error, whatever its size; and with omega = 0 the design buckles.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from ..core import elastic as core
 from ..core.arrays import BoolArray, FloatArray
+from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
-from ..deck.rendering import model_error
-from ..elasticity import Elastic, ElasticError, Estimate, State, elastic
-from ..elasticity.imperfections import misalignment
+from ..elasticity import Elastic, ElasticError, Estimate, State
+from ..elasticity.equilibria import Imperfection, misalignment
 from ..elasticity.solution import Solution
+from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
 from ..model.attributes import Properties
 from ..model.data import ModelData
-from ..model.model import Model
-from ..util.records import cached_property
+from ..util.records import Frozen, cached_property
 from .designs import (
-    Kept,
     Misalignment,
+    MisalignmentCurve,
     Number,
     Numbers,
     Point,
+    Tolerance,
     unit_of_direction,
     words_of_direction,
 )
-from .request import ReleaseRequest
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.
 _HELD = 1.0e-12
@@ -42,28 +45,17 @@ _EQUAL = 1.0e-6
 _SHARE, _MOST_NAMED = 0.1, 2
 
 
-class Ratios(NamedTuple):
-    """mu ascending with their loads."""
-
-    mu: FloatArray
-    """(k,) of the k directions that can move."""
-    loads: FloatArray
-    """(d, k) loads v in the directions of the point, scaled: moments by the size."""
-    shares: FloatArray
-    """(d, k) part of the work of each load that is done in each direction."""
-
-
-def scales_of(directions: Sequence[str], size: float) -> FloatArray:
-    """(d,) by which displacements are multiplied to be lengths: the size of a rotation."""
-    return np.array([size if unit_of_direction(each) == "rad" else 1.0 for each in directions])
+#: All mu (k,) of the k directions that can move, ascending; their loads v (d, k) in the directions
+#: of the point, scaled: moments by the size; and the part (d, k) of the work of each load that is
+#: done in each direction.
+Ratios = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def able(compliance: FloatArray, scale: FloatArray) -> BoolArray:
     """(d,) directions that are not held."""
     own = np.diag(compliance) * scale**2
     there = np.isfinite(own)
-    made: BoolArray = there & (own > _HELD * own[there].max(initial=0.0))
-    return made
+    return np.asarray(there & (own > _HELD * own[there].max(initial=0.0)))
 
 
 def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
@@ -75,7 +67,7 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
     Args:
         before: (d, d) compliance.
         after: (d, d) likewise.
-        scale: (d,) see `scales_of`.
+        scale: (d,) as of `Measures`.
     """
     lost = np.isinf(np.diag(after)) & ~np.isinf(np.diag(before))
     if lost.any():
@@ -83,7 +75,7 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
     free = np.flatnonzero(able(before, scale) & able(after, scale))
     if not free.size:
         none = np.zeros((scale.size, 0))
-        return Ratios(np.zeros(0), none, none)
+        return np.zeros(0), none, none
     one, two = ((each * np.outer(scale, scale))[np.ix_(free, free)] for each in (before, after))
     mu, vectors = _pairs((one + one.T) / 2.0, (two + two.T) / 2.0)
     loads, shares = (np.zeros((scale.size, mu.size)) for _ in range(2))
@@ -91,7 +83,7 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
     done = vectors * (two @ vectors)
     loads[free] = vectors / np.abs(vectors).max(axis=0)
     shares[free] = done / np.where(done.sum(axis=0) != 0.0, done.sum(axis=0), 1.0)
-    return Ratios(mu, loads, shares)
+    return mu, loads, shares
 
 
 def _pairs(one: FloatArray, two: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -119,12 +111,12 @@ def _nothing_left(
 ) -> Ratios:
     """The ratios where a motion without stiffness is new: 0 along it, then those of the rest."""
     inner = np.where(lost[:, None] | lost, 0.0, after)
-    rest = ratios(before, np.where(np.isfinite(inner), inner, 0.0), scale)
+    mu, loads, shares = ratios(before, np.where(np.isfinite(inner), inner, 0.0), scale)
     first = lost.astype(np.float64)[:, None]
-    return Ratios(
-        np.concatenate([[0.0], rest.mu]),
-        np.hstack([first, rest.loads]),
-        np.hstack([first / first.sum(), rest.shares]),
+    return (
+        np.concatenate([[0.0], mu]),
+        np.hstack([first, loads]),
+        np.hstack([first / first.sum(), shares]),
     )
 
 
@@ -140,13 +132,6 @@ def _aligned(vectors: FloatArray, mu: FloatArray) -> FloatArray:
     made = vectors.copy()
     made[:, 0] = base @ base[row]
     return made
-
-
-def kept_of(found: Ratios, mu: Numbers, directions: Sequence[str]) -> Kept | None:
-    """The ratios with uncertainties and words; None where nothing can move."""
-    if not found.mu.size:
-        return None
-    return Kept(mu, found.loads[:, 0], direction_words(found.shares[:, 0], directions))
 
 
 def direction_words(shares: FloatArray, directions: Sequence[str]) -> str:
@@ -182,13 +167,13 @@ class Measures:
 
     @property
     def scale(self) -> FloatArray:
-        """(d,) see `keeping.scales_of`."""
-        return scales_of(self.directions, self.size)
+        """(d,) by which displacements are multiplied to be lengths: the size of a rotation."""
+        units = map(unit_of_direction, self.directions)
+        return np.array([self.size if unit == "rad" else 1.0 for unit in units])
 
     def compliance(self, state: State) -> FloatArray:
         """(d, d) at the point."""
-        made: FloatArray = np.asarray(state.compliance(self.point.node), np.float64)
-        return made
+        return state.compliance(self.point.node)
 
     def stiffness(self, state: State) -> FloatArray:
         """(d,) inverse of each compliance along its direction; infinite where it is held."""
@@ -203,7 +188,7 @@ class Measures:
 
     def worst(self, before: State, after: State) -> FloatArray:
         """(1,) smallest part that is kept; 1 of a point that cannot move."""
-        mu = self.ratios(before, after).mu
+        mu, *_ = self.ratios(before, after)
         return mu[:1] if mu.size else np.ones(1)
 
     def frequencies(self, state: State) -> FloatArray:
@@ -211,25 +196,12 @@ class Measures:
         return np.maximum(np.asarray(state.frequencies[:MOST], np.float64), 0.0)
 
 
-def numbers(estimate: Estimate) -> Numbers:
-    """An estimate as a cost has it."""
-    value, off = np.atleast_1d(estimate.value), np.atleast_1d(estimate.uncertainty)
-    return Numbers(value, np.where(np.isfinite(off), off, 0.0))
-
-
-def number(estimate: Estimate) -> Number:
-    """The same of a single number."""
-    value, off = float(estimate.value), float(estimate.uncertainty)
-    return Number(value, off if np.isfinite(off) else 0.0)
-
-
-def over_levels(quantity: Callable[..., FloatArray], *states: State) -> Estimate:
+def over_levels(quantity: Callable[..., FloatArray], *states: State) -> Numbers:
     """A quantity of several states, extrapolated; of each number of beams what fits is taken."""
     made = [quantity(*each) for each in zip(*(s.alone for s in states), strict=True)]
-    if len(made) == 1:
-        return Estimate.fixed(made[0])
     count = min(len(each) for each in made)
-    return Estimate.of(made[0][:count], made[1][:count])
+    found = Estimate.of(*(each[:count] for each in made))
+    return Numbers(found.value, np.where(np.isfinite(found.uncertainty), found.uncertainty, 0.0))
 
 
 def drives_of(measures: Measures, state: State, count: int) -> tuple[bool, ...]:
@@ -252,22 +224,9 @@ def _moved(measures: Measures, state: State, mode: int, node: int, name: str) ->
     """How far a coordinate moves in a mode, as a part of what moves farthest."""
     shape = np.asarray(state.modes[mode], np.float64)
     index = state.data.node_index[node]
-    turns = state.data.arrays.node_kind > 2
-    sizes = np.abs(shape) * np.where(turns, measures.size, 1.0)[:, None]
+    sizes = np.abs(shape) * np.where(state.data.arrays.node_kind > 2, measures.size, 1.0)[:, None]
     largest = float(sizes.max(initial=0.0))
     return float(sizes[index, "xyz".index(name[-1])]) / largest if largest > 0.0 else 0.0
-
-
-#: What rigid parts cannot follow of an error, beyond rounding.
-MISMATCH = 1.0e-8
-
-
-class Choice(NamedTuple):
-    """What is made of a model."""
-
-    held: str
-    drive: str
-    beams: int | str
 
 
 def has_stiffness(data: ModelData) -> bool:
@@ -276,75 +235,17 @@ def has_stiffness(data: ModelData) -> bool:
     return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
 
 
-def require_stiffness(data: ModelData) -> None:
-    """Raise where no element has a stiffness.
+@dataclass(frozen=True, eq=False)
+class ElasticDesign(Frozen):
+    """A design: its elastic model, and its state at rest.
 
-    Raises:
-        ModelError: none has.
+    Attributes:
+        elastic: The elastic model.
+        watched: Index of the node of which the stiffness stands for frequencies without masses.
     """
-    if not has_stiffness(data):
-        raise model_error(
-            "no-stiffness",
-            "what it costs needs stiffness, and the model gives none",
-            "state ESTIFF for each flexible element behind the END of the kinematics (of a beam "
-            "EA, G It, E Iy, E Iz), or give sheets a material in Python",
-        )
 
-
-def has_masses(data: ModelData) -> bool:
-    """Whether any mass is given, so that there are frequencies."""
-    given = data.properties
-    return given is not None and any(
-        bool((np.nan_to_num(part) > 0.0).any()) for part in (given.mass, given.node_mass)
-    )
-
-
-def with_unit_mass(data: ModelData, node: int) -> ModelData:
-    """The model with the mass 1 kg, or inertia 1 kg m^2, at one node by its index, and no other.
-
-    Its lowest squared frequency is the lowest stiffness of that node.
-    """
-    assert data.properties is not None
-    mass = np.full_like(data.properties.node_mass, math.nan)
-    if data.arrays.node_kind[node] == NodeKind.ORIENTATION:
-        mass[node] = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
-    else:
-        mass[node, 0] = 1.0
-    given = data.properties
-    none = np.full_like(given.mass, math.nan)
-    return replace(data, properties=Properties(given.stiffness, none, mass))
-
-
-class ElasticDesign:
-    """A design: its elastic model, and its state at rest."""
-
-    def __init__(self, data: ModelData, choice: Choice, pairs: ReleaseRequest, drive: int) -> None:
-        """Of a model as given.
-
-        Args:
-            data: The model.
-            choice: What is made of it.
-            pairs: What is released.
-            drive: Index of the node of which the stiffness stands for frequencies without masses.
-        """
-        self.data, self.choice, self.pairs, self.drive = data, choice, pairs, drive
-
-    def with_beams(self, beams: int) -> ElasticDesign:
-        """The same with another number of beams."""
-        return ElasticDesign(self.data, self.choice._replace(beams=beams), self.pairs, self.drive)
-
-    def released(self, pairs: ReleaseRequest) -> ElasticDesign:
-        """The same with something else released."""
-        return ElasticDesign(self.data, self.choice, pairs, self.drive)
-
-    def _elastic(self, data: ModelData) -> Elastic:
-        held, drive, beams = self.choice
-        return elastic(Model.from_data(data), held, drive, self.pairs, beams)
-
-    @cached_property
-    def elastic(self) -> Elastic:
-        """The elastic model."""
-        return self._elastic(self.data)
+    elastic: Elastic
+    watched: int
 
     @cached_property
     def rest(self) -> State:
@@ -353,33 +254,42 @@ class ElasticDesign:
 
     @cached_property
     def has_masses(self) -> bool:
-        """Whether there are frequencies."""
-        return has_masses(self.data)
+        """Whether any mass is given, so that there are frequencies."""
+        given = self.elastic.data.properties
+        masses = () if given is None else (given.mass, given.node_mass)
+        return any((np.nan_to_num(each) > 0.0).any() for each in masses)
 
     @cached_property
-    def measured(self) -> Elastic:
-        """The model whose first frequency is watched: without masses that of a unit mass."""
-        if self.has_masses:
-            return self.elastic
-        return self._elastic(with_unit_mass(self.data, self.drive))
+    def measured(self) -> State:
+        """At rest, what has a first frequency to watch: without masses that of a unit mass."""
+        data, node = self.elastic.data, self.watched
+        given = data.properties
+        if self.has_masses or given is None:
+            return self.rest
+        # With 1 kg, or 1 kg m^2, at the node alone the lowest square is the lowest stiffness.
+        mass = np.full_like(given.node_mass, math.nan)
+        if data.arrays.node_kind[node] == NodeKind.ORIENTATION:
+            mass[node] = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+        else:
+            mass[node, 0] = 1.0
+        properties = Properties(given.stiffness, np.full_like(given.mass, math.nan), mass)
+        return replace(self.elastic, data=replace(data, properties=properties)).undeformed()
 
     @cached_property
     def levels(self) -> tuple[Level, ...]:
         """The design with each number of beams, the fewest first."""
-        rest = self.rest if self.has_masses else self.measured.undeformed()
-        return tuple(Level(self, k, each.finest) for k, each in enumerate(rest.alone))
+        return tuple(Level(self, at) for at in self.measured.meshes)
 
 
 class Level:
     """A design with one number of beams: what errors do to it whose stress is in proportion."""
 
-    def __init__(self, mechanism: ElasticDesign, number: int, solution: Solution) -> None:
-        """Keep the design, which of its meshes this is, and its state at rest."""
-        self.mechanism, self.number, self.solution = mechanism, number, solution
+    def __init__(self, mechanism: ElasticDesign, solution: Solution) -> None:
+        """Keep the design, and its state at rest of one mesh."""
+        self.mechanism, self.solution = mechanism, solution
 
-    @cached_property
-    def first_square(self) -> float:
-        """Square of the first angular frequency [rad^2/s^2].
+    def square_at(self, shift: float) -> float:
+        """Square of the first angular frequency [rad^2/s^2], shifted by a part of itself.
 
         Raises:
             ElasticError: a motion has no stiffness, or the design is unstable.
@@ -390,23 +300,20 @@ class Level:
         values = self.solution.squares.values
         if not values.size or not values[0] > 0.0:
             raise ElasticError("no mass moves, or the undeformed state is unstable")
-        return float(values[0])
+        return float(values[0]) * (1.0 + shift) ** 2
 
-    def response(self, misalignments: Sequence[Misalignment]) -> tuple[FloatArray, core.RawLinear]:
+    def response(self, misalignments: Sequence[Misalignment]) -> tuple[FloatArray, RawLinear]:
         """(3, nodes, k) moves of the supports for unit errors, and what they do.
 
         Raises:
             ElasticError: a self-stress of rigid parts is not determined.
         """
         self.mechanism.elastic.require_determined()
-        solver, points = self.solution.solver, self.mechanism.elastic.points
-        shift = np.zeros((3, solver.nodes, len(misalignments)), order="F")
-        for k, each in enumerate(misalignments):
-            off = misalignment(
-                *(points, each.clamp.node, each.direction, 1.0, each.about), beyond=True
-            )
-            shift[:, : solver.mesh.nodes, k] = off.shift(solver.mesh.own)
-        return shift, self.solution.respond(np.zeros_like(shift), None, shift)
+        return unit_errors(self.solution, [self._off(each) for each in misalignments])
+
+    def _off(self, each: Misalignment) -> Imperfection:
+        points = self.mechanism.elastic.points
+        return misalignment(points, each.clamp.node, each.direction, 1.0, each.about, beyond=True)
 
     def stresses(self, misalignments: Sequence[Misalignment]) -> FloatArray:
         """(6, pieces, k) stress of each unit error; NaN where rigid parts cannot follow it.
@@ -425,38 +332,121 @@ class Level:
         With lengths (k,) of unit errors only those about as short as the shortest; others are
         infinite.
         """
-        at = self.solution
-        model = at.solver.model(at.held)
-        raw = core.errors(
-            model, at.solver.arrays, at.raw, at.way.gravity, stresses, square, lengths
-        )
+        raw = self.solution.errors(stresses, square, lengths)
         if raw.negative or raw.loose:
             raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
         return np.stack([raw.below, raw.above], axis=1)
 
     def measure(self, stress: FloatArray) -> float:
         """First frequency [Hz] under a stress, 0 where it is unstable; or the lowest stiffness."""
-        at = self.solution
-        raw = at.raw._replace(stress=np.asfortranarray(stress))
-        model = at.solver.model(at.held)
-        found = core.frequencies(model, at.solver.arrays, raw, at.way.gravity, 1)
-        square = float(found.values[0])
-        if not self.mechanism.has_masses:
-            return max(square, 0.0)
         # Of an unstable motion it is 0.
-        return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)
+        square = max(self.solution.under(stress).lowest_square, 0.0)
+        return math.sqrt(square) / (2.0 * math.pi) if self.mechanism.has_masses else square
+
+    def rising(self, each: Misalignment, shift: float) -> tuple[float, float]:
+        """Errors that raise the first frequency: of several modes it stays the lowest."""
+        return Linear(self.solution, self._off(each)).shifted(shift)
 
     def buckled(self, each: Misalignment, sense: float) -> FloatArray | None:
         """(nodes, 3) the shape in which it buckles, below or above zero; None where it does not."""
-        found = self.stressed(self.stresses((each,))[:, :, 0]).buckling
+        found = self.solution.under(self.stresses((each,))[:, :, 0]).buckling
         right = np.flatnonzero(sense * found.values > 0.0)
         if not right.size:
             return None
         first = right[int(np.argmin(np.abs(found.values[right])))]
         return np.ascontiguousarray(found.modes[:, :, first].T)
 
-    def stressed(self, stress: FloatArray) -> Solution:
-        """The state at rest under a stress (6, pieces)."""
-        at = self.solution
-        raw = at.raw._replace(stress=np.asfortranarray(stress))
-        return Solution(at.solver, raw, at.way, at.held)
+
+#: Errors of so many sizes of the model, or radians, are none that anybody makes, and far beyond
+#: where the stress is in proportion to them.
+FAR = 0.1
+#: A design that buckles within so many times the reach is followed until it does.
+_NEAR = 1.5
+#: Places of a curve on each side of zero, closer where it falls steeply; few where it does not
+#: fall to zero.
+_PLACES, _FEW_PLACES = 9, 3
+
+
+def tolerances_of(
+    mechanism: ElasticDesign,
+    misalignments: Sequence[Misalignment],
+    shift: float,
+    size: float,
+    progress: Callable[[float], None],
+) -> tuple[Tolerance, ...]:
+    """The tolerance of each misalignment, and where the design buckles.
+
+    Those that rigid parts cannot follow are left out: nothing can be off so.
+
+    Args:
+        mechanism: The design.
+        misalignments: Of which clamps, in which directions.
+        shift: Of the first frequency, relative.
+        size: Of the model [m].
+        progress: Called with the part that is done.
+
+    Raises:
+        ElasticError: there is no answer, as of a self-stress of rigid parts.
+    """
+    found, able = [], np.ones(len(misalignments), bool)
+    for k, level in enumerate(mechanism.levels):
+        square, stresses = level.square_at(shift), level.stresses(misalignments)
+        able &= np.isfinite(stresses).all(axis=(0, 1))
+        stresses = np.asfortranarray(stresses[:, :, able])
+        critical = level.errors(stresses, 0.0)
+        progress((k + 0.5) / len(mechanism.levels))
+        if shift < 0.0:
+            aimed = level.errors(stresses, square)
+        else:
+            some = [each for each, fits in zip(misalignments, able, strict=True) if fits]
+            aimed = np.array([level.rising(each, shift) for each in some]).reshape(-1, 2)
+        found.append(np.concatenate([aimed, critical], axis=1))
+        progress((k + 1.0) / len(mechanism.levels))
+    kept = [each for each, fits in zip(misalignments, able, strict=True) if fits]
+    whole = Estimate.of(*found)
+    return tuple(
+        Tolerance(each, *(_number(whole, j, k, size, each.unit) for k in range(4)))
+        for j, each in enumerate(kept)
+    )
+
+
+def _number(whole: Estimate, row: int, column: int, size: float, unit: str) -> Number:
+    value, off = (float(each[row, column]) for each in (whole.value, whole.uncertainty))
+    if abs(value) > FAR * (size if unit == "m" else 1.0):
+        return Number(math.copysign(math.inf, value))
+    return Number(value, off if math.isfinite(off) else 0.0)
+
+
+def curve_against(
+    mechanism: ElasticDesign, tolerance: Tolerance, reach: float
+) -> MisalignmentCurve:
+    """The first frequency, or stiffness, against one misalignment, up to where it buckles.
+
+    Args:
+        mechanism: The design.
+        tolerance: Of that misalignment.
+        reach: How far it is followed where it does not buckle before, about [m, rad].
+    """
+    low, high = tolerance.critical_negative.value, tolerance.critical_positive.value
+    first, last = (
+        end if abs(end) <= _NEAR * reach else math.copysign(reach, end) for end in (low, high)
+    )
+    values = np.concatenate([_places(first, low)[::-1], [0.0], _places(last, high)])
+    rows = []
+    for level in mechanism.levels:
+        stress = level.stresses((tolerance.misalignment,))[:, :, 0]
+        rows.append([level.measure(value * stress) for value in values.tolist()])
+    whole = Estimate.of(*rows)
+    is_lost = (values <= low) | (values >= high)
+    measure = np.where(is_lost, 0.0, np.maximum(whole.value, 0.0))
+    return MisalignmentCurve(
+        tolerance.misalignment,
+        values,
+        Numbers(measure, np.where(measure > 0.0, whole.uncertainty, 0.0)),
+    )
+
+
+def _places(end: float, critical: float) -> FloatArray:
+    """Errors from near zero to an end: more of them where the design buckles there."""
+    count = _PLACES if end == critical else _FEW_PLACES
+    return np.asarray(end * np.sin(np.linspace(0.0, math.pi / 2.0, count + 1)[1:]))

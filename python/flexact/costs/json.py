@@ -9,7 +9,7 @@ import json
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import fields
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -36,51 +36,32 @@ HEADER = (
 )
 
 
-class Row(NamedTuple):
-    """A number, and of what it is."""
-
-    design: str
-    quantity: str
-    value: Cell
-    uncertainty: float = 0.0
-    unit: str = ""
-    clamp: Cell = ""
-    """Number of its node."""
-    direction: str = ""
-    direction_2: str = ""
-    number: Cell = ""
-    """From 1, of frequencies and stiffness ratios."""
-    stroke: Cell = ""
-    """Driven coordinate, absolute [m, rad]."""
-    misalignment: Cell = ""
-    """[m, rad]."""
-    state: str = ""
-    """"before" or "behind" given misalignments."""
+#: A number by the columns that say something of it: number: from 1, of frequencies and stiffness
+#: ratios; stroke: driven coordinate, absolute [m, rad]; misalignment: [m, rad]; state: "before" or
+#: "behind" given misalignments.
+Row = dict[str, Cell]
 
 
 def csv_text(cost: CostValues) -> str:
     """The table as CSV; numbers read back to the last bit, infinite ones are "inf"."""
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(HEADER)
+    writer = csv.DictWriter(text, HEADER, lineterminator="\n")
+    writer.writeheader()
     for design in cost.designs:
-        writer.writerows([getattr(row, name) for name in HEADER] for row in rows(cost, design))
+        writer.writerows(rows(cost, design))
     return text.getvalue()
 
 
 def rows(cost: CostValues, design: Design) -> Iterator[Row]:
     """All numbers of a design."""
     label, directions = design.label, cost.directions
-    yield Row(label, "under-constrained by", design.under_constrained)
-    yield Row(label, "over-constrained by", design.over_constrained)
+    yield _row(label, "under-constrained by", design.under_constrained)
+    yield _row(label, "over-constrained by", design.over_constrained)
     for i, first in enumerate(directions):
         for j, second in enumerate(directions):
             unit = f"{'rad' if first.startswith('r') else 'm'}/{_force_unit(second)}"
-            yield _row(
-                *(label, "compliance", design.compliance.at(i, j), unit),
-                direction=first,
-                direction_2=second,
-            )
+            both = {"direction": first, "direction_2": second}
+            yield _row(label, "compliance", design.compliance.at(i, j), unit, **both)
     if design.kept is not None:
         for k, mu in enumerate(design.kept.mu.each()):
             yield _row(label, "stiffness kept", mu, "1", number=k + 1)
@@ -134,20 +115,16 @@ def _stroke(cost: CostValues, label: str, curve: StrokeCurve) -> Iterator[Row]:
             ("frequency", curve.frequencies),
             ("parasitic frequency", curve.parasitic),
         ):
-            for j in range(0 if found is None else found.value.shape[1]):
-                assert found is not None
-                hertz = found.at(k, j)
+            for j, hertz in enumerate(() if found is None else found.row(k)):
                 yield _row(label, quantity, hertz, "Hz", number=j + 1, stroke=value)
-        yield Row(label, "is stable", int(curve.is_stable[k]), stroke=value)
-        yield Row(label, "under-constrained by", curve.under_constrained[k], stroke=value)
-        yield Row(label, "over-constrained by", curve.over_constrained[k], stroke=value)
+        yield _row(label, "is stable", int(curve.is_stable[k]), stroke=value)
+        yield _row(label, "under-constrained by", curve.under_constrained[k], stroke=value)
+        yield _row(label, "over-constrained by", curve.over_constrained[k], stroke=value)
 
 
 def _effect(label: str, directions: Sequence[str], effect: Effect) -> Iterator[Row]:
     for state, name in enumerate(("before", "behind")):
-        for j in range(0 if effect.frequencies is None else effect.frequencies.value.shape[1]):
-            assert effect.frequencies is not None
-            hertz = effect.frequencies.at(state, j)
+        for j, hertz in enumerate(effect.frequencies.row(state) if effect.frequencies else ()):
             yield _row(label, "frequency", hertz, "Hz", number=j + 1, state=name)
         for i, direction in enumerate(directions):
             number, unit = effect.stiffness.at(state, i), stiffness_unit(direction)
@@ -161,13 +138,16 @@ def _effect(label: str, directions: Sequence[str], effect: Effect) -> Iterator[R
         if effect.peak is not None:
             yield _row(label, "largest stress", effect.peak.at(state), "Pa", state=name)
     yield _row(label, "stiffness kept", effect.kept, "1", state="behind")
-    yield Row(label, "is stable", int(effect.is_stable), state="behind")
-    yield Row(label, "part reached", effect.reached, state="behind")
+    yield _row(label, "is stable", int(effect.is_stable), state="behind")
+    yield _row(label, "part reached", effect.reached, state="behind")
 
 
-def _row(label: str, quantity: str, found: Number, unit: str, **more: Cell) -> Row:
-    made = Row(label, quantity, found.value, found.uncertainty, unit)
-    return made._replace(**more)  # type: ignore[arg-type]
+def _row(label: str, quantity: str, found: Number | Cell, unit: str = "", **more: Cell) -> Row:
+    value, off = found if isinstance(found, Number) else (found, 0.0)
+    return {
+        **{"design": label, "quantity": quantity, "value": value, "uncertainty": off},
+        **{"unit": unit, **more},
+    }
 
 
 def _force_unit(direction: str) -> str:
@@ -248,8 +228,11 @@ def _with_units(cost: CostValues, given: StrokeCurve | Effect) -> dict[str, Any]
 
 def _tolerance(each: Tolerance) -> dict[str, Any]:
     numbers = ("negative", "positive", "critical_negative", "critical_positive")
-    unit = each.misalignment.unit
-    return {**_place(each.misalignment), "unit": unit, **_of_fields(each, *numbers)}
+    return {
+        **_place(each.misalignment),
+        "unit": each.misalignment.unit,
+        **_of_fields(each, *numbers),
+    }
 
 
 def _place(each: Misalignment) -> dict[str, Any]:

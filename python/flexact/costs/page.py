@@ -14,9 +14,8 @@ from ..show.page.viewer import Shaped
 from ..show.picture import has_packages, shape_bytes
 from ..show.writers import as_bytes
 from ..util.text import file_name, harmless
-from .charts import LARGEST, bars_of, charts_of, choices_of, key_of, typeset
+from .charts import LARGEST, bars_of, charts_of, choices_of, key_of, plot_bytes, typeset
 from .designs import CostValues, Design, Number, in_words
-from .plot import plot_bytes
 from .shape import Shape
 from .words import describe, first_line
 
@@ -89,8 +88,7 @@ def _side(series: int, design: Design, key: Key) -> Side:
 def _unit(design: Design, shape: Shape) -> str:
     """Of the error at which it buckles."""
     units = {each.critical.value: each.misalignment.unit for each in design.tolerances}
-    near = min(units, key=lambda size: abs(size - abs(shape.value)), default=0.0)
-    return units.get(near, "m")
+    return units.get(min(units, key=lambda size: abs(size - abs(shape.value)), default=0.0), "m")
 
 
 def _label(design: Design, shape: Shape) -> str:

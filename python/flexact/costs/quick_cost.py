@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,17 +14,18 @@ from ..analysis.naming import filled, sentence
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
-from ..elasticity import ElasticError
+from ..elasticity import ElasticError, Estimate, elastic
 from ..elasticity.reduced import peak_of, resultants_of
 from ..elasticity.solution import Solution
+from ..elasticity.tolerance import MISMATCH
+from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import MISMATCH, Choice, ElasticDesign, Level, has_stiffness
+from .elastic_design import ElasticDesign, Level, has_stiffness, tolerances_of
 from .request import SHIFT
 from .resolve import Places
-from .tolerances import extrapolated, tolerances_of
 from .words import costs, costs_nothing, off
 
 #: Of more elements, or errors, it would no longer be a glance.
@@ -62,24 +65,25 @@ class _QuickCost:
     """What the sentence is made of: the errors of a result that cost something."""
 
     def __init__(self, result: Result) -> None:
-        self.result, self.data = result, result.given
+        self.result, self.data, self.size = result, result.given, result.given.size
         self.places = Places(self.data, result.parts)
         self.errors = self.places.misalignments()
-        self.size = self.places.size
 
     def sentence(self) -> str:
         if not 0 < len(self.errors) <= _MOST_ERRORS:
             return ""
         drives = self.places.drives()
         node = drives[0][0] if drives else self.places.point(None).node
-        mechanism = ElasticDesign(
-            self.data, Choice("elastic", "free", "auto"), {}, self.data.node_index[node]
-        )
-        order = self._in_order(mechanism.with_beams(1))
+        model = elastic(Model.from_data(self.data))
+        mechanism = ElasticDesign(model, self.data.node_index[node])
+        one = replace(mechanism, elastic=replace(model, beams=1))
+        order = self._in_order(one)
         if not order:
             return ""
         if len(self.errors) * mechanism.levels[-1].solution.solver.elements > _MOST_LOOKED_AT:
-            return f"{self._small(mechanism.with_beams(1), order[0])}. {self._more()}"
+            words = off(order[0], Number(_SMALL))
+            loads = self._loads(one, order[0], _SMALL)
+            return f"It costs: {words} loads {loads}, to first order. {self._more()}"
         name = FREQUENCY if mechanism.has_masses else STIFFNESS
         found = self._tightest(mechanism, order)
         if found is None:
@@ -97,7 +101,7 @@ class _QuickCost:
 
         Energy is linear, and exact with the deck's own elements.
         """
-        shift, answer = Level(one, 0, one.rest.finest).response(self.errors)
+        shift, answer = Level(one, one.rest.finest).response(self.errors)
         if answer.loose.shape[2]:
             return []
         energy = 0.5 * np.einsum("cnk,cnk->k", shift, answer.reaction)
@@ -115,29 +119,28 @@ class _QuickCost:
         With the coarser division all but those that are about as tight are ruled out.
         """
         coarse = mechanism.levels[0]
-        square = coarse.first_square * (1.0 + SHIFT) ** 2
         stresses, lengths = coarse.stresses(order), self._lengths(order)
         able: BoolArray = np.asarray(np.isfinite(stresses).all(axis=(0, 1)))
         stresses = np.asfortranarray(stresses[:, :, able])
         some = [each for each, fits in zip(order, able, strict=True) if fits]
-        least = np.abs(coarse.errors(stresses, square, lengths[able])).min(axis=1) * lengths[able]
+        least = (
+            np.abs(coarse.errors(stresses, coarse.square_at(SHIFT), lengths[able])).min(axis=1)
+            * lengths[able]
+        )
         # Of equal ones, which symmetry makes, the first of the model is enough.
         first = sorted(np.flatnonzero(np.isfinite(least)), key=lambda k: self.errors.index(some[k]))
         near = {f"{least[k]:.5g}": some[k] for k in reversed(first)}
         chosen = sorted(near.values(), key=self.errors.index)[:_MOST_NEAR]
         if len(chosen) > 1:
-            chosen = [self._tighter(mechanism, chosen)]
+            # The one with which less is enough, with both divisions.
+            found = (
+                level.errors(np.asfortranarray(level.stresses(chosen)), level.square_at(SHIFT))
+                for level in mechanism.levels
+            )
+            sizes = np.abs(Estimate.of(*found).value).min(axis=1) * self._lengths(chosen)
+            chosen = [chosen[int(np.argmin([float(f"{size:.5g}") for size in sizes]))]]
         made = tolerances_of(mechanism, chosen, SHIFT, self.size, lambda _done: None)
         return smallest(made, self.size, lambda each: each.tightest)
-
-    def _tighter(self, mechanism: ElasticDesign, chosen: list[Misalignment]) -> Misalignment:
-        """The one of several with which less is enough, with both divisions."""
-        found = []
-        for level in mechanism.levels:
-            square = level.first_square * (1.0 + SHIFT) ** 2
-            found.append(level.errors(np.asfortranarray(level.stresses(chosen)), square))
-        least = np.abs(extrapolated(found).value).min(axis=1) * self._lengths(chosen)
-        return chosen[int(np.argmin([float(f"{value:.5g}") for value in least]))]
 
     def _behind(self, mechanism: ElasticDesign, found: Tolerance) -> str:
         """What is stressed most at the tolerance, and where the same error makes it buckle."""
@@ -146,10 +149,6 @@ class _QuickCost:
         if not found.critical.is_finite:
             return told
         return f"{told}; at {in_words(found.critical, found.misalignment.unit)} it buckles"
-
-    def _small(self, one: ElasticDesign, each: Misalignment) -> str:
-        loads = self._loads(one, each, _SMALL)
-        return f"It costs: {off(each, Number(_SMALL))} loads {loads}, to first order"
 
     def _loads(self, mechanism: ElasticDesign, each: Misalignment, size: float) -> str:
         """Such as "sheet 1 with 12 MPa": the flexure that an error stresses most, linearly."""
@@ -161,9 +160,14 @@ class _QuickCost:
             if parts.of_element(e).kind is not PartKind.BODY
         ]
         states = [
-            level.stressed(size * level.stresses((each,))[:, :, 0]) for level in mechanism.levels
+            level.solution.under(size * level.stresses((each,))[:, :, 0])
+            for level in mechanism.levels
         ]
-        known = [e for e in which if _is_known(states[-1], e)]
+        known = []
+        for e in which:
+            with suppress(ElasticError):
+                peak_of(states[-1], e)
+                known.append(e)
         if known:
             values, unit = _of(states, known, lambda at, e: (peak_of(at, e),)), "Pa"
         else:
@@ -182,15 +186,7 @@ def _of(
 ) -> FloatArray:
     """(elements, k) numbers of elements, extrapolated."""
     made = [np.array([of(at, e) for e in which]) for at in states]
-    return np.asarray(np.abs(extrapolated(made).value))
-
-
-def _is_known(at: Solution, element: int) -> bool:
-    try:
-        peak_of(at, element)
-    except ElasticError:
-        return False
-    return True
+    return np.asarray(np.abs(Estimate.of(*made).value))
 
 
 def _moment_and_force(at: Solution, element: int) -> tuple[float, float]:

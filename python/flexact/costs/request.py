@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..model.deformations import is_word
 from ..util.errors import FlexactError
@@ -48,26 +48,11 @@ def _target(text: str) -> int | str:
     return int(text) if re.fullmatch(r"\d{1,9}", text) else text
 
 
-class StrokeRequest(NamedTuple):
-    """A stroke: of which point, along what, from where to where."""
-
-    point: object
-    coordinate: str
-    start: float
-    stop: float
-    is_offset: bool = False
-    """Whether the values count from where the point is in the deck."""
-
-
-class MisalignmentRequest(NamedTuple):
-    """A misalignment: of which clamp, along what, by how much, and about which point."""
-
-    clamp: object
-    coordinate: str
-    value: float
-    about: object = None
-
-
+#: A stroke: of which point, along what, from where to where, and whether these count from where
+#: the point is in the deck.
+StrokeRequest = tuple[object, str, float, float, bool]
+#: A misalignment: of which clamp, along what, by how much, and about which point.
+MisalignmentRequest = tuple[object, str, float, object]
 #: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
 #: (element, deformation) by numbers or names, or with the end as the third.
 ReleaseRequest = dict[tuple[Any, ...], float]
@@ -113,8 +98,7 @@ def release_of(text: str) -> ReleaseRequest:
                 "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
                 f"1:5+2:5; not {in_short(text)}"
             )
-        part_of = _target(found["part"])
-        one = part_of, int(which) if which.isdigit() else which
+        one = _target(found["part"]), int(which) if which.isdigit() else which
         at = () if found["at"] is None else (_target(found["at"]),)
         try:
             notch = 0.0 if found["notch"] is None else quantity(found["notch"], NOTCH)
@@ -147,11 +131,10 @@ def stroke_of(text: str) -> StrokeRequest:
             f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
-    first, last = _quantity(start, unit), _quantity(stop, unit)
+    first, last = quantity(start, unit), quantity(stop, unit)
     if first == last:
         raise RequestError(f"the stroke {in_short(text)} ends where it begins")
-    point = _target(found["point"])
-    return StrokeRequest(point, name, first, last, bool(found["by"]) or dots == "+-")
+    return _target(found["point"]), name, first, last, bool(found["by"]) or dots == "+-"
 
 
 def misalignment_of(text: str) -> MisalignmentRequest:
@@ -170,19 +153,7 @@ def misalignment_of(text: str) -> MisalignmentRequest:
     name, unit = _coordinate(found["name"])
     if about and unit == "m":
         raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
-    return MisalignmentRequest(
-        _target(found["point"]),
-        name,
-        _quantity(value, unit),
-        _target(about) if about else None,
-    )
-
-
-def _quantity(text: str, unit: str) -> float:
-    try:
-        return quantity(text, unit)
-    except QuantityError as error:
-        raise RequestError(str(error)) from None
+    return _target(found["point"]), name, quantity(value, unit), _target(about) if about else None
 
 
 def _coordinate(name: str) -> tuple[str, str]:
@@ -344,15 +315,12 @@ _REQUEST_RELEASE = (
 
 def _pair(given: object) -> tuple[Any, ...]:
     """An element and a deformation, by numbers or names; and maybe the end at which it is."""
-    wrong = TypeError(_REQUEST_RELEASE.format(in_short(given)))
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
-        raise wrong
-    element, which, *_ = given
-    if isinstance(element, (bool, float)) or element is None or isinstance(which, bool):
-        raise wrong
-    if not isinstance(which, (int, str)):
-        raise wrong
-    return tuple(given)
+    if isinstance(given, Sequence) and not isinstance(given, str) and len(given) in (2, 3):
+        element, which, *_ = given
+        is_element = element is not None and not isinstance(element, (bool, float))
+        if is_element and isinstance(which, (int, str)) and not isinstance(which, bool):
+            return tuple(given)
+    raise TypeError(_REQUEST_RELEASE.format(in_short(given)))
 
 
 def _stiffness(given: Any) -> float:
@@ -365,26 +333,22 @@ def _stiffness(given: Any) -> float:
 
 
 def _stroke(given: object) -> StrokeRequest:
-    if isinstance(given, StrokeRequest):
-        return given
     if isinstance(given, str):
         return stroke_of(given)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
-        name = _named(name)
-        return StrokeRequest(point, name, _measured(start, name), _measured(stop, name))
+        name, unit = _coordinate_given(name)
+        return point, name, measured(start, unit), measured(stop, unit), False
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
     )
 
 
-def _named(name: object) -> str:
-    return _one_of("a coordinate", name, _NAMES)
-
-
-def _measured(given: object, coordinate: str) -> float:
-    return measured(given, "rad" if coordinate.startswith("r") else "m")
+def _coordinate_given(name: object) -> tuple[str, str]:
+    """A coordinate as it is given in Python, with its unit."""
+    name = _one_of("a coordinate", name, _NAMES)
+    return name, "rad" if name.startswith("r") else "m"
 
 
 def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
@@ -396,14 +360,12 @@ def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
 
 
 def _misalignment(given: object) -> MisalignmentRequest:
-    if isinstance(given, MisalignmentRequest):
-        return given
     if isinstance(given, str):
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
-        clamp, name, value, *about = given
-        name = _named(name)
-        return MisalignmentRequest(clamp, name, _measured(value, name), *about)
+        clamp, name, value, about = (*given, None)[:4]
+        name, unit = _coordinate_given(name)
+        return clamp, name, measured(value, unit), about
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

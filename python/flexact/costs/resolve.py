@@ -7,15 +7,15 @@ import numpy as np
 
 from ..analysis.locate import node_of
 from ..analysis.places import node_words, part_words
+from ..core.arrays import FloatArray
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..deck.rendering import ModelError, model_error
 from ..elasticity import ElasticError
 from ..elasticity.errors import require_within
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from .designs import DIRECTIONS, PLANAR, Clamp, Misalignment, Point, words_of_direction
+from .designs import Clamp, Misalignment, Point, Stroke, words_of_direction
 from .request import Request
-from .stroke import StrokePoints, values_of
 
 
 class Places:
@@ -27,11 +27,6 @@ class Places:
         self.classes = data.arrays.coordinate_class
         self.numbers = data.arrays.node_number.tolist()
 
-    @property
-    def size(self) -> float:
-        """Of the model [m]."""
-        return self.data.size
-
     def clamps(self) -> tuple[Clamp, ...]:
         """Supports with something held, by the numbers of their nodes; driven ones are none."""
         made: dict[int, Clamp] = {}
@@ -41,11 +36,14 @@ class Places:
                 made.setdefault(clamp.node, clamp)
         return tuple(made.values())
 
-    def held(self, node: int) -> tuple[str, ...]:
-        """Coordinates of a node, by its index, that are fixed, such as ("x", "rz")."""
+    def coordinates(self, node: int) -> dict[str, int]:
+        """The class of each coordinate of a node, by its index, such as of "x" and "rz"."""
         kind = int(self.data.arrays.node_kind[node])
-        fixed = self.classes[:, node] == Class.FIXED
-        return tuple(coordinate_name(kind, axis) for axis in AXES[kind] if fixed[axis])
+        return {coordinate_name(kind, k): int(self.classes[k, node]) for k in AXES[kind]}
+
+    def held(self, node: int) -> tuple[str, ...]:
+        """Those that are fixed."""
+        return tuple(n for n, each in self.coordinates(node).items() if each == Class.FIXED)
 
     def directions(self, clamp: Clamp) -> tuple[str, ...]:
         """Directions in which a clamp holds, and so may be misaligned."""
@@ -96,24 +94,14 @@ class Places:
                     return int(slots[op, element])
         return None
 
-    def node(self, target: object) -> int:
-        """Index of the node that is meant: its number, a name, a place, or a handle.
-
-        Raises:
-            ModelError: there is none, or there are several.
-            TypeError: it is nothing of that.
-        """
-        return node_of(self.parts, target)
-
     def drives(self) -> tuple[tuple[int, str], ...]:
         """Declared coordinates, (number of the node, name), in the order of the nodes."""
-        made = []
-        for node in np.flatnonzero((self.classes == Class.INDEPENDENT).any(axis=0)).tolist():
-            kind = int(self.data.arrays.node_kind[node])
-            for axis in AXES[kind]:
-                if self.classes[axis, node] == Class.INDEPENDENT:
-                    made.append((self.numbers[node], coordinate_name(kind, axis)))
-        return tuple(made)
+        return tuple(
+            (self.numbers[node], name)
+            for node in np.flatnonzero((self.classes == Class.INDEPENDENT).any(axis=0)).tolist()
+            for name, each in self.coordinates(node).items()
+            if each == Class.INDEPENDENT
+        )
 
     def point(self, at: object) -> Point:
         """The point at which stiffness is measured.
@@ -126,7 +114,7 @@ class Places:
             ModelError: there is no such point, or nothing that can move.
         """
         if at is not None:
-            return self._made(self.node(at), "as asked for")
+            return self._made(node_of(self.parts, at), "as asked for")
         drives = self.drives()
         if drives:
             return self._made(self.data.node_index[drives[0][0]], "the driven point")
@@ -147,8 +135,7 @@ class Places:
             points = [n for n in body.positions if (self.classes[:, n] > Class.FIXED).any()]
             hanging = {part for n in points for part in self.parts.at(n)}
             if points and (best is None or len(hanging) > best[0]):
-                point = max(points, key=lambda n: len(self.parts.elements_at(n)))
-                best = len(hanging), point
+                best = len(hanging), max(points, key=lambda n: len(self.parts.elements_at(n)))
         return None if best is None else best[1]
 
     def _made(self, node: int, reason: str) -> Point:
@@ -165,21 +152,6 @@ class Places:
         words = f"node {number} ({own})" if own else f"node {number}"
         return Point(number, None if turned is None else self.numbers[turned], words, reason)
 
-    def words(self, node: int) -> str:
-        """What a node, by its number, is called in a sentence."""
-        return node_words(self.parts, self.data.node_index[node])
-
-
-def directions_of(data: ModelData, point: Point) -> tuple[str, ...]:
-    """Directions of a point: six, three in the plane, without an orientation its displacements."""
-    every = PLANAR if data.planar else DIRECTIONS
-    kind = data.arrays.node_kind[data.node_index[point.node]]
-    if kind > NodeKind.POSITION:
-        return tuple(name for name in every if name.startswith("r"))
-    if point.orientation is None:
-        return tuple(name for name in every if not name.startswith("r"))
-    return every
-
 
 def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float], ...]:
     """The misalignments that are given together.
@@ -190,29 +162,29 @@ def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float]
     """
     made: list[tuple[Misalignment, float]] = []
     wrong: list[ModelError] = []
-    for each in asked.misalign:
+    for target, coordinate, value, about in asked.misalign:
         try:
-            clamp = places.clamp_of(places.node(each.clamp))
+            clamp = places.clamp_of(node_of(places.parts, target))
             held = places.directions(clamp)
-            if each.coordinate not in held:
+            if coordinate not in held:
                 what = f"it holds {', '.join(held)}" if held else "it is free: no clamp"
-                words = f"node {clamp.node} does not hold {each.coordinate}"
+                words = f"node {clamp.node} does not hold {coordinate}"
                 raise model_error("not-held", words, what)
             if not asked.beyond:
-                words = f"the misalignment of {clamp.words} {words_of_direction(each.coordinate)}"
-                _require_within(each.value, places.size, each.coordinate, words)
-            about = None
-            if each.about is not None:
-                pivot = places.parts.place_of(places.node(each.about))
+                words = f"the misalignment of {clamp.words} {words_of_direction(coordinate)}"
+                _require_within(value, places.data.size, coordinate, words)
+            centre = None
+            if about is not None:
+                pivot = places.parts.place_of(node_of(places.parts, about))
                 if pivot is None:
-                    words = f"node {each.about} is an orientation without a position"
+                    words = f"node {about} is an orientation without a position"
                     raise model_error("no-such-node", words)
-                about = places.numbers[pivot]
-            misalignment = Misalignment(clamp, each.coordinate, about)
+                centre = places.numbers[pivot]
+            misalignment = Misalignment(clamp, coordinate, centre)
             if any(misalignment == before for before, _ in made):
-                words = f"{each.coordinate} of node {clamp.node} is misaligned twice"
+                words = f"{coordinate} of node {clamp.node} is misaligned twice"
                 raise model_error("given-twice", words, "give it once, with their sum")
-            made.append((misalignment, each.value))
+            made.append((misalignment, value))
         except ModelError as error:
             wrong.append(error)
     if len(wrong) == 1:
@@ -224,36 +196,43 @@ def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float]
     return tuple(made)
 
 
-def stroke_of(places: Places, asked: Request) -> StrokePoints | None:
-    """The stroke that is asked for, with its places.
+def stroke_of(places: Places, asked: Request) -> tuple[Stroke, FloatArray] | None:
+    """The stroke that is asked for, with its places, absolute and ascending.
 
     Raises:
         ModelError: there is no such point, the coordinate is not there or is fixed, or the stroke
             leads farther than the model is large, and not `beyond`.
     """
-    wish = asked.stroke
-    if wish is None:
+    if asked.stroke is None:
         return None
-    node = _owner(places, places.node(wish.point), wish.coordinate)
-    axis = "xyz".index(wish.coordinate[-1])
+    target, coordinate, start, stop, is_offset = asked.stroke
+    node = _owner(places, node_of(places.parts, target), coordinate)
+    axis = "xyz".index(coordinate[-1])
     data = places.data
     if data.arrays.coordinate_class[axis, node] == Class.FIXED:
         raise model_error(
             "fixed-drive",
-            f"{wish.coordinate} of node {places.numbers[node]} is fixed and cannot be driven",
+            f"{coordinate} of node {places.numbers[node]} is fixed and cannot be driven",
             "a clamp is moved with --misalign (misalign=)",
         )
     # Rotations begin at zero.
     turns = data.arrays.node_kind[node] > NodeKind.POSITION
     rest = 0.0 if turns else float(data.arrays.node_value[axis, node])
-    offset = rest if wish.is_offset else 0.0
+    offset = rest if is_offset else 0.0
     # An angle may be of any number of turns.
-    is_any = asked.beyond or wish.coordinate.startswith("r")
-    for value in () if is_any else (wish.start, wish.stop):
-        words = f"the stroke of {places.words(places.numbers[node])} along {wish.coordinate}"
-        _require_within(value + offset - rest, places.size, wish.coordinate, words)
-    values = values_of(wish.start + offset, wish.stop + offset, asked.points, rest)
-    return StrokePoints(places.numbers[node], wish.coordinate, rest, values)
+    is_any = asked.beyond or coordinate.startswith("r")
+    owner, number = node_words(places.parts, node), places.numbers[node]
+    first, last = sorted((start + offset, stop + offset))
+    for value in () if is_any else (start + offset, stop + offset):
+        what = f"the stroke of {owner} along {coordinate}"
+        _require_within(value - rest, data.size, coordinate, what)
+    values = np.linspace(first, last, asked.points)
+    if values[0] < rest < values[-1]:
+        # Where it rests is one of them.
+        values[int(np.argmin(np.abs(values - rest)))] = rest
+    words = f"node {number} ({owner}) {words_of_direction(coordinate)}"
+    whole = (float(values[0]), float(values[-1]))
+    return Stroke(number, coordinate, words, rest, whole, whole), values
 
 
 def _require_within(value: float, size: float, coordinate: str, what: str) -> None:
@@ -272,25 +251,16 @@ def _owner(places: Places, node: int, name: str) -> int:
     place = places.parts.place_of(node)
     turned = node if place != node else places.orientation_of(node)
     for each in (node, place, turned):
-        if each is not None and name in _names(places.data, each):
+        if each is not None and name in places.coordinates(each):
             return each
     there = [
         n
         for each in dict.fromkeys((place, turned))
         if each is not None
-        for n in _names(places.data, each)
+        for n in places.coordinates(each)
     ]
     raise model_error(
         "no-such-coordinate",
         f"the point of node {places.numbers[node]} has no coordinate {name}",
         f"it has {', '.join(there)}",
-    )
-
-
-def _names(data: ModelData, node: int) -> tuple[str, ...]:
-    kind = int(data.arrays.node_kind[node])
-    return tuple(
-        coordinate_name(kind, axis)
-        for axis in range(3)
-        if data.arrays.coordinate_class[axis, node] != Class.NONE
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..elasticity.drives import is_far
+from ..elasticity.equilibria import is_far
 from ..util.text import columns, harmless, table, wrapped
 from .designs import (
     FREQUENCY,
@@ -23,7 +23,7 @@ from .designs import (
     scale_of,
     words_of_direction,
 )
-from .tolerances import FAR
+from .elastic_design import FAR
 
 #: Columns of text where nobody says how many there are.
 WIDTH = 80
@@ -42,7 +42,7 @@ def describe(cost: CostValues, width: int = WIDTH) -> str:
     """The cost for people, in rows of a width."""
     paragraphs = (
         _opening(cost, width),
-        _choices(cost, width),
+        (_choices(cost, width),),
         (_table(cost, width),),
         (wrapped(_weakest(design), width, "  ") for design in cost.designs),
         (wrapped(_legend(cost), width),),
@@ -102,13 +102,13 @@ def _opening(cost: CostValues, width: int) -> Iterator[str]:
         yield wrapped("It is not over-constrained: only what is compliant is stressed.", width)
 
 
-def _choices(cost: CostValues, width: int) -> Iterator[str]:
-    beams = f"{cost.beams} beams a sheet, uncertainty not known"
-    if cost.beams == "auto":
-        beams = "8 and 16 beams a sheet, extrapolated"
-    elif cost.beams == 1:
-        beams = "the deck's own elements, uncertainty not known"
-    yield wrapped(
+def _choices(cost: CostValues, width: int) -> str:
+    known = {
+        "auto": "8 and 16 beams a sheet, extrapolated",
+        1: "the deck's own elements, uncertainty not known",
+    }
+    beams = known.get(cost.beams, f"{cost.beams} beams a sheet, uncertainty not known")
+    return wrapped(
         f"At {harmless(cost.point.words)}, {cost.point.reason}. Held deformations {cost.held}, "
         f"drive {cost.drive}, {beams}.",
         width,
@@ -118,14 +118,13 @@ def _choices(cost: CostValues, width: int) -> Iterator[str]:
 def _table(cost: CostValues, width: int) -> str:
     """The designs, with as many uncertainties as there is room for: the last columns first."""
     for first in range(len(_HEADINGS) + 1):
-        rows = [_SECOND, *(_row(design, first) for design in cost.designs)]
-        widths = (max(map(columns, cells)) for cells in zip(_HEADINGS, *rows, strict=True))
+        rows = [_HEADINGS, _SECOND, *(_row(design, first) for design in cost.designs)]
+        widths = (max(map(columns, cells)) for cells in zip(*rows, strict=True))
         if sum(widths) + _GAP * (len(_HEADINGS) - 1) <= width:
-            break
-    else:
-        # A list has room for all of them.
-        rows = [_SECOND, *(_row(design, 0) for design in cost.designs)]
-    return table((_HEADINGS, *rows), width, second=True)
+            return table(rows, width, second=True)
+    # A list has room for all of them.
+    rows = [_HEADINGS, _SECOND, *(_row(design, 0) for design in cost.designs)]
+    return table(rows, width, second=True)
 
 
 def _row(design: Design, first: int) -> tuple[str, ...]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -11,7 +12,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..analysis.decomposition import asked_for
+from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
+from ..core.elastic import RawMatrices
 from ..core.elements import Class, NodeKind
 from ..model.configuration import Configuration
 from ..model.data import ModelData
@@ -22,13 +26,31 @@ from ..util.quantities import Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.rotations import vector_of_euler
 from ..util.text import in_short
-from . import drives, imperfections
-from .drives import force_of, reaction_of, strokes_given, value_at, warn_where_far
-from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, require_within
-from .imperfections import Angle, Imperfection, misalignment, number_given, warmth
+from . import equilibria
+from .equilibria import (
+    Angle,
+    Imperfection,
+    at_rest,
+    force_of,
+    is_far,
+    misalignment,
+    number_given,
+    reaction_of,
+    strokes_given,
+    value_at,
+    warmth,
+)
+from .errors import (
+    ElasticError,
+    Estimate,
+    StrokeWarning,
+    matched_by_order,
+    matched_by_sign,
+    require_within,
+)
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
-from .reduced import Reduced, Reducer, Resultants, peak_of, resultants_of
+from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
 from .solution import (
     DRIVES,
     HELD,
@@ -41,15 +63,14 @@ from .solution import (
     Solution,
     Solver,
     choice,
-    indexed,
     kept,
     loose_motion,
-    numbered,
     policy_of,
     releases_given,
 )
 from .tolerance import Linear, Pair
-from .verdicts import Verdict, Verdicts
+
+Match = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -84,7 +105,7 @@ class Elastic(Frozen):
     @cached_property
     def policy(self) -> Policy:
         """What is rigid, what is elastic and what is released."""
-        return policy_of(self.data, self.held, indexed(self.data, self.release))
+        return policy_of(self.data, self.held, self.release)
 
     @cached_property
     def solvers(self) -> tuple[Solver, ...]:
@@ -93,7 +114,7 @@ class Elastic(Frozen):
         made = divisions(self.data, self.beams, which)
         if self.only is not None:
             made = (made[self.only],)
-        return tuple(Solver(Mesh.of(self.data, pieces), self.policy) for pieces in made)
+        return tuple(Solver(Mesh(self.data, pieces), self.policy) for pieces in made)
 
     @cached_property
     def locked(self) -> Held:
@@ -109,12 +130,11 @@ class Elastic(Frozen):
         return Reducer(self.data, self.policy)
 
     @cached_property
-    def verdicts(self) -> Verdicts:
-        """Judges configurations by the deck's classes; what is released counts as that."""
+    def result(self) -> Result:
+        """The analysis of the deck's classes at rest; what is released counts as that."""
         released = {pair: Class.DEPENDENT for pair in self.release}
         data = with_classes(self.data, released, {}) if released else self.data
-        _, c_t = self.solvers[-1].elastic
-        return Verdicts(data, c_t[self.solvers[-1].mesh.first])
+        return result_of(data, asked_for("auto", None), None, None, Result)
 
     @property
     def has_mass(self) -> bool:
@@ -151,9 +171,10 @@ class Elastic(Frozen):
         Raises:
             ElasticError: it is over-constrained, and held rigid.
         """
-        if self.held == "rigid" and self.verdicts.over_constrained:
+        over = self.result.over_constrained if self.held == "rigid" else 0
+        if over:
             raise ElasticError(
-                f"the mechanism is over-constrained by {self.verdicts.over_constrained} and what "
+                f"the mechanism is over-constrained by {over} and what "
                 "is fixed is held rigid: the stress that something off causes is then not "
                 "determined; ask with held elastic"
             )
@@ -172,18 +193,6 @@ class Elastic(Frozen):
             "no drive acts in this state: ask a state of along(), or lock the only declared "
             'coordinate with drive="locked"; reaction() gives the force of whatever is held'
         )
-
-    def notes_of(self, at: Solution) -> tuple[str, ...]:
-        """What is to be known about the numbers of a state."""
-        made = []
-        if self.held == "rigid" and at.is_stressed and self.verdicts.over_constrained:
-            made.append(
-                f"over-constrained by {self.verdicts.over_constrained} and held rigid: of all "
-                "stresses in equilibrium with the loads those of least norm are taken"
-            )
-        if not at.is_confirmed:
-            made.append("it is not confirmed that no frequency or multiplier is missing in between")
-        return tuple(made)
 
     @property
     def words(self) -> str:
@@ -263,9 +272,10 @@ class Elastic(Frozen):
         for solver in self.solvers:
             key = (solver, *what)
             if key not in self._linears:
-                self._linears[key] = Linear(solver, self.locked, off)
+                self._linears[key] = Linear(at_rest(solver, self.locked), off)
             found.append(of(self._linears[key]))
-        return found[0] if len(found) == 1 else tuple(Estimate.of(*found).value.tolist())
+        low, high = Estimate.of(*found).value.tolist()
+        return low, high
 
     @cached_property
     def _linears(self) -> dict[object, Linear]:
@@ -288,18 +298,16 @@ class Elastic(Frozen):
             UnknownError: there is no such node, element or deformation.
             ElasticError: nothing has a stiffness.
         """
-        both = {**self.release, **numbered(self.data, releases_given(self.points, release))}
+        both = {**self.release, **releases_given(self.points, release)}
         self.require_stiffness()
         other = replace(self, release=both)
         point = self.points.of(node)
         coordinates = self.points.coordinates(point)
-        found = []
-        for mine, its in zip(self.solvers, other.solvers, strict=True):
-            before, after = (
-                drives.at_rest(each, self.locked).compliance(point, coordinates)
-                for each in (mine, its)
-            )
-            found.append(kept(before, after))
+        before, after = (
+            [at_rest(s, self.locked).compliance(point, coordinates) for s in each.solvers]
+            for each in (self, other)
+        )
+        found = [kept(*both) for both in zip(before, after, strict=True)]
         if len(found) == 1 or found[0].shape != found[1].shape:
             return found[-1]
         return np.array(np.clip(Estimate.of(*found).value, 0.0, 1.0))
@@ -310,13 +318,13 @@ class Elastic(Frozen):
         Args:
             quantity: What is wanted, such as `lambda m: m.critical_misalignment(11, "x")`.
         """
-        if len(self.solvers) == 1:
-            return Estimate.fixed(quantity(self))
         return Estimate.of(*map(quantity, self.alone))
 
     @cached_property
     def alone(self) -> tuple[Elastic, ...]:
         """This model with each of its meshes alone."""
+        if len(self.solvers) == 1:
+            return (self,)
         made = tuple(replace(self, only=k) for k in range(len(self.solvers)))
         for each, solver in zip(made, self.solvers, strict=True):
             # What was computed is not computed again.
@@ -327,7 +335,7 @@ class Elastic(Frozen):
 
     def undeformed(self) -> State:
         """As the deck gives it, without loads or anything off."""
-        made = tuple(drives.at_rest(each, self.locked) for each in self.solvers)
+        made = tuple(at_rest(each, self.locked) for each in self.solvers)
         return State(self, "undeformed", None, made)
 
     def assembled(self) -> State:
@@ -348,7 +356,7 @@ class Elastic(Frozen):
             ElasticError: the factor is no finite number.
         """
         factor = number_given(load, "the load")
-        made = tuple(drives.loaded(at, factor) for at in self._assembled())
+        made = tuple(equilibria.loaded(at, factor) for at in self._assembled())
         under = (
             f"under {factor:g} times the loads" if self.data.loads else "without loads in the deck"
         )
@@ -386,22 +394,27 @@ class Elastic(Frozen):
             StrokeError: a value was not reached; `reached` is the last one that was.
         """
         drive = self.points.coordinate(node, coordinate)
-        if self.points.has_class(drive, Class.FIXED):
+        if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:
             raise ElasticError(
                 f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
             )
         given = list(values) if isinstance(values, (range, Iterator)) else values
         kind = self.points.kinds[drive.node]
         given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
-        rest = value_at(drives.at_rest(self.solvers[0], self.locked), drive)
-        is_turn = bool(kind == NodeKind.ORIENTATION)
-        there = strokes_given(given, is_turn, rest if from_rest else 0.0)
+        rest = value_at(at_rest(self.solvers[0], self.locked), drive)
+        there = strokes_given(given, bool(kind == NodeKind.ORIENTATION), rest if from_rest else 0.0)
         what = self.points.words(drive)
         # An angle may be of any number of turns.
         for value in () if beyond or kind > NodeKind.POSITION else there:
             require_within(value - rest, self.data.size, False, f"a stroke of {what}")
-        if not from_rest:
-            warn_where_far(there, rest, what)
+        if not from_rest and is_far(there, rest):
+            warnings.warn(
+                f"{what} rests at {rest:.6g}, and the stroke from {there[0]:.6g} to "
+                f"{there[-1]:.6g} begins {abs(there[0] - rest):.6g} from there: is from_rest=True "
+                "meant?",
+                StrokeWarning,
+                stacklevel=2,
+            )
         return self.driven(drive, there)
 
     def driven(self, drive: Coordinate, values: Sequence[float]) -> tuple[State, ...]:
@@ -414,7 +427,7 @@ class Elastic(Frozen):
         is_turn = self.points.kinds[drive.node] == NodeKind.ORIENTATION
         there = strokes_given(list(values), bool(is_turn), 0.0)
         ways = [
-            drives.driven(at, self.points, drive, there, self.drive == "locked")
+            equilibria.driven(at, self.points, drive, there, self.drive == "locked")
             for at in self._assembled()
         ]
         words = self.points.words(drive)
@@ -446,8 +459,7 @@ class Elastic(Frozen):
                 larger than the model, and not `beyond`.
             StrokeError: no equilibrium was found.
         """
-        off = misalignment(self.points, node, coordinate, value, about, beyond)
-        return self._imperfect(off)
+        return self._imperfect(misalignment(self.points, node, coordinate, value, about, beyond))
 
     def misfit(
         self, element: object, deformation: int, value: float, beyond: bool = False
@@ -466,9 +478,7 @@ class Elastic(Frozen):
             ElasticError: it is over-constrained, and held rigid.
             StrokeError: no equilibrium was found.
         """
-        return self._imperfect(
-            imperfections.misfit(self.points, element, deformation, value, beyond)
-        )
+        return self._imperfect(equilibria.misfit(self.points, element, deformation, value, beyond))
 
     def warmed(self, kelvin: float, expansion: float, elements: object = None) -> State:
         """Elements that are warmer than the ground, and so longer.
@@ -504,9 +514,9 @@ class Elastic(Frozen):
             UnknownError: something is not there.
             ElasticError: something is wrong with a value.
         """
-        moved = partial(imperfections.misalignment, self.points, beyond=beyond)
+        moved = partial(equilibria.misalignment, self.points, beyond=beyond)
         off = [moved(*each) for each in misaligned]
-        off += [imperfections.misfit(self.points, *each, beyond=beyond) for each in misfit]
+        off += [equilibria.misfit(self.points, *each, beyond=beyond) for each in misfit]
         if warmed is not None:
             off.append(warmth(self.points, *warmed))
         return replace(self, off=(*self.off, *off))
@@ -517,7 +527,7 @@ class Elastic(Frozen):
     def _assembled(self) -> tuple[Solution, ...]:
         if self.off:
             self.require_determined()
-        return tuple(drives.assembled(each, self.off, self.locked) for each in self.solvers)
+        return tuple(equilibria.assembled(each, self.off, self.locked) for each in self.solvers)
 
     def __repr__(self) -> str:
         """The choices."""
@@ -555,8 +565,6 @@ class State(Frozen):
         Args:
             quantity: What is wanted of a state, such as `lambda s: s.frequencies[0]`.
         """
-        if len(self.alone) == 1:
-            return Estimate.fixed(quantity(self.alone[0]))
         return Estimate.of(*map(quantity, self.alone))
 
     @cached_property
@@ -568,20 +576,8 @@ class State(Frozen):
 
     def best(self, of: Callable[[Solution], ArrayLike]) -> FloatArray:
         """Numbers of the state of a mesh, extrapolated from those of both."""
-        values = [np.asarray(of(each), np.float64) for each in self.meshes]
-        made = values[0] if len(values) == 1 else Estimate.of(*values).value
         # A zero has no sign.
-        return np.array(made) + 0.0
-
-    def eigenvalues(
-        self,
-        of: Callable[[Solution], FloatArray],
-        match: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]],
-    ) -> FloatArray:
-        """Eigenvalues likewise, of which `match` finds for each its like; ascending."""
-        values = [of(each) for each in self.meshes]
-        made = values[0] if len(values) == 1 else Estimate.of(*match(*values)).value
-        return np.sort(made) + 0.0
+        return np.array(Estimate.of(*map(of, self.meshes)).value) + 0.0
 
     # -- where it is, and what it carries ------------------------------------------------------
 
@@ -593,8 +589,7 @@ class State(Frozen):
     @cached_property
     def configuration(self) -> Configuration:
         """Where the nodes of the finer mesh are; those of the deck come first."""
-        kinds = self.data.arrays.node_kind
-        return Configuration(kinds, self.finest.raw.configuration.T)
+        return Configuration(self.data.arrays.node_kind, self.finest.raw.configuration.T)
 
     def position(self, node: object) -> FloatArray | Angle:
         """Where a node is.
@@ -643,8 +638,7 @@ class State(Frozen):
             UnknownError: there is no such element.
         """
         e = self.model.points.element(element)
-        stress = self.best(lambda at: at.stress[:, e])
-        return resultants_of(self.model.data, e, stress)
+        return resultants_of(self.model.data, e, self.best(lambda at: at.stress[:, e]))
 
     def peak_stress(self, element: object) -> float:
         """The largest normal stress [Pa] anywhere in an element, or part, of known section.
@@ -700,12 +694,11 @@ class State(Frozen):
     # -- the deck's own elements and classes ---------------------------------------------------
 
     @cached_property
-    def _reduced(self) -> tuple[Reduced, ...]:
+    def _reduced(self) -> tuple[RawMatrices, ...]:
         return tuple(self.model.reducer.of(at) for at in self.meshes)
 
     def _matrix(self, which: int) -> FloatArray:
-        values = [each[which] for each in self._reduced]
-        return values[0] if len(values) == 1 else Estimate.of(*values).value
+        return np.array(Estimate.of(*(each[which] for each in self._reduced)).value)
 
     @property
     def mass_matrix(self) -> FloatArray:
@@ -727,29 +720,38 @@ class State(Frozen):
         return self._matrix(2)
 
     @cached_property
-    def _verdict(self) -> Verdict:
+    def _verdict(self) -> tuple[int, int, float]:
         mesh = self.finest.solver.mesh
-        return self.model.verdicts.of(mesh.own_nodes(self.finest.raw.configuration))
+        here = mesh.own_nodes(self.finest.raw.configuration)
+        return verdict_of(self.model.result, here, self.finest.solver.elastic[1][mesh.first])
 
     @property
     def under_constrained(self) -> int:
         """Number of motions here that nothing determines, by the deck's classes."""
-        return self._verdict.under_constrained
+        return self._verdict[0]
 
     @property
     def over_constrained(self) -> int:
         """Number of self-stresses here, by the deck's classes."""
-        return self._verdict.over_constrained
+        return self._verdict[1]
 
     @property
     def smallest_singular_value(self) -> float:
         """The smallest singular value of D(c) itself here, in the deck's units."""
-        return self._verdict.smallest_singular_value
+        return self._verdict[2]
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known about the numbers of this state."""
-        return self.model.notes_of(self.finest)
+        made, over = [], self.model.result.over_constrained
+        if self.model.held == "rigid" and self.finest.is_stressed and over:
+            made.append(
+                f"over-constrained by {over} and held rigid: of all stresses in equilibrium with "
+                "the loads those of least norm are taken"
+            )
+        if not self.finest.is_confirmed:
+            made.append("it is not confirmed that no frequency or multiplier is missing in between")
+        return tuple(made)
 
     # -- how it answers to small changes -------------------------------------------------------
 
@@ -798,7 +800,8 @@ class State(Frozen):
         self.model.require_mass()
         for at in self.meshes:
             at.require_stiffness()
-        return self.eigenvalues(lambda at: at.frequencies, matched_by_order)
+        values = [at.frequencies for at in self.meshes]
+        return np.sort(_estimated(values, matched_by_order).value) + 0.0
 
     @cached_property
     def modes(self) -> FloatArray:
@@ -818,7 +821,8 @@ class State(Frozen):
         """
         for at in self.meshes:
             at.require_stiffness()
-        return self.eigenvalues(lambda at: at.buckling.values, matched_by_sign)
+        values = [at.buckling.values for at in self.meshes]
+        return np.sort(_estimated(values, matched_by_sign).value) + 0.0
 
     @cached_property
     def buckling_modes(self) -> FloatArray:
@@ -838,12 +842,45 @@ class State(Frozen):
         )
 
     def describe(self) -> str:
-        """The state in plain English."""
-        return describe(self)
+        """What it is, its verdict, whether it is stable, frequencies and multipliers, in words."""
+        lines = [f"{self.label[:1].upper()}{self.label[1:]}; {self.model.words}."]
+        over, under = self.over_constrained, self.under_constrained
+        lines.append(
+            f"Over-constrained by {over}, under-constrained by {under}, by the deck's classes."
+        )
+        if self.drive is not None:
+            lines.append(f"Force of the drive: {self.force:.6g}.")
+        lines.append(f"Elastic energy: {self.energy:.6g} J.")
+        if not self.is_stable:
+            lines.append("Buckled: this state is unstable.")
+        elif self.loose:
+            several = "s" * (len(self.loose) > 1)
+            motions = "; ".join(map(str, self.loose[:_MOST_TOLD]))
+            lines.append(f"{len(self.loose)} motion{several} without stiffness: {motions}.")
+        else:
+            lines.append("Stable.")
+        if self.model.has_mass:
+            every = [each.frequencies for each in self.alone]
+            lines.append(f"Frequencies: {_listed(_estimated(every, matched_by_order))} Hz.")
+        else:
+            lines.append("Nothing has a mass (EM, XM): there are no frequencies.")
+        if self.finest.is_stressed:
+            try:
+                every = [each.multipliers for each in self.alone]
+                told = _listed(_estimated(every, matched_by_sign)) or "none"
+            except ElasticError as error:
+                told = str(error)
+            lines.append(f"Multipliers: {told}.")
+        return "\n".join((*lines, *(f"Note: {note}." for note in self.notes)))
 
     def __repr__(self) -> str:
         """What it is a state of."""
         return f"<State: {self.label}, {self.model.words}>"
+
+
+def _estimated(values: Sequence[FloatArray], match: Match) -> Estimate:
+    """Eigenvalues of one mesh, or of two, of which `match` finds for each its like."""
+    return Estimate.of(*(match(*values) if len(values) > 1 else values))
 
 
 #: How many eigenvalues are told.
@@ -852,42 +889,8 @@ _MOST_TOLD = 6
 _SHOWN = 1.0e-6
 
 
-def describe(state: State) -> str:
-    """What a state is, its verdict, whether it is stable, frequencies and multipliers."""
-    lines = [f"{state.label[:1].upper()}{state.label[1:]}; {state.model.words}."]
-    over, under = state.over_constrained, state.under_constrained
-    lines.append(
-        f"Over-constrained by {over}, under-constrained by {under}, by the deck's classes."
-    )
-    if state.drive is not None:
-        lines.append(f"Force of the drive: {state.force:.6g}.")
-    lines.append(f"Elastic energy: {state.energy:.6g} J.")
-    if not state.is_stable:
-        lines.append("Buckled: this state is unstable.")
-    elif state.loose:
-        several = "s" * (len(state.loose) > 1)
-        motions = "; ".join(map(str, state.loose[:_MOST_TOLD]))
-        lines.append(f"{len(state.loose)} motion{several} without stiffness: {motions}.")
-    else:
-        lines.append("Stable.")
-    if state.model.has_mass:
-        lines.append(f"Frequencies: {_listed(state, 'frequencies')} Hz.")
-    else:
-        lines.append("Nothing has a mass (EM, XM): there are no frequencies.")
-    if state.finest.is_stressed:
-        try:
-            lines.append(f"Multipliers: {_listed(state, 'multipliers') or 'none'}.")
-        except ElasticError as error:
-            lines.append(f"Multipliers: {error}.")
-    lines += [f"Note: {note}." for note in state.notes]
-    return "\n".join(lines)
-
-
-def _listed(state: State, name: str) -> str:
+def _listed(found: Estimate) -> str:
     """Such as "9.92 (+- 0.01), 403"; the nearest to zero, ascending."""
-    every = [getattr(each, name) for each in state.alone]
-    match = matched_by_sign if name == "multipliers" else matched_by_order
-    found = Estimate.of(*match(*every)) if len(every) > 1 else Estimate.fixed(every[0])
     least = _SHOWN * np.abs(found.value)
     nearest = np.argsort(np.abs(found.value), kind="stable")[:_MOST_TOLD]
     chosen = sorted(nearest.tolist(), key=lambda k: float(found.value[k]))
@@ -931,11 +934,6 @@ def elastic(
         raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
     data = (model if isinstance(model, Model) else read(model)).data
     data.require_sound()
-    released = numbered(data, releases_given(Points(data), release))
-    return Elastic(
-        data,
-        choice(held, HELD, "held"),
-        choice(drive, DRIVES, "drive"),
-        released,
-        beams_given(beams),
-    )
+    released = releases_given(Points(data), release)
+    held, drive = choice(held, HELD, "held"), choice(drive, DRIVES, "drive")
+    return Elastic(data, held, drive, released, beams_given(beams))

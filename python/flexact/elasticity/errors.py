@@ -90,19 +90,22 @@ class Estimate(Frozen):
     is_extrapolated: bool = True
 
     @classmethod
-    def of(cls, coarse: ArrayLike, fine: ArrayLike) -> Estimate:
+    def of(cls, coarse: ArrayLike, fine: ArrayLike | None = None) -> Estimate:
         """From a quantity with n and with 2 n beams; what is infinite in one is that of the finer.
+
+        Without the finer one it is that of a fixed number of beams.
 
         Raises:
             ValueError: the shapes differ.
         """
+        if fine is None:
+            return cls.fixed(coarse)
         one, two = np.asarray(coarse, np.float64), np.asarray(fine, np.float64)
         if one.shape != two.shape:
             raise ValueError(f"the quantity has shapes {one.shape} and {two.shape}")
         both = np.isfinite(one) & np.isfinite(two)
         step = np.where(both, np.where(both, two, 0.0) - np.where(both, one, 0.0), 0.0) / 3.0
-        unknown = np.where(np.isfinite(two) & ~both, np.inf, SAFETY * np.abs(step))
-        return cls(two + step, unknown)
+        return cls(two + step, np.where(np.isfinite(two) & ~both, np.inf, SAFETY * np.abs(step)))
 
     @classmethod
     def fixed(cls, value: ArrayLike) -> Estimate:

@@ -69,15 +69,12 @@ def divisible(data: ModelData, stiff: BoolArray, rigid: BoolArray) -> BoolArray:
     found = member_table()[arrays.element_kind] == Member.BEAM
     planar = arrays.deformation_class[3] == Class.NONE
     for is_planar, groups in _GROUPS.items():
-        fits = np.ones(found.shape, np.bool_)
-        for group in groups:
-            rows = list(group)
-            fits &= stiff[rows].all(axis=0) | rigid[rows].all(axis=0)
-        bends = np.zeros(found.shape, np.bool_)
-        for group in groups:
+        fits, bends = np.ones(found.shape, np.bool_), np.zeros(found.shape, np.bool_)
+        for group in map(list, groups):
+            is_stiff, is_rigid = stiff[group].all(axis=0), rigid[group].all(axis=0)
+            fits &= is_stiff | is_rigid
             if len(group) == 2:
-                rows = list(group)
-                bends |= stiff[rows].all(axis=0) & ~rigid[rows].all(axis=0)
+                bends |= is_stiff & ~is_rigid
         found &= (planar != is_planar) | (fits & bends)
     return np.asarray(found & (data.frames.length > 0.0))
 
@@ -87,16 +84,14 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
 
     A sheet that the deck divides into k beams counts as k of them.
     """
-    if beams == 1:
-        return (np.ones(which.shape, np.int32),)
     there = np.ones(which.shape, np.int32)
+    if beams == 1:
+        return (there,)
     for row in _uniform_rows(data):
         there[row] = len(row)
     wanted = COARSE if beams == "auto" else beams
     pieces = np.where(which, -(-wanted // there), 1).astype(np.int32)
-    if beams != "auto":
-        return (pieces,)
-    if not which.any():
+    if beams != "auto" or not which.any():
         return (pieces,)
     return pieces, np.where(which, 2 * pieces, 1).astype(np.int32)
 
@@ -117,29 +112,6 @@ def _uniform_rows(data: ModelData) -> Iterator[list[int]]:
         yield row
 
 
-def rigid_of_pieces(
-    rigid: BoolArray, owner: IntArray, is_first: BoolArray, is_last: BoolArray, kinds: IntArray
-) -> BoolArray:
-    """(6, pieces) which deformations of the pieces are rigid.
-
-    A bending that is rigid at both ends is so all along; at one end alone it is that of the end
-    piece.
-
-    Args:
-        rigid: (6, elements) of the deck's elements.
-        owner: (pieces,) element of each piece.
-        is_first: (pieces,) whether it is at p.
-        is_last: (pieces,) whether it is at q.
-        kinds: (elements,) element kinds.
-    """
-    made = rigid[:, owner]
-    for p, q, bends in bending_pairs(kinds):
-        one = bends[owner] & (made[p] != made[q])
-        made[p] &= ~one | is_first
-        made[q] &= ~one | is_last
-    return made
-
-
 def bending_pairs(kinds: IntArray) -> tuple[tuple[int, int, BoolArray], ...]:
     """Deformations p and q, from 0, that bend about one axis, and (elements,) where they do."""
     roles = role_table()[kinds].T
@@ -147,30 +119,6 @@ def bending_pairs(kinds: IntArray) -> tuple[tuple[int, int, BoolArray], ...]:
         (p, q, np.asarray(np.isin(roles[p], list(AT_P)) & np.isin(roles[q], list(AT_Q))))
         for p, q in ((2, 3), (4, 5), (1, 2))
     )
-
-
-def spread_misfit(own: FloatArray, pieces: IntArray, kinds: IntArray) -> FloatArray:
-    """(6, pieces in all) what the pieces are made off where the elements are, (6, elements).
-
-    A length is shared out; a twist too, where e2 is a length times an angle; a bending is that
-    of the cubic with these slopes at its ends.
-    """
-    owner = np.repeat(np.arange(pieces.size), pieces)
-    count = pieces[owner].astype(np.float64)
-    place = np.arange(owner.size) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    made = own[:, owner].copy()
-    made[0] /= count
-    roles = role_table()[kinds].T
-    twists = (roles[1] == Role.TORSION)[owner]
-    made[1] = np.where(twists, made[1] / count**2, made[1])
-    low, high = place / count, (place + 1) / count
-    for p, q, there in bending_pairs(kinds):
-        at_p, at_q = own[p][owner], -own[q][owner]
-        chord = count * (_shape(high, at_p, at_q) - _shape(low, at_p, at_q))
-        fits = there[owner]
-        made[p] = np.where(fits, (_slope(low, at_p, at_q) - chord) / count, made[p])
-        made[q] = np.where(fits, -(_slope(high, at_p, at_q) - chord) / count, made[q])
-    return np.asfortranarray(made)
 
 
 def _shape(x: FloatArray, p: FloatArray, q: FloatArray) -> FloatArray:
@@ -189,29 +137,25 @@ class Mesh(Frozen):
     Attributes:
         own: The model as given.
         pieces: (elements,) how many beams stand for each element of it.
-        data: The model of the pieces; those of one element are in a row, from p to q.
     """
 
     own: ModelData
     pieces: IntArray
-    data: ModelData
 
-    @classmethod
-    def of(cls, own: ModelData, pieces: IntArray) -> Mesh:
-        """A model with so many pieces of each element."""
-        return cls(own, pieces, own if (pieces == 1).all() else _divided(own, pieces))
+    @cached_property
+    def data(self) -> ModelData:
+        """The model of the pieces; those of one element are in a row, from p to q."""
+        return self.own if (self.pieces == 1).all() else _divided(self)
 
     @cached_property
     def first(self) -> IntArray:
         """(elements,) index of the piece at p."""
-        made: IntArray = (np.cumsum(self.pieces) - self.pieces).astype(np.int32)
-        return made
+        return np.asarray(np.cumsum(self.pieces) - self.pieces, np.int32)
 
     @cached_property
     def owner(self) -> IntArray:
         """(pieces,) the element that each is of."""
-        made: IntArray = np.repeat(np.arange(self.pieces.size, dtype=np.int32), self.pieces)
-        return made
+        return np.repeat(np.arange(self.pieces.size, dtype=np.int32), self.pieces)
 
     @property
     def nodes(self) -> int:
@@ -221,12 +165,52 @@ class Mesh(Frozen):
     @property
     def last(self) -> IntArray:
         """(elements,) index of the piece at q."""
-        made: IntArray = self.first + self.pieces - 1
+        return np.asarray(self.first + self.pieces - 1)
+
+    @property
+    def place(self) -> IntArray:
+        """(pieces,) which of its element's pieces each is, from 0 at p."""
+        return np.arange(self.owner.size) - self.first[self.owner]
+
+    @property
+    def ends(self) -> tuple[BoolArray, BoolArray]:
+        """(pieces,) which are at p of their element, and which are at q."""
+        return self.place == 0, self.place == self.pieces[self.owner] - 1
+
+    def rigid(self, own: BoolArray) -> BoolArray:
+        """(6, pieces) which deformations of the pieces are rigid, of those of elements.
+
+        A bending that is rigid at both ends is so all along; at one end alone it is that of the
+        end piece.
+        """
+        made = own[:, self.owner]
+        is_first, is_last = self.ends
+        for p, q, bends in bending_pairs(self.own.arrays.element_kind):
+            one = bends[self.owner] & (made[p] != made[q])
+            made[p] &= ~one | is_first
+            made[q] &= ~one | is_last
         return made
 
     def misfit(self, own: FloatArray) -> FloatArray:
-        """(6, pieces) what is off of each piece where elements are off by (6, elements)."""
-        return spread_misfit(own, self.pieces, self.own.arrays.element_kind)
+        """(6, pieces) what the pieces are made off where the elements are, (6, elements).
+
+        A length is shared out; a twist too, where e2 is a length times an angle; a bending is
+        that of the cubic with these slopes at its ends.
+        """
+        owner, kinds = self.owner, self.own.arrays.element_kind
+        count = self.pieces[owner].astype(np.float64)
+        made = own[:, owner].copy()
+        made[0] /= count
+        twists = (role_table()[kinds][:, 1] == Role.TORSION)[owner]
+        made[1] = np.where(twists, made[1] / count**2, made[1])
+        low, high = self.place / count, (self.place + 1) / count
+        for p, q, there in bending_pairs(kinds):
+            at_p, at_q = own[p][owner], -own[q][owner]
+            chord = count * (_shape(high, at_p, at_q) - _shape(low, at_p, at_q))
+            fits = there[owner]
+            made[p] = np.where(fits, (_slope(low, at_p, at_q) - chord) / count, made[p])
+            made[q] = np.where(fits, -(_slope(high, at_p, at_q) - chord) / count, made[q])
+        return np.asfortranarray(made)
 
     def stress(self, of_pieces: FloatArray) -> FloatArray:
         """(6, elements) stresses of the deck's elements in their units, from (6, pieces).
@@ -248,11 +232,10 @@ class Mesh(Frozen):
         return np.asfortranarray(of_nodes[..., : self.nodes])
 
 
-def _divided(own: ModelData, pieces: IntArray) -> ModelData:
+def _divided(mesh: Mesh) -> ModelData:
     """The model of the pieces."""
+    own, pieces, owner, place = mesh.own, mesh.pieces, mesh.owner, mesh.place
     a = own.arrays
-    owner: IntArray = np.repeat(np.arange(pieces.size, dtype=np.int32), pieces)
-    place = np.arange(owner.size) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     inner: IntArray = np.flatnonzero(place > 0).astype(np.int32)
     many, new = a.node_number.size, inner.size
     turns = NodeKind.ANGLE if own.planar else NodeKind.ORIENTATION
@@ -294,14 +277,13 @@ def _divided(own: ModelData, pieces: IntArray) -> ModelData:
         element_vector=np.asfortranarray(vector[:, owner]),
         deformation_class=np.asfortranarray(a.deformation_class[:, owner]),
     )
-    names = tuple(own.element_names)
+    names = own.element_names
     look, given = own.given_appearance, own.properties
     if look is not None:
-        columns = (getattr(look, name)[owner] for name in Appearance.__dataclass_fields__)
-        look = Appearance(*columns)
+        look = Appearance(*(getattr(look, name)[owner] for name in Appearance.__dataclass_fields__))
     if given is not None:
-        more = np.full((2 * new, given.node_mass.shape[1]), np.nan)
-        node_mass = np.vstack([given.node_mass, more])
+        none = np.full((2 * new, given.node_mass.shape[1]), np.nan)
+        node_mass = np.vstack([given.node_mass, none])
         given = Properties(given.stiffness[owner], given.mass[owner], node_mass)
     return replace(
         own,

@@ -55,8 +55,7 @@ class Points:
         """(2, k) position and orientation of both ends of all elements, in their order."""
         slots = self.data.arrays.element_node - 1
         both = np.stack((slots[:2], slots[2:]), axis=2).reshape(2, -1)
-        made: IntArray = both[:, (both >= 0).all(axis=0)]
-        return made
+        return np.asarray(both[:, (both >= 0).all(axis=0)])
 
     @cached_property
     def _partner(self) -> IntArray:
@@ -93,8 +92,7 @@ class Points:
 
     def turned_at(self, position: int) -> list[int]:
         """Indices of all orientation nodes at a position node, each once."""
-        here = self._pairs[0] == position
-        return list(dict.fromkeys(self._pairs[1, here].tolist()))
+        return list(dict.fromkeys(self._pairs[1, self._pairs[0] == position].tolist()))
 
     def coordinates(self, point: Point) -> list[Coordinate]:
         """All coordinates of a point in the order x y z rx ry rz, planar x y rz."""
@@ -149,11 +147,6 @@ class Points:
         if position < 0:
             raise UnknownError(f"node {in_short(given)} is an orientation without a position")
         return np.array(self.data.arrays.node_value[:3, position])
-
-    def has_class(self, coordinate: Coordinate, wanted: Class) -> bool:
-        """Whether the deck gives a coordinate this class."""
-        node, axis = coordinate
-        return bool(self.data.arrays.coordinate_class[axis, node] == wanted)
 
     def element(self, given: object) -> int:
         """Index of an element by its number, its name, or what a model handed out.

@@ -1,24 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reduced matrices in SPACAR's sense: in the declared coordinates and deformations."""
+"""What the deck's own elements and classes say in a state: reduced matrices, verdict, resultants.
+
+Reduced matrices are those in SPACAR's sense: in the declared coordinates and deformations.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
-from ..core import elastic
-from ..core.arrays import FloatArray, IntArray, PackedModel, packed
-from ..core.elastic import ElasticArrays, ElasticState
+from ..analysis.result import Result
+from ..core import calls, elastic
+from ..core.arrays import FloatArray, IntArray
+from ..core.elastic import ElasticState, RawMatrices
 from ..core.elements import (
     AXES,
     Class,
     Dual,
     Member,
+    NodeKind,
     Role,
-    coordinate_name,
     dual_table,
     member_table,
     role_table,
@@ -26,104 +29,111 @@ from ..core.elements import (
 from ..model.attributes import CrossSection
 from ..model.data import ModelData
 from ..model.prescribed import class_statements, prescribed_in
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen
 from .errors import ElasticError
-from .solution import Policy, Solution, notch_in_units
+from .solution import Policy, Solution, notch_in_units, packed_with
 
 
-class Reduced(NamedTuple):
-    """Mass, stiffness and geometric stiffness, each (q, q)."""
+def independent_of(data: ModelData) -> IntArray:
+    """(q,) coordinates 3 node + axis, then deformations -1 - (6 element + deformation).
 
-    mass: FloatArray
-    stiffness: FloatArray
-    geometric: FloatArray
+    In the order of the deck's statements; inputs are none of them.
+    """
+    arrays, inputs = data.arrays, prescribed_in(data)
+    dynamic = (arrays.coordinate_class == Class.INDEPENDENT) & ~inputs.coordinates
+    modes = (arrays.deformation_class == Class.INDEPENDENT) & ~inputs.deformations
+    # As the statements name them, then all others.
+    named = {"X": list[int](), "E": list[int]()}
+    for which, number, _ in class_statements(data, "DYN"):
+        index = data.node_index if which == "X" else data.element_index
+        named[which] += [index[number]] if number in index else []
+    nodes = dict.fromkeys([*named["X"], *range(dynamic.shape[1])])
+    elements = dict.fromkeys([*named["E"], *range(modes.shape[1])])
+    places = [
+        3 * node + axis
+        for node in nodes
+        for axis in AXES[int(arrays.node_kind[node])]
+        if dynamic[axis, node]
+    ]
+    places += [-1 - (6 * e + k) for e in elements for k in range(6) if modes[k, e]]
+    return np.array(places, np.int32)
 
 
 class Reducer:
     """The deck's own elements with its own classes, whatever is elastic."""
 
     def __init__(self, data: ModelData, policy: Policy) -> None:
-        """Keep the model as given, with what its elements are made of."""
-        self.data, self._policy = data, policy
-
-    @cached_property
-    def labels(self) -> tuple[tuple[int, str | int], ...]:
-        """Node and coordinate, or element and deformation (from 1), of each row."""
-        arrays = self.data.arrays
-        made: list[tuple[int, str | int]] = []
-        for place in self.independent.tolist():
-            if place >= 0:
-                node, axis = divmod(place, 3)
-                kind = int(arrays.node_kind[node])
-                made.append((int(arrays.node_number[node]), coordinate_name(kind, axis)))
-            else:
-                element, k = divmod(-1 - place, 6)
-                made.append((int(arrays.element_number[element]), k + 1))
-        return tuple(made)
-
-    @cached_property
-    def independent(self) -> IntArray:
-        """(q,) coordinates 3 node + axis, then deformations -1 - (6 element + deformation).
-
-        In the order of the deck's statements; inputs are none of them.
-        """
-        arrays, inputs = self.data.arrays, prescribed_in(self.data)
-        dynamic = (arrays.coordinate_class == Class.INDEPENDENT) & ~inputs.coordinates
-        modes = (arrays.deformation_class == Class.INDEPENDENT) & ~inputs.deformations
-        nodes, elements = self._order("X"), self._order("E")
-        places = [
-            3 * node + axis
-            for node in [*nodes, *(n for n in range(dynamic.shape[1]) if n not in nodes)]
-            for axis in AXES[int(arrays.node_kind[node])]
-            if dynamic[axis, node]
-        ]
-        places += [
-            -1 - (6 * element + k)
-            for element in [*elements, *(e for e in range(modes.shape[1]) if e not in elements)]
-            for k in range(6)
-            if modes[k, element]
-        ]
-        return np.array(places, np.int32)
-
-    def _order(self, letter: str) -> dict[int, None]:
-        """Indices of nodes or elements as the deck's statements name them."""
-        index = self.data.node_index if letter == "X" else self.data.element_index
-        return {
-            index[number]: None
-            for which, number, _ in class_statements(self.data, "DYN")
-            if which == letter and number in index
-        }
-
-    @cached_property
-    def _model(self) -> tuple[PackedModel, ElasticArrays]:
-        arrays, inputs = self.data.arrays, prescribed_in(self.data)
-        given = arrays.coordinate_class
-        coordinates = np.where(given == Class.INDEPENDENT, Class.DEPENDENT, given)
-        coordinates[inputs.coordinates] = Class.FIXED
-        own = arrays.deformation_class
-        deformations = np.where(own == Class.INDEPENDENT, Class.DEPENDENT, own)
-        deformations[inputs.deformations] = Class.FIXED
-        model = packed(
-            arrays._replace(
-                coordinate_class=np.asfortranarray(coordinates, np.int32),
-                deformation_class=np.asfortranarray(deformations, np.int32),
-            )
+        """Of the model as given, with what its elements are made of."""
+        arrays, inputs = data.arrays, prescribed_in(data)
+        self._independent = tuple(independent_of(data).tolist())
+        own = arrays.coordinate_class, arrays.deformation_class
+        coordinates, deformations = (
+            np.where(each == Class.INDEPENDENT, Class.DEPENDENT, each) for each in own
         )
-        given_arrays = self._policy.arrays
-        return model, given_arrays._replace(notch=notch_in_units(self.data, given_arrays.notch))
+        coordinates[inputs.coordinates] = deformations[inputs.deformations] = Class.FIXED
+        self._model = packed_with(arrays, coordinates, deformations)
+        self._arrays = policy.arrays._replace(notch=notch_in_units(data, policy.arrays.notch))
 
-    def of(self, at: Solution) -> Reduced:
+    def of(self, at: Solution) -> RawMatrices:
         """The matrices of the deck's elements where their ends are, under their stresses."""
         mesh = at.solver.mesh
-        model, arrays = self._model
         state = ElasticState(
             mesh.own_nodes(at.raw.configuration), at.stress, mesh.own_nodes(at.raw.reaction)
         )
-        if not self.independent.size:
-            return Reduced(*(np.zeros((0, 0)) for _ in range(3)))
-        independent = tuple(self.independent.tolist())
-        raw = elastic.matrices(model, arrays, state, at.way.gravity, independent)
-        return Reduced(raw.mass, raw.stiffness, raw.geometric)
+        if not self._independent:
+            none = np.zeros((0, 0))
+            return RawMatrices(none, none, none, True)
+        return elastic.matrices(self._model, self._arrays, state, at.way.gravity, self._independent)
+
+
+#: More rows times columns than these are not decomposed in full.
+_MOST = 6_000_000
+
+
+def verdict_of(
+    result: Result, configuration: FloatArray, c_t: FloatArray
+) -> tuple[int, int, float]:
+    """The verdict of a model where its nodes are.
+
+    Args:
+        result: Of the reference configuration.
+        configuration: (4, nodes).
+        c_t: Torsion-elongation constants (elements,).
+
+    Returns:
+        By how much it is under- and over-constrained, and the smallest singular value of D(c)
+        in the deck's units, infinite where D(c) has no rows or no columns.
+
+    Raises:
+        ElasticError: the model is too large for it.
+    """
+    data, arrays = result.given, result.given.arrays
+    held = np.isin(arrays.deformation_class.T.ravel(), (Class.FIXED, Class.INDEPENDENT))
+    free = (arrays.coordinate_class == Class.DEPENDENT).T.ravel()
+    m, n = int(held.sum()), int(free.sum())
+    at_rest = np.array_equal(configuration, arrays.node_value)
+    value = math.nan
+    if m * n <= _MOST:
+        raw = calls.assemble(data.packed, configuration, c_t)
+        row, column = np.cumsum(held) - 1, np.cumsum(free) - 1
+        there = held[raw.row_of] & free[raw.column_of]
+        place = row[raw.row_of[there]] * n + column[raw.column_of[there]]
+        dense = np.bincount(place, raw.value[there], m * n).reshape(m, n)
+        value = float(np.linalg.svd(dense, compute_uv=False).min(initial=math.inf))
+    if at_rest:
+        return result.under_constrained, result.over_constrained, value
+    if m * n > _MOST:
+        raise ElasticError(
+            f"D(c) has {m} rows and {n} columns: it is not decomposed away from the reference"
+        )
+    turns = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)[free]
+    length = data.frames.length[data.frames.length > 0.0]
+    mean = math.exp(float(np.log(length).mean())) if length.size else 1.0
+    scaled = np.where(turns, dense / mean, dense)
+    norm = np.linalg.norm(scaled, axis=1, keepdims=True)
+    values = np.linalg.svd(scaled / np.where(norm > 0.0, norm, 1.0), compute_uv=False)
+    rank = int(np.count_nonzero(values > result.gap.zero_elsewhere(result.raw.noise)))
+    return n - rank, m - rank, value
 
 
 _BENDINGS = {
@@ -177,14 +187,15 @@ def resultants_of(data: ModelData, element: int, stress: FloatArray) -> Resultan
     return Resultants(normal, torque, moments[1], moments[2], float(slope[2]), float(slope[1]))
 
 
-def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float:
-    """The largest normal stress [Pa] in the pieces of a member with a known section.
+def peak_of(at: Solution, element: int) -> float:
+    """The largest normal stress [Pa] in the pieces of a member of known section, by its index.
 
     |N|/A + |My| h/2Iy + |Mz| b/2Iz at a corner; of a circle the moments add as vectors.
 
     Raises:
         ElasticError: it is no member, or its section is not known.
     """
+    mesh, data = at.solver.mesh, at.solver.mesh.own
     number = int(data.arrays.element_number[element])
     kind = int(data.arrays.element_kind[element])
     if member_table()[kind] not in (Member.BAR, Member.BEAM):
@@ -197,7 +208,8 @@ def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float
             "CIRC and CROSSDIM in the deck's picture block, or a section in Python"
         )
     largest = 0.0
-    for each in every:
+    for piece in range(mesh.first[element], mesh.last[element] + 1):
+        each = resultants_of(mesh.data, piece, at.raw.stress[:, piece])
         my, mz = np.abs(each.moment_y), np.abs(each.moment_z)
         if shape == CrossSection.CIRC:
             area, bending = math.pi * b * b / 4.0, np.hypot(my, mz) * 32.0 / (math.pi * b**3)
@@ -205,18 +217,3 @@ def peak_stress(data: ModelData, element: int, every: list[Resultants]) -> float
             area, bending = b * h, 6.0 * my / (b * h * h) + 6.0 * mz / (h * b * b)
         largest = max(largest, abs(each.normal_force) / area + float(bending.max()))
     return largest
-
-
-def peak_of(at: Solution, element: int) -> float:
-    """The largest normal stress [Pa] in the pieces of an element, by its index.
-
-    Raises:
-        ElasticError: its section is not known.
-    """
-    mesh = at.solver.mesh
-    first, count = int(mesh.first[element]), int(mesh.pieces[element])
-    every = [
-        resultants_of(mesh.data, piece, at.raw.stress[:, piece])
-        for piece in range(first, first + count)
-    ]
-    return peak_stress(mesh.own, element, every)

@@ -12,23 +12,25 @@ import numpy as np
 
 from ..analysis.limits import NO_COMPLIANCE, NODE_RESTS, POINT_RESTS, ROUNDING
 from ..core import calls, elastic
-from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
+from ..core.arrays import BoolArray, FloatArray, ModelArrays, PackedModel, packed
 from ..core.elastic import (
     ElasticArrays,
     ElasticState,
+    RawErrors,
     RawLinear,
     RawModes,
     Waypoint,
     element_stiffness,
 )
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
+from ..model.attributes import Properties
 from ..model.data import ModelData
 from ..util.matrices import complement, span
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .errors import ElasticError
-from .mesh import Mesh, bending_pairs, rigid_of_pieces
+from .mesh import Mesh, bending_pairs
 from .points import Coordinate, Point, Points
 
 HELD = ("elastic", "rigid")
@@ -36,7 +38,7 @@ DRIVES = ("free", "locked")
 
 #: Deformations that are released, as users give them.
 Release = Iterable[tuple[object, ...]] | Mapping[tuple[object, ...], Quantity]
-#: Stiffness [N m/rad; N/m of an elongation] by indices of element and deformation, from 0.
+#: Stiffness [N m/rad; N/m of an elongation] by numbers of element and deformation, from 1.
 Releases = dict[tuple[int, int], float]
 
 
@@ -76,7 +78,8 @@ def releases_given(points: Points, given: object) -> Releases:
                 f"the stiffness of a release must be a number from 0 in N m/rad (of an elongation "
                 f"in N/m), not {in_short(stiffness)}"
             )
-        made.update(dict.fromkeys(points.deformations(*pair), float(number)))
+        for element, k in points.deformations(*pair):
+            made[int(points.data.arrays.element_number[element]), k + 1] = float(number)
     return made
 
 
@@ -115,40 +118,45 @@ class Policy(Frozen):
         return bool(self.stiff.any() or np.nan_to_num(self.arrays.notch).any())
 
 
-def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:
+def policy_of(data: ModelData, held: str, release: Mapping[tuple[int, int], float]) -> Policy:
     """What is rigid: fixed deformations; with held "elastic" only those without a stiffness."""
     arrays = data.arrays
     notch = np.full(arrays.deformation_class.shape, np.nan, order="F")
     plain = elastic_arrays(data, notch)
     # What is rigid has none in the core: here all of it is asked for.
     free = np.where(arrays.deformation_class == Class.NONE, Class.NONE, Class.DEPENDENT)
-    asked = arrays._replace(deformation_class=np.asfortranarray(free, np.int32))
-    own, _ = element_stiffness(packed(asked), plain)
+    own, _ = element_stiffness(packed_with(arrays, arrays.coordinate_class, free), plain)
     stiff = np.diagonal(own, axis1=1, axis2=2).T > 0.0
     rigid = arrays.deformation_class == Class.FIXED
     if held == "elastic":
         rigid &= ~stiff
-    for (element, k), stiffness in releases.items():
-        notch[k, element] = stiffness
+    for (element, k), stiffness in release.items():
+        notch[k - 1, data.element_index[element]] = stiffness
     return Policy(elastic_arrays(data, notch), rigid, stiff)
+
+
+def packed_with(
+    arrays: ModelArrays, coordinates: np.ndarray, deformations: np.ndarray
+) -> PackedModel:
+    """A model with other classes of its coordinates and deformations, as the core takes it."""
+    return packed(
+        arrays._replace(
+            coordinate_class=np.asfortranarray(coordinates, np.int32),
+            deformation_class=np.asfortranarray(deformations, np.int32),
+        )
+    )
 
 
 def elastic_arrays(data: ModelData, notch: FloatArray) -> ElasticArrays:
     """Stiffness and mass of a model, as the core takes them; NaN where nothing is given."""
     given, ne = data.properties, data.arrays.element_number.size
     if given is None:
-        return ElasticArrays(
-            np.full((6, ne), np.nan, order="F"),
-            np.full((5, ne), np.nan, order="F"),
-            np.full((6, data.arrays.node_number.size), np.nan, order="F"),
-            notch,
-        )
-    return ElasticArrays(
-        np.asfortranarray(given.stiffness.T),
-        np.asfortranarray(given.mass.T),
-        np.asfortranarray(given.node_mass.T),
-        notch,
+        shapes = (ne, 6), (ne, 5), (data.arrays.node_number.size, 6)
+        given = Properties(*(np.full(shape, np.nan) for shape in shapes))
+    stiffness, mass, node_mass = (
+        np.asfortranarray(each.T) for each in (given.stiffness, given.mass, given.node_mass)
     )
+    return ElasticArrays(stiffness, mass, node_mass, notch)
 
 
 def notch_in_units(data: ModelData, notch: FloatArray) -> FloatArray:
@@ -156,17 +164,6 @@ def notch_in_units(data: ModelData, notch: FloatArray) -> FloatArray:
     by_length = (dual_table()[data.arrays.element_kind] == Dual.MOMENT_OVER_LENGTH).T
     length = np.where(data.frames.length > 0.0, data.frames.length, 1.0)
     return np.asfortranarray(np.where(by_length, notch / length**2, notch))
-
-
-def numbered(data: ModelData, releases: Releases) -> dict[tuple[int, int], float]:
-    """Releases by numbers of elements and deformations, from 1, instead of indices."""
-    numbers = data.arrays.element_number
-    return {(int(numbers[e]), k + 1): value for (e, k), value in releases.items()}
-
-
-def indexed(data: ModelData, release: Mapping[tuple[int, int], float]) -> Releases:
-    """The other way round."""
-    return {(data.element_index[e], k - 1): value for (e, k), value in release.items()}
 
 
 class Compliance(NamedTuple):
@@ -203,28 +200,6 @@ class Compliance(NamedTuple):
         return _with_infinity(made, turned[:, none] @ turned[:, none].T)
 
 
-def compliance_at(
-    moved: FloatArray, loose: FloatArray, scale: FloatArray, is_held: BoolArray, least: float
-) -> Compliance:
-    """Of displacements (n, n) under unit loads, and motions without stiffness (n, m).
-
-    Args:
-        moved: Displacements and turns.
-        loose: Displacements and turns.
-        scale: (n,) what makes a length of each.
-        is_held: (n,) which are held.
-        least: A compliance [m/N] below which all of it is rounding.
-    """
-    finite = moved * np.outer(scale, scale)
-    finite = (finite + finite.T) / 2.0
-    finite[is_held] = 0.0
-    finite[:, is_held] = 0.0
-    if np.abs(finite).max(initial=0.0) < least:
-        finite[:] = 0.0
-    free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
-    return Compliance(finite, span(free, POINT_RESTS), scale, is_held)
-
-
 def kept(before: Compliance, after: Compliance) -> FloatArray:
     """All mu of C_before v = mu C_after v, ascending, without held directions.
 
@@ -247,8 +222,7 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
 
 def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:
     """The matrix with infinity, signed, where a projector has entries."""
-    there = np.abs(along) > ROUNDING
-    return np.where(there, np.copysign(np.inf, along), finite)
+    return np.where(np.abs(along) > ROUNDING, np.copysign(np.inf, along), finite)
 
 
 #: Part of the compliance of all elements in parallel that is rounding.
@@ -264,28 +238,21 @@ class Solver:
         """Of a mesh, with the policy of its deck's elements."""
         self.mesh, self.policy = mesh, policy
         self._models: dict[Held, PackedModel] = {}
-        data, owner = mesh.data, mesh.owner
-        place = np.arange(owner.size)
-        is_first, is_last = place == mesh.first[owner], place == mesh.last[owner]
-        kinds = mesh.own.arrays.element_kind
-        rigid = rigid_of_pieces(policy.rigid, owner, is_first, is_last, kinds)
+        rigid = mesh.rigid(policy.rigid)
         self._classes = np.where(
-            data.arrays.deformation_class == Class.NONE,
+            mesh.data.arrays.deformation_class == Class.NONE,
             Class.NONE,
             np.where(rigid, Class.FIXED, Class.DEPENDENT),
-        ).astype(np.int32)
-        self.arrays: ElasticArrays = elastic_arrays(data, self._notches(is_first, is_last))
-        #: (6, pieces) which deformations are no multipliers: those with a notch neither.
-        self.is_elastic: BoolArray = ~rigid | (self.arrays.notch >= 0.0)
-
-    def _notches(self, is_first: BoolArray, is_last: BoolArray) -> FloatArray:
-        """Notches of the pieces: at q those of the last, all others of the first."""
-        mesh = self.mesh
-        own = self.policy.arrays.notch[:, mesh.owner]
+        )
+        # At q notches are those of the last piece, all others of the first.
+        is_first, is_last = mesh.ends
         there = np.repeat(is_first[None, :], 6, axis=0)
         for _, q, bends in bending_pairs(mesh.own.arrays.element_kind):
             there[q] = np.where(bends[mesh.owner], is_last, is_first)
-        return notch_in_units(mesh.data, np.where(there, own, np.nan))
+        own = np.where(there, policy.arrays.notch[:, mesh.owner], np.nan)
+        self.arrays: ElasticArrays = elastic_arrays(mesh.data, notch_in_units(mesh.data, own))
+        #: (6, pieces) which deformations are no multipliers: those with a notch neither.
+        self.is_elastic: BoolArray = ~rigid | (self.arrays.notch >= 0.0)
 
     def model(self, held: Held) -> PackedModel:
         """The model in which fixed coordinates and these are held, and all others free."""
@@ -295,12 +262,7 @@ class Solver:
             classes = np.where(given > Class.FIXED, np.int32(Class.DEPENDENT), given)
             for node, axis in held:
                 classes[axis, node] = Class.FIXED
-            self._models[held] = packed(
-                arrays._replace(
-                    coordinate_class=np.asfortranarray(classes, np.int32),
-                    deformation_class=np.asfortranarray(self._classes),
-                )
-            )
+            self._models[held] = packed_with(arrays, classes, self._classes)
         return self._models[held]
 
     @property
@@ -317,22 +279,13 @@ class Solver:
     def at_rest(self) -> ElasticState:
         """As the deck gives it, without stress."""
         value = np.asfortranarray(self.mesh.data.arrays.node_value)
-        return ElasticState(value, self.no_misfit, self.no_force)
+        none = np.zeros((6, self.elements), order="F"), np.zeros((3, self.nodes), order="F")
+        return ElasticState(value, *none)
 
     @cached_property
     def nothing(self) -> Waypoint:
         """All held coordinates where the deck has them, no load, no misfit."""
-        return Waypoint(self.at_rest.configuration, self.no_misfit, self.no_force, np.zeros(3))
-
-    @cached_property
-    def no_misfit(self) -> FloatArray:
-        """(6, pieces) zeros."""
-        return np.zeros((6, self.elements), order="F")
-
-    @cached_property
-    def no_force(self) -> FloatArray:
-        """(3, nodes) zeros."""
-        return np.zeros((3, self.nodes), order="F")
+        return Waypoint(*self.at_rest, np.zeros(3))
 
     @cached_property
     def elastic(self) -> tuple[FloatArray, FloatArray]:
@@ -342,14 +295,13 @@ class Solver:
     @cached_property
     def least_compliance(self) -> float:
         """What is more compliant than this [m/N] is so for a reason; 0 without any stiffness."""
-        stiffness = np.diagonal(self.elastic[0], axis1=1, axis2=2)
-        whole = float(stiffness[self.is_elastic.T].sum())
+        whole = float(np.diagonal(self.elastic[0], axis1=1, axis2=2)[self.is_elastic.T].sum())
         return _ROUNDED_COMPLIANCE / whole if whole > 0.0 else 0.0
 
     def loads(self, factor: float) -> tuple[FloatArray, FloatArray]:
         """(3, nodes) forces and (3,) gravity of the deck, times a factor."""
         given = self.mesh.own.loads
-        force, gravity = self.no_force.copy(order="F"), np.zeros(3)
+        force, gravity = np.zeros((3, self.nodes), order="F"), np.zeros(3)
         if given is not None:
             force[:, : self.mesh.nodes] = factor * (given.force + given.increment).T
             gravity = factor * np.array(given.gravity)
@@ -384,16 +336,32 @@ class Solution:
             np.any(self.raw.stress) or np.any(self.raw.reaction) or np.any(self.way.gravity)
         )
 
-    def respond(
-        self, force: FloatArray, misfit: FloatArray | None = None, shift: FloatArray | None = None
-    ) -> RawLinear:
-        """Increments under loads (3, nodes, k), misfits (6, pieces, k) and shifts likewise."""
-        s, k = self.solver, force.shape[2]
-        nothing = np.zeros((6, s.elements, k), order="F") if misfit is None else misfit
-        at_rest = np.zeros((3, s.nodes, k), order="F") if shift is None else shift
-        return elastic.linear(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, force, nothing, at_rest
-        )
+    @property
+    def _asked(self) -> tuple[PackedModel, ElasticArrays, ElasticState, FloatArray]:
+        """What the core is asked about."""
+        return self.solver.model(self.held), self.solver.arrays, self.raw, self.way.gravity
+
+    def respond(self, force: FloatArray, shift: FloatArray | None = None) -> RawLinear:
+        """Increments under loads (3, nodes, k) and moves of what is held likewise."""
+        misfit = np.zeros((6, self.solver.elements, force.shape[2]), order="F")
+        at_rest = np.zeros_like(force) if shift is None else shift
+        return elastic.linear(*self._asked, force, misfit, at_rest)
+
+    def under(self, stress: FloatArray) -> Solution:
+        """The same place under a stress (6, pieces)."""
+        raw = self.raw._replace(stress=np.asfortranarray(stress))
+        return Solution(self.solver, raw, self.way, self.held)
+
+    def errors(
+        self, stresses: FloatArray, square: float, lengths: FloatArray | None = None
+    ) -> RawErrors:
+        """Errors at which a frequency has a square, of the stresses (6, pieces, k) of unit ones."""
+        return elastic.errors(*self._asked, stresses, square, lengths)
+
+    @property
+    def lowest_square(self) -> float:
+        """The square of the first angular frequency alone [rad^2/s^2]."""
+        return float(elastic.frequencies(*self._asked, 1).values[0])
 
     def compliance(self, point: Point, coordinates: list[Coordinate]) -> Compliance:
         """What a point does under unit loads along and about all of its coordinates."""
@@ -403,13 +371,16 @@ class Solution:
                 force[axis, node, i] = 1.0
             answer = self.respond(force)
             nodes, axes = (list(each) for each in zip(*coordinates, strict=True))
-            self._at[point] = compliance_at(
-                np.asarray(answer.displacement[axes, nodes]),
-                np.asarray(self.unit_motions(answer.loose)[axes, nodes]),
-                np.asarray(self.scale[nodes]),
-                np.array([self._is_still(each) for each in coordinates]),
-                self.solver.least_compliance,
-            )
+            scale = np.asarray(self.scale[nodes])
+            is_held = np.array([self._is_still(each) for each in coordinates])
+            finite = answer.displacement[axes, nodes] * np.outer(scale, scale)
+            finite = (finite + finite.T) / 2.0
+            finite[is_held] = finite[:, is_held] = 0.0
+            if np.abs(finite).max(initial=0.0) < self.solver.least_compliance:
+                finite[:] = 0.0
+            loose = self.unit_motions(answer.loose)[axes, nodes] * scale[:, None]
+            loose = span(np.where(is_held[:, None], 0.0, loose), POINT_RESTS)
+            self._at[point] = Compliance(finite, loose, scale, is_held)
         return self._at[point]
 
     @property
@@ -461,10 +432,7 @@ class Solution:
     @cached_property
     def squares(self) -> RawModes:
         """Squares of the lowest angular frequencies with their modes."""
-        s = self.solver
-        return elastic.frequencies(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, FREQUENCIES
-        )
+        return elastic.frequencies(*self._asked, FREQUENCIES)
 
     @property
     def is_confirmed(self) -> bool:
@@ -481,12 +449,9 @@ class Solution:
     @cached_property
     def buckling(self) -> RawModes:
         """Multipliers of the stresses nearest to zero, of both signs, with their modes."""
-        s = self.solver
         if not self.is_stressed:
-            return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0, True)
-        found = elastic.multipliers(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
-        )
+            return RawModes(np.zeros(0), np.zeros((3, self.solver.nodes, 0)), 0, 0, True)
+        found = elastic.multipliers(*self._asked, MULTIPLIERS)
         size = np.abs(found.values)
         some = size < _ROUNDED_MULTIPLIER * size.min(initial=math.inf)
         return found._replace(values=found.values[some], modes=found.modes[:, :, some])
@@ -508,8 +473,7 @@ class Solution:
     def energy(self) -> float:
         """Elastic energy [J]."""
         stiffness, c_t = self.solver.elastic
-        data = self.solver.mesh.data
-        here = calls.assemble(data.packed, self.raw.configuration, c_t).deformation
+        here = calls.assemble(self.solver.mesh.data.packed, self.raw.configuration, c_t).deformation
         strain = np.where(self.solver.is_elastic, here - self.way.misfit, 0.0).T
         return float(np.einsum("ei,eij,ej->", strain, stiffness, strain)) / 2.0
 

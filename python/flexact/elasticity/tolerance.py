@@ -9,17 +9,16 @@ level at most once on each side, before it is 0 where the mechanism buckles.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..core import elastic
-from ..core.elastic import ElasticState
+from ..core.arrays import FloatArray
+from ..core.elastic import RawLinear
 from ..util.records import cached_property
-from .drives import at_rest
+from .equilibria import Imperfection
 from .errors import ElasticError
-from .imperfections import Imperfection
-from .solution import Held, Solution, Solver
+from .solution import Solution
 
 #: The level is met to this part of it.
 _MET = 1.0e-8
@@ -44,7 +43,7 @@ def rises_to(function: Function, level: float, start: float, step: float, far: f
     while here <= far:
         value = function(here)
         if value >= level:
-            return _root(function, level, (last[0], last[1] - level), (here, value - level), None)
+            return _root(function, level, (last[0], last[1] - level), (here, value - level))
         if value < last[1]:
             return _at_top(function, level, before[0], here)
         before, last, here = last, (here, value), 2.0 * here
@@ -60,8 +59,7 @@ def _at_top(function: Function, level: float, low: float, high: float) -> float:
     for _ in range(_MOST):
         best, value = (one, at_one) if at_one > at_two else (two, at_two)
         if value >= level:
-            first = function(begin) - level
-            return _root(function, level, (begin, first), (best, value - level), None)
+            return _root(function, level, (begin, function(begin) - level), (best, value - level))
         if high - low < 1.0e-6 * high:
             break
         if at_one > at_two:
@@ -76,15 +74,10 @@ def _at_top(function: Function, level: float, low: float, high: float) -> float:
 
 
 def _root(
-    function: Function,
-    level: float,
-    low: tuple[float, float],
-    high: tuple[float, float],
-    guess: float | None,
+    function: Function, level: float, low: tuple[float, float], high: tuple[float, float]
 ) -> float:
     """Where a function less a level changes its sign: by parabolas within a bracket."""
-    third: tuple[float, float] | None = None
-    here = guess if guess is not None else _secant(low, high)
+    here = _secant(low, high)
     for _ in range(_MOST):
         if not low[0] < here < high[0]:
             here = (low[0] + high[0]) / 2.0
@@ -127,43 +120,43 @@ def _parabola(
 #: Errors larger than so many lengths of the model, or radians, are none that a design meets.
 _FAR = 1.0e3
 #: What rigid parts cannot follow, of what was asked, beyond rounding.
-_MISMATCH = 1.0e-8
+MISMATCH = 1.0e-8
 #: The part of the nearest critical error with which a rise is looked for.
 _BEGIN = 1.0e-2
 
 Pair = tuple[float, float]
 
 
-class Linear:
-    """The stresses of one imperfection, for each unit of it, about the undeformed state."""
+def unit_errors(rest: Solution, off: Sequence[Imperfection]) -> tuple[FloatArray, RawLinear]:
+    """(3, nodes, k) moves of the supports for a unit of each misalignment, and what they do."""
+    mesh = rest.solver.mesh
+    shift = np.zeros((3, rest.solver.nodes, len(off)), order="F")
+    for k, each in enumerate(off):
+        shift[:, : mesh.nodes, k] = each.shift(mesh.own)
+    return shift, rest.respond(np.zeros_like(shift), shift)
 
-    def __init__(self, solver: Solver, held: Held, off: Imperfection) -> None:
-        """Of a mesh with what is held, and what is off."""
-        self._rest, self._off = at_rest(solver, held), off
-        self._shifted: dict[float, Pair] = {}
+
+class Linear:
+    """The stresses of one misalignment, for each unit of it, about the undeformed state."""
+
+    def __init__(self, rest: Solution, off: Imperfection) -> None:
+        """Of a mesh at rest, and what is off."""
+        self._rest, self._off = rest, off
 
     @cached_property
-    def stressed(self) -> Solution:
-        """The undeformed configuration with the stresses.
+    def stress(self) -> FloatArray:
+        """(6, pieces, 1) stresses.
 
         Raises:
             ElasticError: rigid parts cannot follow.
         """
-        rest, s = self._rest, self._rest.solver
-        own = s.mesh.own
-        shift = np.zeros((3, s.nodes, 1), order="F")
-        shift[:, : s.mesh.nodes, 0] = self._off.shift(own)
-        misfit = np.asfortranarray(s.mesh.misfit(self._off.misfit)[:, :, None])
-        answer = rest.respond(np.zeros((3, s.nodes, 1), order="F"), misfit, shift)
-        if float(answer.mismatch[0]) > _MISMATCH:
+        _, answer = unit_errors(self._rest, (self._off,))
+        if float(answer.mismatch[0]) > MISMATCH:
             raise ElasticError(
                 f"rigid parts cannot follow {self._off.words}: nothing between them is elastic; "
                 "give their elements a stiffness (ESTIFF)"
             )
-        stress = np.asfortranarray(answer.stress[:, :, 0])
-        return Solution(
-            s, ElasticState(rest.raw.configuration, stress, s.no_force), rest.way, rest.held
-        )
+        return answer.stress
 
     @cached_property
     def critical(self) -> Pair:
@@ -172,16 +165,7 @@ class Linear:
 
     def _errors(self, square: float) -> Pair:
         """The errors of both signs at which a frequency has this square; 0: it buckles."""
-        at = self.stressed
-        s, rest = at.solver, self._rest
-        found = elastic.errors(
-            s.model(at.held),
-            s.arrays,
-            rest.raw,
-            rest.way.gravity,
-            at.raw.stress[:, :, None],
-            square,
-        )
+        found = self._rest.errors(self.stress, square)
         if found.negative:
             raise ElasticError("the undeformed state is unstable, so that no error makes it so")
         low, high = float(found.below[0]), float(found.above[0])
@@ -191,18 +175,9 @@ class Linear:
     def _far(self) -> float:
         return _FAR if self._off.is_turn else _FAR * self._rest.size
 
-    def square(self, value: float) -> float:
-        """The square of the first angular frequency at an error."""
-        at = self.stressed
-        raw = at.raw._replace(stress=np.asfortranarray(value * at.raw.stress))
-        s = at.solver
-        return float(
-            elastic.frequencies(s.model(at.held), s.arrays, raw, at.way.gravity, 1).values[0]
-        )
-
-    @cached_property
-    def first(self) -> float:
-        """The square at no error.
+    @property
+    def _first(self) -> float:
+        """The square of the first angular frequency at no error.
 
         Raises:
             ElasticError: nothing vibrates, or a motion has no stiffness.
@@ -226,14 +201,10 @@ class Linear:
         Args:
             shift: Relative, above -1 and not 0.
         """
-        if shift not in self._shifted:
-            wanted = self.first * (1.0 + shift) ** 2
-            self._shifted[shift] = (
-                self._errors(wanted)
-                if shift < 0.0
-                else (self._rise(-1.0, wanted), self._rise(1.0, wanted))
-            )
-        return self._shifted[shift]
+        wanted = self._first * (1.0 + shift) ** 2
+        if shift < 0.0:
+            return self._errors(wanted)
+        return self._rise(-1.0, wanted), self._rise(1.0, wanted)
 
     def _rise(self, sign: float, wanted: float) -> float:
         nearest = min(map(abs, self.critical))
@@ -241,5 +212,8 @@ class Linear:
             # It falls on neither side, and is concave: it does not change.
             return sign * math.inf
         far = min(abs(self.critical[0 if sign < 0.0 else 1]), self._far)
-        begin = _BEGIN * nearest
-        return sign * rises_to(lambda d: self.square(sign * d), wanted, self.first, begin, far)
+
+        def square(error: float) -> float:
+            return self._rest.under(sign * error * self.stress[:, :, 0]).lowest_square
+
+        return sign * rises_to(square, wanted, self._first, _BEGIN * nearest, far)

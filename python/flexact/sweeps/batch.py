@@ -15,13 +15,11 @@ import operator
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, cast
 
 from ..analysis.decomposition import Asked
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import AnalysisError, Certainty, Verdict
-from ..core.arrays import ModelArrays
-from ..core.progress import Progress
 from ..deck.rendering import DeckError, ProblemsError
 from ..model.reading import read_bytes
 from ..util.decks import FolderError, no_formula
@@ -29,8 +27,7 @@ from ..util.errors import BatchError
 from ..util.loading import load
 from ..util.partial import why
 from ..util.text import harmless, in_short
-from .columns import COLUMNS, ERROR, Column, columns_of, error_row, row_of
-from .writing import Cell
+from .columns import COLUMNS, ERROR, Cell, Column, columns_of, error_row, row_of
 
 DECK = Column("deck", str, "the deck, as it was named", "verdict")
 _SIZE = (
@@ -76,12 +73,11 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
     start = time.perf_counter()
     try:
         data = read_bytes(raw, name)
-        result: Result = result_of(data, asked, name, _awake(data.arrays))
-        values: dict[str, Cell] = {
-            **row_of(result, want),
-            **{"rows": result.rows, "columns": result.columns},
-        }
-        made = DeckRow(values, result, None)
+        # Beside a thread this one hears signals.
+        hears = _nothing if data.arrays.element_number.size > _LONG else None
+        result: Result = result_of(data, asked, name, hears)
+        sizes = {"rows": result.rows, "columns": result.columns}
+        made = DeckRow({**row_of(result, want), **sizes}, result, None)
     except (DeckError, AnalysisError, MemoryError) as error:
         made = failed_row(error, name, want)
     except Exception as error:
@@ -93,9 +89,8 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
 
 def failed_row(error: Exception, name: str, want: str, seconds: float = 0.0) -> DeckRow:
     """The row of a deck that has no result."""
-    words = first_error(error, name)
-    values: dict[str, Cell] = {**error_row(words, want), "rows": None, "columns": None}
-    return DeckRow(values | {"seconds": seconds}, None, error)
+    row = error_row(first_error(error, name), want)
+    return DeckRow({**row, "rows": None, "columns": None, "seconds": seconds}, None, error)
 
 
 def first_error(error: Exception, name: str) -> str:
@@ -111,11 +106,6 @@ def first_error(error: Exception, name: str) -> str:
     elif isinstance(error, FolderError):
         return harmless(no_formula(message))  # which names it
     return harmless(f"{place}: {message}")
-
-
-def _awake(arrays: ModelArrays) -> Progress | None:
-    """What lets a large model be analysed in a thread, while this one hears signals."""
-    return _nothing if arrays.element_number.size > _LONG else None
 
 
 def _nothing(_: str, __: float) -> None:
@@ -146,15 +136,8 @@ class FilterError(BatchError):
     """An expression that does not say which rows are wanted."""
 
 
-class _Operand(NamedTuple):
-    """One side of a comparison: a column or a constant."""
-
-    value: Callable[[Values], Any]
-    is_text: bool
-    words: str
-    """As a message names it."""
-    column: str = ""
-    constant: Any = None
+#: One side of a comparison: a column or a constant.
+_Operand = Column | float | str
 
 
 def filter_of(expression: str, columns: Sequence[Column]) -> Test:
@@ -167,125 +150,120 @@ def filter_of(expression: str, columns: Sequence[Column]) -> Test:
         if len(expression) > _MOST:
             raise ValueError
         tree = ast.parse(expression.strip(), mode="eval")
-        return _Reader({column.name: column for column in columns}).test(tree.body)
+        return _test(tree.body, {column.name: column for column in columns})
     except (SyntaxError, ValueError, MemoryError, RecursionError):
         raise FilterError(f"--where {in_short(expression)} is no condition, {_HELP}") from None
 
 
-class _Reader:
-    """Makes tests of the nodes of an expression."""
-
-    def __init__(self, columns: Mapping[str, Column]) -> None:
-        self._columns = columns
-
-    def test(self, node: ast.expr) -> Test:
-        """A condition."""
-        if isinstance(node, ast.BoolOp):
-            tests = [self.test(each) for each in node.values]
-            together = all if isinstance(node.op, ast.And) else any
-            return lambda values: together(test(values) for test in tests)
-        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
-            inner = self.test(node.operand)
-            return lambda values: not inner(values)
-        if isinstance(node, ast.Compare):
-            return self._comparisons(node)
-        operand = self._operand(node)
-        if not operand.column:
-            raise FilterError(f"--where: {operand.words} is no condition, {_HELP}")
-        return lambda values: not _is_missing(operand.value(values)) and bool(operand.value(values))
-
-    def _comparisons(self, node: ast.Compare) -> Test:
+def _test(node: ast.expr, columns: Mapping[str, Column]) -> Test:
+    """A condition."""
+    if isinstance(node, ast.BoolOp):
+        tests = [_test(each, columns) for each in node.values]
+        together = all if isinstance(node.op, ast.And) else any
+        return lambda values: together(test(values) for test in tests)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+        inner = _test(node.operand, columns)
+        return lambda values: not inner(values)
+    if isinstance(node, ast.Compare):
         sides = [node.left, *node.comparators]
-        tests = [
-            self._membership(left, right, negated=isinstance(sign, ast.NotIn))
-            if isinstance(sign, (ast.In, ast.NotIn))
-            else self._comparison(left, sign, right)
-            for left, sign, right in zip(sides, node.ops, sides[1:], strict=False)
-        ]
+        links = zip(sides, node.ops, sides[1:], strict=False)
+        tests = [_comparison(*link, columns) for link in links]
         return lambda values: all(test(values) for test in tests)
+    operand = _operand(node, columns)
+    if not isinstance(operand, Column):
+        raise FilterError(f"--where: {_words(operand)} is no condition, {_HELP}")
+    name = operand.name
+    return lambda values: not _is_missing(values[name]) and bool(values[name])
 
-    def _comparison(self, left: ast.expr, sign: ast.cmpop, right: ast.expr) -> Test:
-        if type(sign) not in _COMPARISONS:
-            raise FilterError("--where: write == or != in place of is")
-        compare, one, other = _COMPARISONS[type(sign)], self._operand(left), self._operand(right)
-        _require_alike(one, other)
-        return lambda values: _compared(compare, one.value(values), other.value(values))
 
-    def _membership(self, left: ast.expr, right: ast.expr, negated: bool) -> Test:
-        one = self._operand(left)
-        if isinstance(right, (ast.Tuple, ast.List, ast.Set)):
-            others = [self._operand(each) for each in right.elts]
-            for other in others:
-                if other.column:
-                    raise FilterError(f"--where: in a list stand values, not {other.words}")
-                _require_alike(one, other)
-            choice = frozenset(other.constant for other in others)
-            return lambda values: (
-                not _is_missing(one.value(values)) and (one.value(values) in choice) != negated
-            )
-        other = self._operand(right)
-        if not (one.is_text and other.is_text):
+def _comparison(
+    left: ast.expr, sign: ast.cmpop, right: ast.expr, columns: Mapping[str, Column]
+) -> Test:
+    is_in, negated = isinstance(sign, (ast.In, ast.NotIn)), isinstance(sign, ast.NotIn)
+    if not is_in and type(sign) not in _COMPARISONS:
+        raise FilterError("--where: write == or != in place of is")
+    one = _operand(left, columns)
+    if is_in and isinstance(right, (ast.Tuple, ast.List, ast.Set)):
+        others = [_operand(each, columns) for each in right.elts]
+        for other in others:
+            if isinstance(other, Column):
+                raise FilterError(f"--where: in a list stand values, not {_words(other)}")
+            _require_alike(one, other)
+        choice = frozenset(others)
+        return lambda values: (
+            not _is_missing(_value(one, values)) and (_value(one, values) in choice) != negated
+        )
+    other = _operand(right, columns)
+    if is_in:
+        if not (_is_text(one) and _is_text(other)):
             raise FilterError(
                 f"--where: behind in stands a text, or a list of values in parentheses, "
-                f"not {other.words}"
+                f"not {_words(other)}"
             )
-        return lambda values: (one.value(values) in other.value(values)) != negated
+        return lambda values: (_value(one, values) in _value(other, values)) != negated
+    _require_alike(one, other)
+    compare = _COMPARISONS[type(sign)]
 
-    def _operand(self, node: ast.expr) -> _Operand:
-        if isinstance(node, ast.Name):
-            if node.id == "inf":
-                return _constant(math.inf)
-            return self._column(node.id)
-        if isinstance(node, ast.Constant) and type(node.value) in (int, float, str):
-            return _constant(node.value)
-        if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
-            inner = self._operand(node.operand)
-            if not inner.column and not inner.is_text:
-                down = isinstance(node.op, ast.USub)
-                return _constant(-inner.constant if down else inner.constant)
-        words = in_short(ast.unparse(node))
-        raise FilterError(f"--where: {words} is neither a column nor a value, {_HELP}")
+    def test(values: Values) -> bool:
+        both = _value(one, values), _value(other, values)
+        return not any(map(_is_missing, both)) and compare(*both)
 
-    def _column(self, name: str) -> _Operand:
-        if name not in self._columns:
-            raise FilterError(f"--where: there is no column {in_short(name)}{self._hint(name)}")
-        is_text = self._columns[name].kind is str
-        return _Operand(lambda values: values[name], is_text, f"the column {name}", name)
-
-    def _hint(self, name: str) -> str:
-        later = next((each for each in COLUMNS if each.name == name), None)
-        if later is not None:
-            return f" without --columns {later.least}"
-        near = load("difflib").get_close_matches(name, self._columns, 1)
-        there = ", ".join(self._columns)
-        return f"; did you mean {near[0]}?" if near else f"; there are {there}"
+    return test
 
 
-def _constant(value: Any) -> _Operand:
-    return _Operand(lambda _: value, isinstance(value, str), repr(value), constant=value)
+def _operand(node: ast.expr, columns: Mapping[str, Column]) -> _Operand:
+    if isinstance(node, ast.Name):
+        return math.inf if node.id == "inf" else _column(node.id, columns)
+    if isinstance(node, ast.Constant) and type(node.value) in (int, float, str):
+        return cast(_Operand, node.value)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
+        inner = _operand(node.operand, columns)
+        if not isinstance(inner, (Column, str)):
+            return -inner if isinstance(node.op, ast.USub) else inner
+    words = in_short(ast.unparse(node))
+    raise FilterError(f"--where: {words} is neither a column nor a value, {_HELP}")
+
+
+def _column(name: str, columns: Mapping[str, Column]) -> Column:
+    if name in columns:
+        return columns[name]
+    later = next((each for each in COLUMNS if each.name == name), None)
+    near = load("difflib").get_close_matches(name, columns, 1)
+    hint = f"; did you mean {near[0]}?" if near else f"; there are {', '.join(columns)}"
+    if later is not None:
+        hint = f" without --columns {later.least}"
+    raise FilterError(f"--where: there is no column {in_short(name)}{hint}")
+
+
+def _words(operand: _Operand) -> str:
+    return f"the column {operand.name}" if isinstance(operand, Column) else repr(operand)
+
+
+def _is_text(operand: _Operand) -> bool:
+    return operand.kind is str if isinstance(operand, Column) else isinstance(operand, str)
+
+
+def _value(operand: _Operand, values: Values) -> Any:
+    return values[operand.name] if isinstance(operand, Column) else operand
 
 
 def _require_alike(one: _Operand, other: _Operand) -> None:
     """Refuse what can never be true: a text beside a number, a verdict that there is not."""
-    if one.is_text != other.is_text:
-        raise FilterError(
-            f"--where: {one.words} is {_kind(one)} and {other.words} is {_kind(other)}"
+    if _is_text(one) != _is_text(other):
+        told = (
+            f"{_words(each)} is {'a text' if _is_text(each) else 'a number'}"
+            for each in (one, other)
         )
+        raise FilterError(f"--where: {' and '.join(told)}")
     for column, constant in ((one, other), (other, one)):
-        known = _CHOICES.get(column.column)
-        if known and not constant.column and constant.constant not in (*known, ""):
+        if not isinstance(column, Column) or isinstance(constant, Column):
+            continue
+        known = _CHOICES.get(column.name)
+        if known and constant not in (*known, ""):
             there = ", ".join(map(repr, known))
             raise FilterError(
-                f"--where: there is no {column.column} {constant.words}; there are {there}"
+                f"--where: there is no {column.name} {_words(constant)}; there are {there}"
             )
-
-
-def _kind(operand: _Operand) -> str:
-    return "a text" if operand.is_text else "a number"
-
-
-def _compared(compare: Callable[[Any, Any], bool], one: Any, other: Any) -> bool:
-    return not _is_missing(one) and not _is_missing(other) and compare(one, other)
 
 
 def _is_missing(value: Any) -> bool:

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 import time
 import traceback
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, NamedTuple
@@ -35,9 +36,6 @@ class Chunk(NamedTuple):
     def part(self, start: int, stop: int) -> Chunk:
         """Some of it."""
         return Chunk(self.indices[start:stop], self.items[start:stop], self.deaths)
-
-
-NOTHING = Chunk((), ())
 
 
 class Raised(NamedTuple):
@@ -135,18 +133,44 @@ class Source:
             self._again.append(Chunk((index,), (item,), deaths))
 
 
-def timed(
-    function: Callable[[Any], Any], items: Sequence[Any]
-) -> tuple[list[Any], float, Raised | None]:
-    """Results of items up to the first that raises, their time [s], and what it raises."""
+class Part(NamedTuple):
+    """Results of the next items of a chunk, and whether it ends with them."""
+
+    results: Sequence[Any] = ()
+    seconds: float = 0.0
+    """What they took."""
+    raised: Raised | None = None
+    """What the item behind them raised."""
+    is_last: bool = False
+
+
+def parts_of(
+    function: Callable[[Any], Any], items: Sequence[Any], flush: float = math.inf
+) -> Iterator[Part]:
+    """What comes of items up to the first that raises, so that what is done is soon known.
+
+    Args:
+        function: What is applied.
+        items: One at least.
+        flush: Results that are there are not held back for longer [s].
+    """
     results: list[Any] = []
     start = time.perf_counter()
-    try:
-        for item in items:
+    for left, item in zip(reversed(range(len(items))), items, strict=True):
+        try:
             results.append(function(item))
-    except BaseException as error:
-        return results, time.perf_counter() - start, raised(error)
-    return results, time.perf_counter() - start, None
+        except BaseException as error:
+            yield Part(results, time.perf_counter() - start, raised(error), True)
+            return
+        seconds = time.perf_counter() - start
+        if not left or seconds > flush:
+            yield Part(results, seconds, None, not left)
+            results, start = [], time.perf_counter()
+
+
+def timed(function: Callable[[Any], Any], items: Sequence[Any]) -> Part:
+    """What comes of items, at once."""
+    return next(parts_of(function, items))
 
 
 def raised(error: BaseException) -> Raised:

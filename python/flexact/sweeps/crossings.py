@@ -19,7 +19,7 @@ from ..util.errors import FlexactError
 from ..util.records import Frozen
 from ..util.roots import Zero, minimum, sign_change
 from .columns import Rows, in_a_line
-from .evaluate import Positions, Signed, SignedColumns, Source, columns_of_signed, signed_value
+from .evaluate import Positions, Signed, Source, signed_column, signed_value, variant_of
 from .parameters import Row, Value
 from .running import results_of
 
@@ -115,8 +115,9 @@ class Crossings(Frozen, Sequence[Crossing]):
     def __repr__(self) -> str:
         """How many, and the first; and what was given up."""
         told = "; ".join(
-            f"{_numbers(each.parameters) or _between_rows(each)}: {each.verdict}"
-            for each in self.found[:6]
+            f"{_numbers(e.parameters) or f'{e.share:.6g} from row {e.rows[0]} to {e.rows[1]}'}: "
+            f"{e.verdict}"
+            for e in self.found[:6]
         )
         more = "; ..." if len(self) > 6 else ""
         given_up = ""
@@ -126,10 +127,6 @@ class Crossings(Frozen, Sequence[Crossing]):
             what = f"{many} search{'es' * (many > 1)} given up"
             given_up = f"; {what}, {'first' if many > 1 else 'which'} at {at}: {first.error}"
         return f"<Crossings: {len(self)}{': ' * bool(told)}{told}{more}{given_up}>"
-
-
-def _between_rows(each: Crossing) -> str:
-    return f"{each.share:.6g} from row {each.rows[0]} to {each.rows[1]}"
 
 
 def _numbers(row: Row) -> str:
@@ -199,15 +196,14 @@ class Search(NamedTuple):
     along: str
     rows: tuple[int, ...]
     """Two, between which the sign changes, or up to three with a dip at the middle one."""
-    is_sign_change: bool
     rank: int
     """The singular value of this number is followed."""
     values: tuple[float, ...]
     """Of the rows."""
     topology: int
     """Of all of them; see `flexact.sweeps.evaluate`."""
-    ends: tuple[float, float] = (0.0, 1.0)
-    """Between which places the sign changes; `values` are of these then."""
+    ends: tuple[float, float] | None = None
+    """Between which places the sign changes, `values` are of these then; None of a dip."""
 
     def between(self, place: float) -> tuple[int, int, float]:
         """The rows round a place, of which the first row's is 0, and the share between them."""
@@ -215,12 +211,19 @@ class Search(NamedTuple):
         return self.rows[first], self.rows[first + 1], place - first
 
 
-@dataclass(frozen=True)
+@dataclass
 class Follow:
-    """The singular value between rows of a table, and searches along it."""
+    """The singular value between rows of a table, and searches along it.
+
+    Attributes:
+        table: The table.
+        source: How its variants came about.
+        calls: How many variants were made.
+    """
 
     table: Rows
     source: Source
+    calls: int = 0
 
     def parameters(self, a: int, b: int, share: float) -> Row:
         """The parameters between those of two rows, as Python's own numbers.
@@ -231,46 +234,45 @@ class Follow:
         ends = {n: [c[k : k + 1].tolist()[0] for k in (a, b)] for n, c in columns.items()}
         return {name: _between(first, last, share) for name, (first, last) in ends.items()}
 
-    def signed(self, a: int, b: int, share: float, rank: int | None = None) -> Signed | str:
-        """The signed singular value between two rows, or why there is none."""
-        try:
-            data = self.source.variant(a, b, share, self.parameters(a, b, share))
-            data.require_sound()
-            return signed_value(data, rank)
-        except Exception as error:
-            return in_a_line(error)
-
     def of_row(self, row: int) -> Signed | str:
         """The signed smallest singular value of a row, or why there is none."""
-        return self.signed(row, row, 0.0)
+        return self.at(row, row, 0.0)
 
-    def at(self, a: int, b: int, share: float, rank: int, topology: int) -> float | str:
-        """The value between two rows of one topology, or why there is none."""
-        found = self.signed(a, b, share, rank)
-        if isinstance(found, str):
-            return found
-        return found.value if found.topology == topology else _ANOTHER
+    def at(
+        self, a: int, b: int, share: float, rank: int | None = None, topology: int | None = None
+    ) -> Signed | str:
+        """The signed singular value between two rows of one topology, or why there is none."""
+        self.calls += 1
+        try:
+            data = variant_of(self.source, a, b, share, self.parameters(a, b, share))
+            data.require_sound()
+            found = signed_value(data, rank)
+        except Exception as error:
+            return in_a_line(error)
+        return found if topology in (None, found.topology) else _ANOTHER
 
     def __call__(self, search: Search) -> Crossings:
         """What one search finds."""
         errors: list[tuple[float, str]] = []
-        calls = 0
+        before = self.calls
 
         def value_at(place: float) -> float | None:
-            nonlocal calls
-            calls += 1
             found = self.at(*search.between(place), search.rank, search.topology)
             if isinstance(found, str):
                 errors.append((place, found))
                 return None
-            return found
+            return found.value
 
         crossings = []
-        for zero, kind in list(_zeros(search, value_at)):
+        zeros = list(_zeros(search, value_at))
+        calls = self.calls - before
+        for zero, kind in zeros:
             a, b, share = search.between(zero.place)
             row = self.parameters(a, b, share)
             try:
-                result = self._singular(self.source.variant(a, b, share, row), search, zero, kind)
+                result = self._singular(
+                    variant_of(self.source, a, b, share, row), search, zero, kind
+                )
             except FlexactError as error:
                 errors.append((zero.place, in_a_line(error)))
                 continue
@@ -285,8 +287,8 @@ class Follow:
                         calls,
                     )
                 )
-        missed = [self.missed(search, *each) for each in errors[:1]]
-        return Crossings(tuple(crossings), calls, tuple(missed))
+        missed = tuple(self.missed(search, *each) for each in errors[:1])
+        return Crossings(tuple(crossings), calls, missed)
 
     @staticmethod
     def _singular(data: Any, search: Search, zero: Zero, kind: str) -> Result:
@@ -316,7 +318,7 @@ def _between(a: Value, b: Value, share: float) -> Value:
 
 def _zeros(search: Search, function: Callable[[float], float | None]) -> Iterator[tuple[Zero, str]]:
     values = search.values
-    if search.is_sign_change:
+    if search.ends is not None:
         zero = sign_change(function, *search.ends, values[0], values[1])
         if zero is not None:
             yield zero, "sign change"
@@ -345,7 +347,7 @@ def _zeros(search: Search, function: Callable[[float], float | None]) -> Iterato
 def crossings_of(
     table: Rows,
     source: Source,
-    signed: SignedColumns | None,
+    signed: np.ndarray | None,
     along: str | None,
     workers: int | None,
 ) -> Crossings:
@@ -354,25 +356,26 @@ def crossings_of(
     made = 0
     missed: list[Missed] = []
     follow = Follow(table, source)
-    if signed is None or bool(((signed.topology < 0) & ~table.has_error).any()):
+    if signed is None or bool(((signed["topology"] < 0) & ~table.has_error).any()):
         signed, made = _signed_rows(follow, workers, missed), len(table)
-    found: list[Crossing] = []
-    searches: list[Search] = []
-    for name, rows in lines:
-        for run in _runs(follow, signed, rows):
-            candidates = _Candidates(follow, signed, name, run)
-            found += candidates.at_rows
-            searches += candidates.searches
-            missed += candidates.missed
-            made += candidates.evaluations
+    before = follow.calls
+    candidates = [
+        each
+        for name, rows in lines
+        for run in _runs(follow, signed, rows)
+        for each in _candidates(follow, signed, name, run, missed)
+    ]
+    made += follow.calls - before
+    found = [each for each in candidates if isinstance(each, Crossing)]
+    searches = [each for each in candidates if isinstance(each, Search)]
     few = len(searches) < _FEW
-    for each in results_of(follow, searches, workers=1 if few else workers):
-        if each.result is None:
-            missed.append(follow.missed(searches[each.index], 0.5, each.failure))
+    for done in results_of(follow, searches, workers=1 if few else workers):
+        if done.result is None:
+            missed.append(follow.missed(searches[done.index], 0.5, done.failure))
         else:
-            found += each.result.found
-            missed += each.result.missed
-            made += each.result.evaluations
+            found += done.result.found
+            missed += done.result.missed
+            made += done.result.evaluations
     order = sorted(found, key=lambda each: (*each.rows, each.share, each.along))
     missed.sort(key=lambda each: (*each.rows, each.along))
     return Crossings(tuple(_once(order)), made, tuple(missed))
@@ -408,7 +411,7 @@ def _is_same(one: Crossing, other: Crossing) -> bool:
     return apart <= one.width + other.width + _ONE_PLACE
 
 
-def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> SignedColumns:
+def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> np.ndarray:
     table = follow.table
     every: list[Signed | None] = [None] * len(table)
     for done in results_of(follow.of_row, range(len(table)), workers=workers):
@@ -416,24 +419,22 @@ def _signed_rows(follow: Follow, workers: int | None, missed: list[Missed]) -> S
             every[done.index] = done.result
         elif not table["error"][done.index]:
             row = follow.parameters(done.index, done.index, 0.0)
-            error = done.result or done.failure
-            missed.append(Missed(row, ROWS, (done.index, done.index), error))
-    return columns_of_signed(every)
+            missed.append(Missed(row, ROWS, (done.index, done.index), done.result or done.failure))
+    return signed_column(every)
 
 
-def _runs(follow: Follow, signed: SignedColumns, rows: Sequence[int]) -> Iterator[list[int]]:
+def _runs(follow: Follow, signed: np.ndarray, rows: Sequence[int]) -> Iterator[list[int]]:
     """Rows of a line in pieces of one topology, without errors."""
+    source, topology = follow.source, signed["topology"]
+
+    def goes_on(a: int, b: int) -> bool:
+        is_way = not isinstance(source, Positions) or source.goes_between(a, b)
+        return is_way and bool(topology[a] == topology[b])
+
     run: list[int] = []
     for row in rows:
-        there = not follow.table["error"][row] and not math.isnan(signed.value[row])
-        goes_on = there and (
-            not run
-            or (
-                signed.topology[run[-1]] == signed.topology[row]
-                and follow.source.goes_between(run[-1], row)
-            )
-        )
-        if run and not goes_on:
+        there = not follow.table["error"][row] and not math.isnan(signed["value"][row])
+        if run and not (there and goes_on(run[-1], row)):
             yield run
             run = []
         if there:
@@ -442,85 +443,58 @@ def _runs(follow: Follow, signed: SignedColumns, rows: Sequence[int]) -> Iterato
         yield run
 
 
-class _Candidates:
+def _candidates(
+    follow: Follow, signed: np.ndarray, along: str, run: list[int], missed: list[Missed]
+) -> Iterator[Crossing | Search]:
     """Of a run of rows those that are singular themselves, and where to search between them."""
+    table, topology = follow.table, int(signed["topology"][run[0]])
+    ranks = table["rank"][run]
+    rank = int(ranks.max())
+    is_zero = ranks < rank
 
-    def __init__(self, follow: Follow, signed: SignedColumns, along: str, run: list[int]) -> None:
-        self._follow, self._along, self._run = follow, along, run
-        self._topology = int(signed.topology[run[0]])
-        self.missed: list[Missed] = []
-        self.evaluations = 0
-        ranks = follow.table["rank"][run]
-        self._rank = int(ranks.max())
-        is_zero = ranks < self._rank
-        values = signed.value[run].copy()
-        if self._rank < signed.size[run[0]]:
-            # All are singular alike: what counts is the value that ends the rank.
-            values = np.array([self._at(k, k, 0.0) for k in range(len(run))])
-        values[is_zero] = 0.0
-        self.at_rows = [
-            self._at_row(k, float(abs(signed.value[run[k]])))
-            for k in np.flatnonzero(is_zero).tolist()
-            if not all(is_zero[max(k - 1, 0) : k + 2])
-        ]
-        self.searches = [*self._changes(values, is_zero), *self._dips(values, is_zero)]
-
-    def _at(self, k: int, j: int, share: float) -> float:
+    def at(k: int, j: int, share: float) -> float:
         """The value between two rows of the run; NaN, which is told, where there is none."""
-        a, b = self._run[k], self._run[j]
-        self.evaluations += 1
-        found = self._follow.at(a, b, share, self._rank, self._topology)
+        a, b = run[k], run[j]
+        found = follow.at(a, b, share, rank, topology)
         if isinstance(found, str):
-            row = self._follow.parameters(a, b, share)
-            self.missed.append(Missed(row, self._along, (a, b), found))
+            missed.append(Missed(follow.parameters(a, b, share), along, (a, b), found))
             return math.nan
-        return found
+        return found.value
 
-    def _at_row(self, k: int, value: float) -> Crossing:
-        run, table = self._run, self._follow.table
-        beside = (k, max(k - 1, 0), min(k + 1, len(run) - 1))
-        verdicts = [Verdict(table["verdict"][run[j]]) for j in beside]
-        return Crossing(
-            self._follow.parameters(run[k], run[k], 0.0),
-            self._along,
-            (run[k], run[k]),
-            *(0.0, 0.0, "row", value, verdicts[0], verdicts[1], verdicts[2], 0),
-        )
-
-    def _changes(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
-        """Between which rows the sign changes; it has none at a row that is singular itself."""
-        for k in range(len(self._run) - 1):
-            ends, there = [0.0, 1.0], [float(values[k]), float(values[k + 1])]
-            if is_zero[k] and not is_zero[k + 1]:
-                ends[0] = _BESIDE
-                there[0] = self._at(k, k + 1, ends[0])
-            if is_zero[k + 1] and not is_zero[k]:
-                ends[1] = 1.0 - _BESIDE
-                there[1] = self._at(k, k + 1, ends[1])
-            # Their product may be too small for a number.
-            if {*np.sign(there).tolist()} == {-1.0, 1.0}:
-                yield self._search(k, k + 2, there, (ends[0], ends[1]))
-
-    def _dips(self, values: FloatArray, is_zero: np.ndarray) -> Iterator[Search]:
-        """Rows at which the value is lower than at those beside it."""
-        size = np.abs(values)
-        changes = np.sign(values[:-1]) * np.sign(values[1:]) < 0.0
-        for k in range(len(self._run)):
-            first, last = max(k - 1, 0), min(k + 1, len(self._run) - 1)
-            is_dip = size[k] <= size[first : last + 1].min() and first < last
-            if is_dip and not is_zero[first : last + 1].any() and not changes[first:last].any():
-                yield self._search(first, last + 1, values[first : last + 1].tolist())
-
-    def _search(
-        self, first: int, end: int, values: list[float], ends: tuple[float, float] | None = None
-    ) -> Search:
-        """Between some rows of the run: where the sign changes if `ends` are given, else a dip."""
-        return Search(
-            self._along,
-            tuple(self._run[first:end]),
-            ends is not None,
-            self._rank,
-            tuple(values),
-            self._topology,
-            ends or (0.0, 1.0),
-        )
+    values = signed["value"][run].copy()
+    if rank < signed["size"][run[0]]:
+        # All are singular alike: what counts is the value that ends the rank.
+        values = np.array([at(k, k, 0.0) for k in range(len(run))])
+    values[is_zero] = 0.0
+    for k in np.flatnonzero(is_zero).tolist():
+        if not all(is_zero[max(k - 1, 0) : k + 2]):
+            value = float(abs(signed["value"][run[k]]))
+            beside = (k, max(k - 1, 0), min(k + 1, len(run) - 1))
+            verdicts = [Verdict(table["verdict"][run[j]]) for j in beside]
+            yield Crossing(
+                follow.parameters(run[k], run[k], 0.0),
+                along,
+                (run[k], run[k]),
+                *(0.0, 0.0, "row", value, verdicts[0], verdicts[1], verdicts[2], 0),
+            )
+    # Between which rows the sign changes; it has none at a row that is singular itself.
+    for k in range(len(run) - 1):
+        low, high, one, two = 0.0, 1.0, float(values[k]), float(values[k + 1])
+        if is_zero[k] and not is_zero[k + 1]:
+            low = _BESIDE
+            one = at(k, k + 1, low)
+        if is_zero[k + 1] and not is_zero[k]:
+            high = 1.0 - _BESIDE
+            two = at(k, k + 1, high)
+        # Their product may be too small for a number.
+        if {*np.sign((one, two)).tolist()} == {-1.0, 1.0}:
+            yield Search(along, tuple(run[k : k + 2]), rank, (one, two), topology, (low, high))
+    # Rows at which the value is lower than at those beside it.
+    size = np.abs(values)
+    changes = np.sign(values[:-1]) * np.sign(values[1:]) < 0.0
+    for k in range(len(run)):
+        first, last = max(k - 1, 0), min(k + 1, len(run) - 1)
+        near = slice(first, last + 1)
+        is_dip = size[k] <= size[near].min() and first < last
+        if is_dip and not is_zero[near].any() and not changes[first:last].any():
+            yield Search(along, tuple(run[near]), rank, tuple(values[near].tolist()), topology)

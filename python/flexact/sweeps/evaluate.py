@@ -9,16 +9,14 @@ analysed here as a single model would be, so that each row says what `flexact.an
 from __future__ import annotations
 
 import math
-import pickle
 import zlib
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..analysis.decomposition import Asked
 from ..analysis.limits import CUT_OFF, NEAR, NO_CHANGE, REACH_OF_DIGITS
@@ -88,15 +86,6 @@ def modes_of(result: Result) -> tuple[MotionArrays, StressArrays]:
 MOST_ENTRIES = 16_000_000
 
 
-class Scaled(NamedTuple):
-    """The scaled D(c) of a model."""
-
-    matrix: FloatArray
-    """(m, n) free of units, theory.md (2)."""
-    topology: int
-    """The same for models whose rows and columns are the same deformations and coordinates."""
-
-
 class Signed(NamedTuple):
     """A singular value of the scaled D(c), with a sign."""
 
@@ -108,33 +97,25 @@ class Signed(NamedTuple):
     """How many singular values there are."""
 
 
-class SignedColumns(NamedTuple):
-    """Of variants their `Signed`, each (variants,); the topology is -1 where there is none."""
-
-    value: FloatArray
-    topology: NDArray[np.int64]
-    size: NDArray[np.int64]
-
-    def taken(self, index: NDArray[np.integer]) -> SignedColumns:
-        """Those of some variants."""
-        return SignedColumns(*(each[index] for each in self))
+#: Of variants their `Signed`, as an array of records; the topology is -1 where there is none.
+_SIGNED = np.dtype([("value", np.float64), ("topology", np.int64), ("size", np.int64)])
 
 
-def columns_of_signed(every: Sequence[Signed | None]) -> SignedColumns:
-    """The columns of variants."""
-    there = [each or Signed(math.nan, -1, 0) for each in every]
-    return SignedColumns(
-        np.array([each.value for each in there], np.float64),
-        np.array([each.topology for each in there], np.int64),
-        np.array([each.size for each in there], np.int64),
-    )
+def signed_column(every: Iterable[Signed | None]) -> np.ndarray:
+    """(variants,) records of variants."""
+    none = Signed(math.nan, -1, 0)
+    return np.array([each or none for each in every], _SIGNED)
 
 
-def scaled_jacobian(data: ModelData) -> Scaled:
+def scaled_jacobian(data: ModelData) -> tuple[FloatArray, int]:
     """D(c) as rank is decided on, but for components of quite another size.
 
     Rotations are multiplied by the characteristic length, and each row, over all coordinates,
     is brought to the norm one. Scales are positive, so that they keep the determinant's sign.
+
+    Returns:
+        (m, n) free of units, theory.md (2); and a number that is the same for models whose rows
+        and columns are the same deformations and coordinates.
 
     Raises:
         AnalysisError: it is too large.
@@ -156,19 +137,14 @@ def scaled_jacobian(data: ModelData) -> Scaled:
     full = np.zeros((rows.size, coordinates.size))
     np.add.at(full, (place[raw.row_of[there]], raw.column_of[there]), raw.value[there])
     turns = np.repeat(arrays.node_kind > NodeKind.POSITION, coordinates.shape[1])
-    full[:, turns] /= characteristic_length(one.frames.length)
+    lengths = one.frames.length[one.frames.length > 0.0]
+    full[:, turns] /= math.exp(float(np.log(lengths).mean())) if lengths.size else 1.0
     norm = np.linalg.norm(full, axis=1, keepdims=True)
     matrix = full[:, columns] / np.where(norm > 0.0, norm, 1.0)
     topology = 0
     for array in (arrays.element_kind, arrays.element_node, rows, columns):
         topology = zlib.crc32(np.ascontiguousarray(array).tobytes(), topology)
-    return Scaled(matrix, topology)
-
-
-def characteristic_length(lengths: FloatArray) -> float:
-    """The geometric mean of the lengths that are not zero; one without any."""
-    positive = lengths[lengths > 0.0]
-    return math.exp(float(np.log(positive).mean())) if positive.size else 1.0
+    return matrix, topology
 
 
 def signed_value(data: ModelData, rank: int | None = None) -> Signed:
@@ -192,26 +168,6 @@ def signed_value(data: ModelData, rank: int | None = None) -> Signed:
 Make = Callable[..., Model]
 
 
-class Source(Protocol):
-    """How the variants of a table came about."""
-
-    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
-        """The model between the variants of two rows, with its parameters.
-
-        Raises:
-            Exception: whatever a function of the user raises.
-        """
-
-    def goes_between(self, a: int, b: int) -> bool:
-        """Whether there is anything between two variants of the same topology."""
-
-    def taken(self, index: np.ndarray) -> Source:
-        """The source of some of the rows."""
-
-    def portable(self) -> Source | None:
-        """What of it can be pickled."""
-
-
 @dataclass(frozen=True, eq=False)
 class Positions(Frozen):
     """A model, with its nodes elsewhere or other deformations held; see `sweep`."""
@@ -226,13 +182,12 @@ class Positions(Frozen):
         given = self.positions if self.held is None else self.held
         return 1 if given is None else len(given)
 
-    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
+    def variant(self, a: int, b: int, share: float) -> ModelData:
         """Each position on the straight line between its two places."""
-        between = None
-        if self.positions is not None:
-            first, last = self.positions[a], self.positions[b]
-            between = first + share * (last - first)
-        return varied(self.data, between, None if self.held is None else self.held[a])
+        first, held = self.one(a)
+        if first is not None and self.positions is not None:
+            first = first + share * (self.positions[b] - first)
+        return varied(self.data, first, held)
 
     def one(self, k: int) -> tuple[FloatArray | None, BoolArray | None]:
         """Where the nodes of a variant are, and what it holds; None as in the model."""
@@ -247,9 +202,8 @@ class Positions(Frozen):
 
     def goes_between(self, a: int, b: int) -> bool:
         """Unless what is held differs, or nothing moves at all."""
-        if self.positions is None:
-            return False
-        return self.held is None or bool((self.held[a] == self.held[b]).all())
+        alike = self.held is None or bool((self.held[a] == self.held[b]).all())
+        return alike and self.positions is not None
 
     def taken(self, index: np.ndarray | slice) -> Positions:
         """The source of some of the rows."""
@@ -259,36 +213,18 @@ class Positions(Frozen):
             None if self.held is None else self.held[index],
         )
 
-    def portable(self) -> Positions:
-        """All of it."""
-        return self
+
+#: How the variants of a table came about: a model in many positions, or a function.
+Source = Positions | Make
 
 
-@dataclass(frozen=True, eq=False)
-class Making(Frozen):
-    """A function of parameters that makes the model."""
+def variant_of(source: Source, a: int, b: int, share: float, row: Row) -> ModelData:
+    """The model between the variants of two rows, with its parameters.
 
-    make: Make
-
-    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
-        """What the function makes of the parameters."""
-        return made_by(self.make, row)
-
-    def goes_between(self, a: int, b: int) -> bool:
-        """Wherever parameters differ."""
-        return True
-
-    def taken(self, index: np.ndarray) -> Making:
-        """The function knows no rows."""
-        return self
-
-    def portable(self) -> Making | None:
-        """Functions without a name in a module cannot be pickled."""
-        try:
-            pickle.dumps(self.make)
-        except Exception:
-            return None
-        return self
+    Raises:
+        Exception: whatever a function of the user raises.
+    """
+    return source.variant(a, b, share) if isinstance(source, Positions) else made_by(source, row)
 
 
 def made_by(make: Make, row: Row) -> ModelData:
@@ -319,25 +255,16 @@ _TEXTS = {
 
 
 def swept(
-    data: ModelData,
-    *,
-    positions: FloatArray | None = None,
-    held: BoolArray | None = None,
-    want: str = "values",
-    workers: int | None = None,
-    progress: Progress | None = None,
+    every: Positions, want: str, workers: int | None = None, progress: Progress | None = None
 ) -> Columns:
     """The columns of a table for variants of a model, by name, each of (variants,).
 
     Args:
-        data: A sound model.
-        positions: (variants, nodes, 3) [m], as `positions_given` gives them.
-        held: (variants, elements, 6), as `held_given` gives them; one of the two at least.
+        every: A sound model and its variants.
         want: One of `WANTS`.
         workers: So many threads at most; by default one a processor.
         progress: Called with what is being done and how much of that is done, from 0 to 1.
     """
-    every = Positions(data, positions, held)
     count = every.count
     made: Columns = {
         c.name: np.full(count, MISSING[c.kind], _TEXTS.get(c.name, c.kind))
@@ -345,17 +272,17 @@ def swept(
     }
     made["error"] = np.full(count, "", object)
     # Where only positions differ, what is held does not.
-    common = _perhaps_condensed(every.taken(slice(0, 1))) if held is None else None
+    common = _perhaps_condensed(every.taken(slice(0, 1))) if every.held is None else None
     threads = workers or processors()
     step = max(1, min(_MOST_AT_ONCE, -(-count // (4 * threads))))
     room = memory.allowance() / threads
-    done = 0
 
     def run(first: int) -> int:
         some = slice(first, min(first + step, count))
         _fill(every.taken(some), want, room, common, {k: v[some] for k, v in made.items()})
         return some.stop - first
 
+    done = 0
     for number in _in_threads(run, range(0, count, step), threads):
         done += number
         if progress is not None:
@@ -368,13 +295,7 @@ def _in_threads(run: Callable[[int], int], items: Sequence[int], threads: int) -
         yield from map(run, items)
         return
     with ThreadPoolExecutor(threads) as pool:
-        futures: list[Future[int]] = [pool.submit(run, item) for item in items]
-        try:
-            for future in as_completed(futures):
-                yield future.result()
-        finally:
-            for future in futures:
-                future.cancel()
+        yield from pool.map(run, items)
 
 
 def _perhaps_condensed(some: Positions) -> BoolArray:
@@ -462,32 +383,24 @@ def failed(message: str, want: str) -> Answer:
     return Answer(tuple(error_row(message, want).values()))
 
 
-def of_function(make: Make, want: str, asked: Asked, row: Row) -> Answer:
-    """The variant that a function makes of some parameters."""
+def answer_of(source: ModelData | Make, want: str, asked: Asked, item: Any) -> Answer:
+    """What is known of the variant that a function makes of parameters, or of one of a model.
+
+    Args:
+        source: The function, or the model.
+        want: One of `WANTS`.
+        asked: How it is to be analysed.
+        item: The parameters, or where the nodes are and what is held.
+    """
     try:
-        return _answer(made_by(make, row), want, asked, is_signed=want != "verdict")
+        data = varied(source, *item) if isinstance(source, ModelData) else made_by(source, item)
+        result: Result = result_of(data, asked)
+        modes = modes_of(result) if want == "all" else None
+        signed = None
+        is_small = result.rows * result.columns <= _MOST_SIGNED
+        if is_small and want != "verdict" and not isinstance(source, ModelData):
+            with suppress(AnalysisError, MemoryError, np.linalg.LinAlgError):
+                signed = signed_value(data)
+        return Answer(tuple(row_of(result, want).values()), signed, modes)
     except Exception as error:
         return failed(in_a_line(error), want)
-
-
-def of_model(
-    data: ModelData,
-    want: str,
-    asked: Asked,
-    variant: tuple[FloatArray | None, BoolArray | None],
-) -> Answer:
-    """The variant of a model at some positions, with some deformations held."""
-    try:
-        return _answer(varied(data, *variant), want, asked)
-    except Exception as error:
-        return failed(in_a_line(error), want)
-
-
-def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
-    result: Result = result_of(data, asked)
-    modes = modes_of(result) if want == "all" else None
-    signed = None
-    if is_signed and result.rows * result.columns <= _MOST_SIGNED:
-        with suppress(AnalysisError, MemoryError, np.linalg.LinAlgError):
-            signed = signed_value(data)
-    return Answer(tuple(row_of(result, want).values()), signed, modes)

@@ -17,7 +17,7 @@ import time
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..util.errors import BatchError, reason_of
 from ..util.loading import load
@@ -38,13 +38,6 @@ _LOCKED = 2**31 - 2
 
 class JournalError(BatchError):
     """A journal that cannot be used."""
-
-
-class Entry(NamedTuple):
-    """A record, and where its line begins."""
-
-    place: int
-    record: Any
 
 
 class Journal:
@@ -96,16 +89,18 @@ class Journal:
                 # The run that had it locked has ended meanwhile, and taken it away.
                 made.close()
                 return cls.resume(path)
-            head = next(made.entries(), None)
-            if head is None or head.place:
+            place, head = next(made.entries(), (0, None))
+            if head is None or place:
                 raise JournalError(
                     f"{path} does not begin as a journal does; delete it to start anew"
                 )
-            made._end_line()
+            if made._size and made._bytes(made._size - 1, 1) != b"\n":
+                # What is added begins a line, whatever a killed process has left half-written.
+                made._write(b"\n")
         except BaseException:
             made.close()
             raise
-        made.head = head.record
+        made.head = head
         return made
 
     def _is_in_place(self) -> bool:
@@ -117,45 +112,29 @@ class Journal:
 
     def _lock(self) -> None:
         """Keep other processes away until this one ends, however it does."""
-        if sys.platform == "win32":
-            self._lock_on_windows()
-            return
         try:
-            # Of this process alone: what it has forked may live a little longer.
-            fcntl.lockf(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if sys.platform == "win32":
+                os.lseek(self._handle, _LOCKED, os.SEEK_SET)
+                library = load("msvcrt")
+                library.locking(self._handle, library.LK_NBLCK, 1)
+            else:
+                # Of this process alone: what it has forked may live a little longer.
+                fcntl.lockf(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except (BlockingIOError, PermissionError):
-            raise self._in_use() from None
+            raise JournalError(
+                f"{self.path} belongs to a run that is still going on; wait for its end"
+            ) from None
         except OSError:
             return  # a file system without locks
 
-    def _lock_on_windows(self) -> None:
-        os.lseek(self._handle, _LOCKED, os.SEEK_SET)
-        try:
-            library = load("msvcrt")
-            library.locking(self._handle, library.LK_NBLCK, 1)
-        except PermissionError:
-            raise self._in_use() from None
-        except OSError:
-            return
-
-    def _in_use(self) -> JournalError:
-        return JournalError(
-            f"{self.path} belongs to a run that is still going on; wait for its end"
-        )
-
-    def _end_line(self) -> None:
-        """Let what is added begin a line, whatever a killed process has left half-written."""
-        if self._size and self._bytes(self._size - 1, 1) != b"\n":
-            self._write(b"\n")
-
-    def entries(self) -> Iterator[Entry]:
-        """The records in the order in which they were added, the head first."""
+    def entries(self) -> Iterator[tuple[int, Any]]:
+        """Where lines begin with their records, in the order in which they were added."""
         place, rest = 0, b""
         while part := self._bytes(place + len(rest), _BUFFER):
             *lines, rest = (rest + part).split(b"\n")
             for line in lines:
                 if (found := _record(line)) is not None:
-                    yield Entry(place, found)
+                    yield place, found
                 place += len(line) + 1
 
     def add(self, record: Any) -> int:

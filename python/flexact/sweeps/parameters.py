@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import product
 from math import prod
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -47,7 +47,7 @@ class Grid:
 
     def __iter__(self) -> Iterator[Row]:
         """The combinations as rows."""
-        for values in product(*self.axes.values()):
+        for values in itertools.product(*self.axes.values()):
             yield dict(zip(self.axes, values, strict=True))
 
 
@@ -66,15 +66,9 @@ def grid(**axes: Iterable[Value]) -> Grid:
     return Grid({name: _column(name, values) for name, values in axes.items()})
 
 
-class Wrong(NamedTuple):
-    """In place of a row that cannot be had."""
-
-    message: str
-
-
-#: Rows of parameters, taken as they are needed, and how many there are; None where that shows only
-#: as they come.
-Given = tuple[Iterator[Row | Wrong], int | None]
+#: Rows of parameters, taken as they are needed, a text in place of one that cannot be had; and how
+#: many there are, None where that shows only as they come.
+Given = tuple[Iterator[Row | str], int | None]
 
 
 def given(parameters: Parameters) -> Given:
@@ -139,24 +133,22 @@ def _column(name: str, values: Any) -> list[Value]:
     return [_plain(name, value) for value in values]
 
 
-def _as_they_come(taken: Iterator[Any]) -> Iterator[Row | Wrong]:
+def _as_they_come(taken: Iterator[Any]) -> Iterator[Row | str]:
     """Rows; one that is wrong, or what the generator raises, is told in its place."""
-    first = True
-    while True:
+    for count in itertools.count():
         try:
             item = next(taken)
         except StopIteration:
             return
         except Exception as error:
-            yield Wrong(f"the parameters ended here: {in_a_line(error)}")
+            yield f"the parameters ended here: {in_a_line(error)}"
             return
         try:
-            row: Row | Wrong = checked(item)
+            row: Row | str = checked(item)
         except (TypeError, ValueError) as error:
-            if first:
+            if not count:
                 raise
-            row = Wrong(str(error))
-        first = False
+            row = str(error)
         yield row
 
 

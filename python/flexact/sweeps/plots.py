@@ -6,10 +6,10 @@ from __future__ import annotations
 import os
 from collections import defaultdict
 from collections.abc import Sequence
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from math import dist
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -79,32 +79,27 @@ def add_legend(axes: Any, table: Rows, *, has_singular: bool, marks: bool) -> No
     from matplotlib.patches import Patch
 
     handles: list[Any] = []
-    mark: Any
     for verdict in Verdict:
         if count := int((table["verdict"] == verdict.value).sum()):
-            told = f"{verdict.value}: {count}"
-            handles.append(_of_verdict(verdict, told, marks))
+            dot: Any = {"label": f"{verdict.value}: {count}", "color": verdict.colour}
+            handles.append(
+                Line2D([], [], marker="o", ms=6, ls="none", **dot)
+                if marks
+                else Patch(facecolor=verdict.colour, label=dot["label"])
+            )
     if has_singular:
         handles.append(Line2D([], [], color=SINGULAR_COLOUR, lw=1.8, label="singular"))
     if count := int(table.is_doubtful.sum()):
-        mark = {"marker": "o", "mfc": "none", "mec": DOUBT_COLOUR, "ls": "none", "mew": 1.5}
-        handles.append(Line2D([], [], label=f"rank doubtful: {count}", ms=9, **mark))
+        ring: Any = {"marker": "o", "mfc": "none", "mec": DOUBT_COLOUR, "ls": "none", "mew": 1.5}
+        handles.append(Line2D([], [], label=f"rank doubtful: {count}", ms=9, **ring))
     if count := int(table.has_error.sum()):
-        mark = {"marker": "x", "color": ERROR_COLOUR, "ls": "none", "mew": 1.6}
-        handles.append(Line2D([], [], label=f"error: {count}", **mark))
+        cross: Any = {"marker": "x", "color": ERROR_COLOUR, "ls": "none", "mew": 1.6}
+        handles.append(Line2D([], [], label=f"error: {count}", **cross))
     if not handles:
         handles.append(Patch(facecolor="none", label="no variants"))
-    figure: Any = axes.get_figure()
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=9.5)
-
-
-def _of_verdict(verdict: Verdict, told: str, marks: bool) -> Any:
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-
-    if marks:
-        return Line2D([], [], marker="o", ms=6, ls="none", color=verdict.colour, label=told)
-    return Patch(facecolor=verdict.colour, label=told)
+    axes.get_figure().legend(
+        handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=9.5
+    )
 
 
 def verdict_colours(table: Rows) -> np.ndarray:
@@ -162,17 +157,9 @@ Segment = tuple[Point, Point]
 _PAIRS = (((0, 1), (2, 3)), ((0, 2), (1, 3)), ((0, 3), (1, 2)))
 
 
-class Curves(NamedTuple):
-    """What is drawn of singular places in a map."""
-
-    segments: list[Segment]
-    alone: list[Point]
-    """Places that are joined with no other one."""
-
-
 def curves_of(
     crossings: Sequence[Crossing], x: str, y: str, columns: tuple[np.ndarray, np.ndarray]
-) -> Curves:
+) -> tuple[list[Segment], list[Point]]:
     """Join the singular places on the edges of each cell.
 
     Args:
@@ -180,6 +167,9 @@ def curves_of(
         x: The parameter along the map.
         y: The parameter up the map.
         columns: The values of both, (variants,) each.
+
+    Returns:
+        What joins them, and those that are joined with no other one.
     """
     index = [np.unique(column, return_inverse=True)[1].tolist() for column in columns]
     cells: dict[tuple[int, int], list[Point]] = defaultdict(list)
@@ -187,27 +177,16 @@ def curves_of(
     for each in crossings:
         if each.along not in (x, y):
             continue
-        point = (_number(each, x), _number(each, y))
+        point = (float(cast(float, each.parameters[x])), float(cast(float, each.parameters[y])))
         points.append(point)
-        places = [(index[0][row], index[1][row]) for row in each.rows]
-        low = [min(place[axis] for place in places) for axis in (0, 1)]
-        high = [max(place[axis] for place in places) for axis in (0, 1)]
+        ends = [sorted(of_axis[row] for row in each.rows) for of_axis in index]
         # An edge has a cell on each side, a corner four round it.
-        around = [
-            range(a - 1, a + 1) if a == b else range(a, b) for a, b in zip(low, high, strict=True)
-        ]
-        for i in around[0]:
-            for j in around[1]:
-                cells[i, j].append(point)
+        across, up = (range(a - 1, a + 1) if a == b else range(a, b) for a, b in ends)
+        for cell in product(across, up):
+            cells[cell].append(point)
     segments = list(dict.fromkeys(s for there in cells.values() for s in _joined(there)))
     joined = {point for segment in segments for point in segment}
-    return Curves(segments, [point for point in dict.fromkeys(points) if point not in joined])
-
-
-def _number(each: Crossing, name: str) -> float:
-    value = each.parameters[name]
-    assert isinstance(value, (int, float))
-    return float(value)
+    return segments, [point for point in dict.fromkeys(points) if point not in joined]
 
 
 def _joined(there: list[Point]) -> list[Segment]:
@@ -216,8 +195,7 @@ def _joined(there: list[Point]) -> list[Segment]:
         best = min(_PAIRS, key=lambda pairs: sum(dist(points[a], points[b]) for a, b in pairs))
         return [(points[a], points[b]) for a, b in best]
     if len(points) == 3:
-        ranked = sorted(combinations(points, 2), key=lambda pair: dist(*pair))
-        return list(ranked[:2])
+        return sorted(combinations(points, 2), key=lambda pair: dist(*pair))[:2]
     return list(pairwise(points))
 
 
@@ -227,14 +205,6 @@ _ZERO = 1.0e-9
 _MOST_JOINED = 2_000
 #: So many singular places are told by their value.
 _MOST_TOLD = 6
-
-
-class _Quantity(NamedTuple):
-    words: str
-    values: FloatArray
-    is_logarithmic: bool
-    falls: bool
-    """Whether it is zero at singular places."""
 
 
 def curve(table: Rows, x: str | None, y: str | None, crossings: Crossings) -> Any:
@@ -248,24 +218,24 @@ def curve(table: Rows, x: str | None, y: str | None, crossings: Crossings) -> An
     else:
         values = [each.parameters.get(x) for each in crossings]
         places = [float(value) for value in values if isinstance(value, (int, float))]
-    for axes, quantity in zip(panels, quantities, strict=True):
-        _draw(axes, table, along, quantity, _lines(table, x), places)
-        label(axes, "" if axes is not panels[-1] else x or "variant", quantity.words)
+    for axes, (words, *quantity) in zip(panels, quantities, strict=True):
+        _draw(axes, table, along, _lines(table, x), places, *quantity)
+        label(axes, "" if axes is not panels[-1] else x or "variant", words)
     for place in places if len(places) <= _MOST_TOLD else ():
         _note(panels[0], place, f"{place:.6g}", color=SINGULAR_COLOUR)
     add_legend(panels[0], table, has_singular=bool(places), marks=True)
     return figure
 
 
-def _quantities(table: Rows, y: str | None) -> list[_Quantity]:
+def _quantities(table: Rows, y: str | None) -> list[tuple[Any, ...]]:
+    """Words, values, whether their axis is logarithmic, and whether singular places have zero."""
     if y is not None:
-        values = table[y].astype(float)
-        return [_Quantity(y, values, y in _LOGARITHMIC, y in _FALLING)]
+        return [(y, table[y].astype(float), y in _LOGARITHMIC, y in _FALLING)]
     if "gap" not in table.columns:
-        return [_Quantity("rank of D(c)", table["rank"], False, False)]
+        return [("rank of D(c)", table["rank"], False, False)]
     return [
-        _Quantity("smallest singular value", smallest_values(table), True, True),
-        _Quantity("margin [m]", table["margin"], True, True),
+        ("smallest singular value", smallest_values(table), True, True),
+        ("margin [m]", table["margin"], True, True),
     ]
 
 
@@ -286,23 +256,24 @@ def _draw(
     axes: Any,
     table: Rows,
     along: FloatArray,
-    quantity: _Quantity,
     lines: Sequence[Sequence[int]],
     places: Sequence[float],
+    given: np.ndarray,
+    is_logarithmic: bool,
+    falls: bool,
 ) -> None:
-    there = np.isfinite(quantity.values) & ~table.has_error
-    values = np.where(there, quantity.values, np.nan)
+    values = np.where(np.isfinite(given) & ~table.has_error, given, np.nan)
     floor = np.nan
-    if quantity.is_logarithmic:
+    if is_logarithmic:
         axes.set_yscale("log")
         above = values[values > _ZERO * np.nanmax(values, initial=0.0)]
-        zeros = bool((values <= 0.0).any()) or (quantity.falls and bool(places))
+        zeros = bool((values <= 0.0).any()) or (falls and bool(places))
         # The lower edge of the axis: a decade below the least, where zero is reached.
         floor = float(above.min() / (10.0 if zeros else 1.5)) if above.size else 0.1
         values = np.maximum(values, floor)
     for rows in lines:
         xs, ys = along[list(rows)], values[list(rows)]
-        if quantity.falls and len(lines) == 1:
+        if falls and len(lines) == 1:
             # The curve comes down to zero at singular places between the rows.
             xs = np.concatenate((xs, places))
             ys = np.concatenate((ys, np.full(len(places), floor)))[np.argsort(xs, kind="stable")]
@@ -313,13 +284,12 @@ def _draw(
     size = 26 if len(table) <= FEW_ROWS else 2 if many else 9
     points: Any = {"s": size, "c": verdict_colours(table)[there], "rasterized": many}
     axes.scatter(along[there], values[there], zorder=4, clip_on=False, **points)
-    if quantity.is_logarithmic:
+    if is_logarithmic:
         axes.set_ylim(bottom=floor)
     for place in places:
         axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, zorder=3)
-    bottom = np.full(len(table), axes.get_ylim()[0])
-    mark_rows(axes, table, along, np.where(there, values, bottom))
-    if quantity.values.dtype.kind == "i":
+    mark_rows(axes, table, along, np.where(there, values, np.full(len(table), axes.get_ylim()[0])))
+    if given.dtype.kind == "i":
         axes.yaxis.get_major_locator().set_params(integer=True)
     axes.grid(True, which="major", color="#e5e7eb", lw=0.7, zorder=0)
     axes.set_axisbelow(True)
@@ -362,8 +332,8 @@ def _draw_histogram(
     if positive.size:
         low = max(positive.min(), _NONE_BELOW * np.median(positive))
         drawn = [place for place, _ in lines if np.isfinite(place) and place > low]
-        high = max([positive.max() * 1.0001, *drawn])
-        edges = np.geomspace(low, max(high, 1.001 * low), _BINS + 1)
+        high = max([positive.max() * 1.0001, 1.001 * low, *drawn])
+        edges = np.geomspace(low, high, _BINS + 1)
         found = [
             (each, np.clip(values[there & (table["verdict"] == each.value)], edges[0], edges[-1]))
             for each in Verdict
@@ -457,8 +427,7 @@ def _shaded(table: Rows) -> FloatArray:
     logs = np.log10(values[there])
     low, high = np.quantile(logs, _ENDS)
     share = np.clip((logs - low) / max(high - low, 1e-12), 0.0, 1.0)
-    pale = (_PALEST * (1.0 - share))[:, None]
-    colours[there] += (1.0 - colours[there]) * pale
+    colours[there] += (1.0 - colours[there]) * (_PALEST * (1.0 - share))[:, None]
     return colours
 
 
@@ -477,8 +446,7 @@ def _draw_cells(
     image[cells < 0] = 0.0
     edges = [_edges(np.unique(column)) for column in columns]
     axes.pcolormesh(*edges, image, rasterized=True)
-    axes.set_xlim(edges[0][0], edges[0][-1])
-    axes.set_ylim(edges[1][0], edges[1][-1])
+    axes.set(xlim=edges[0][[0, -1]], ylim=edges[1][[0, -1]])
 
 
 def _edges(values: FloatArray) -> FloatArray:
@@ -516,11 +484,9 @@ def _round_levels(margin: FloatArray) -> list[float]:
     if not there.size:
         return []
     low, high = np.quantile(there, (0.03, 0.97))
-    first = int(np.floor(np.log10(low)))
-    last = int(np.ceil(np.log10(high)))
+    first, last = int(np.floor(np.log10(low))), int(np.ceil(np.log10(high)))
     every = [k * 10.0**e for e in range(first, last + 1) for k in (1, 2, 5)]
-    levels = [level for level in every if low < level < high]
-    return levels[-_MOST_CONTOURS:]
+    return [level for level in every if low < level < high][-_MOST_CONTOURS:]
 
 
 def _draw_singular(
@@ -529,11 +495,11 @@ def _draw_singular(
     from matplotlib.collections import LineCollection
 
     there = [each for each in crossings if x in each.parameters and y in each.parameters]
-    curves = curves_of(there, x, y, columns)
+    segments, alone = curves_of(there, x, y, columns)
     for colour, width in (("white", 4.0), (SINGULAR_COLOUR, 1.8)):
-        lines = LineCollection(curves.segments, colors=colour, linewidths=width, zorder=5)
+        lines = LineCollection(segments, colors=colour, linewidths=width, zorder=5)
         lines.set_capstyle("round")
         axes.add_collection(lines, autolim=False)
-    if curves.alone:
-        axes.plot(*zip(*curves.alone, strict=True), ".", color=SINGULAR_COLOUR, ms=5, zorder=5)
-    return bool(curves.segments or curves.alone)
+    if alone:
+        axes.plot(*zip(*alone, strict=True), ".", color=SINGULAR_COLOUR, ms=5, zorder=5)
+    return bool(segments or alone)

@@ -13,32 +13,22 @@ import pickle
 import signal
 import sys
 import threading
-import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from queue import SimpleQueue
-from typing import Any, NamedTuple
+from typing import Any, cast
 
 from ..util.errors import reason_of
 from ..util.interruption import SIGNALS
 from ..util.loading import load
-from .chunks import NOTHING, Answer, Chunk, EngineError, Raised, Source, raised
+from .chunks import Answer, Chunk, EngineError, Part, Raised, Source, parts_of
 
 #: Results that are there are not held back for longer [s].
 _FLUSH = 0.05
-
-
-class Part(NamedTuple):
-    """Results of the next items of what a worker does, and whether its chunk ends with them."""
-
-    results: Sequence[Any] = ()
-    seconds: float = 0.0
-    raised: Raised | None = None
-    is_last: bool = False
 
 
 def serve(
@@ -57,10 +47,16 @@ def serve(
     threading.Thread(target=_listen, args=(line, inbox), daemon=True).start()
     # BLAS and OpenMP: their libraries may be loaded already, and ask no environment any more.
     load("threadpoolctl").threadpool_limits(1)
-    called = _loaded(function, line) if isinstance(function, bytes) else function
+    if isinstance(function, bytes):
+        try:
+            function = cast("Callable[[Any], Any]", pickle.loads(function))
+        except Exception as error:
+            told = f"a worker process cannot load the function ({error}): define it in a module"
+            line.send(Part(raised=Raised(EngineError(told), "")))
+            raise SystemExit(1) from error
     line.send(Part())
     while True:
-        for part in _parts(called, inbox.get()):
+        for part in parts_of(function, inbox.get(), _FLUSH):
             _send(line, part)
 
 
@@ -84,33 +80,6 @@ def _listen(line: Connection, inbox: SimpleQueue[Sequence[Any]]) -> None:
         except Exception as error:
             message = f"an item cannot be read in a worker process: {error}"
             line.send(Part(raised=Raised(EngineError(message), "")))
-
-
-def _loaded(pickled: bytes, line: Connection) -> Callable[[Any], Any]:
-    try:
-        function: Callable[[Any], Any] = pickle.loads(pickled)
-    except Exception as error:
-        message = f"a worker process cannot load the function ({error}): define it in a module"
-        line.send(Part(raised=Raised(EngineError(message), "")))
-        raise SystemExit(1) from error
-    return function
-
-
-def _parts(function: Callable[[Any], Any], items: Sequence[Any]) -> Iterator[Part]:
-    """What comes of items, in parts, so that what is done is soon known."""
-    results: list[Any] = []
-    start = time.perf_counter()
-    last = len(items) - 1
-    for k, item in enumerate(items):
-        try:
-            results.append(function(item))
-        except BaseException as error:
-            yield Part(results, time.perf_counter() - start, raised(error), True)
-            return
-        seconds = time.perf_counter() - start
-        if k == last or seconds > _FLUSH:
-            yield Part(results, seconds, None, k == last)
-            results, start = [], time.perf_counter()
 
 
 def _send(line: Connection, part: Part) -> None:
@@ -141,10 +110,9 @@ class Member:
         """
         self.chunks.append(chunk)
         try:
-            self.line.send(chunk.items)
-        except OSError:
-            # It is dead, which is found where its answers are awaited.
-            return
+            # Where it is dead, that is found where its answers are awaited.
+            with suppress(OSError):
+                self.line.send(chunk.items)
         except Exception as error:
             raise EngineError(f"an item cannot be sent to a worker process: {error}") from error
 
@@ -162,17 +130,13 @@ class Member:
             raise EngineError(f"a result cannot be read: {error}") from error
         if not self.has_started:
             self.has_started = True
-            return [Answer(NOTHING, raised=part.raised)] if part.raised else []
-        return [self._answer(part)]
-
-    def _answer(self, part: Part) -> Answer:
+            return [Answer(Chunk((), ()), raised=part.raised)] if part.raised else []
         chunk, first = self.chunks[0], self.done
         self.done += len(part.results)
         if part.is_last:
             self.chunks.popleft()
             self.done = 0
-        some = chunk.part(first, first + len(part.results))
-        return Answer(some, part.results, part.seconds, part.raised)
+        return [Answer(chunk.part(first, first + len(part.results)), *part[:3])]
 
     def buried(self) -> list[Answer]:
         """What it leaves: what it was about, and what it had not begun."""
@@ -183,7 +147,9 @@ class Member:
                 f"worker processes do not start (exit code {code}); where they are not forked, a "
                 'script needs `if __name__ == "__main__":` before what it does'
             )
-        death = f"the worker process died ({_words_of(code)})"
+        words = f"signal {-code}" if code < 0 else f"exit code {code}"
+        words = "signal 9, as where memory runs out" if code == -9 else words
+        death = f"the worker process died ({words})"
         left = [Answer(chunk) for chunk in self.chunks]
         if left:
             begun = self.chunks[0]
@@ -204,12 +170,6 @@ class Member:
         self.line.close()
 
 
-def _words_of(code: int) -> str:
-    if code == -9:
-        return "signal 9, as where memory runs out"
-    return f"signal {-code}" if code < 0 else f"exit code {code}"
-
-
 #: Forked processes are not safe with the libraries of macOS, and Windows has none.
 FORKS = sys.platform not in ("darwin", "win32")
 #: Lines that Windows can wait for at once, but for a few.
@@ -228,7 +188,15 @@ class LocalPool:
             EngineError: The function cannot be handed over.
         """
         self._context: Any = multiprocessing.get_context("fork" if FORKS else "spawn")
-        self._function = function if FORKS else pickled(function)
+        self._function: Callable[[Any], Any] | bytes = function
+        if not FORKS:
+            try:
+                self._function = pickle.dumps(function)
+            except Exception as error:
+                raise EngineError(
+                    f"the function cannot be sent to other processes ({error}): define it in a "
+                    "module of its own, outside of other functions"
+                ) from error
         self._most = min(workers, _MOST_ON_WINDOWS) if sys.platform == "win32" else workers
         self._workers: list[Member] = []
         # Those that are forked have it then.
@@ -304,18 +272,3 @@ def _undisturbed() -> Iterator[None]:
     finally:
         if blocks:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def pickled(function: Callable[[Any], Any]) -> bytes:
-    """A function as bytes.
-
-    Raises:
-        EngineError: It has none.
-    """
-    try:
-        return pickle.dumps(function)
-    except Exception as error:
-        raise EngineError(
-            f"the function cannot be sent to other processes ({error}): define it in a module "
-            "of its own, outside of other functions"
-        ) from error

@@ -79,14 +79,26 @@ def results_of(
         TypeError: `workers` is no whole number, or the executor none of these.
         Exception: What the function or the items raise is raised here.
     """
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int)):
-        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
-    if workers is not None and workers < 1:
-        raise ValueError(f"workers must be 1 or more, not {workers}")
+    require_workers(workers)
     crew = _crew(function, executor, workers)
     if crew is None:
         return (Done(k, function(item), "") for k, item in enumerate(items))
     return _run(crew, Source(items))
+
+
+def require_workers(workers: object) -> None:
+    """Raise unless it is a number of workers, or None.
+
+    Raises:
+        TypeError: It is no whole number.
+        ValueError: It is not positive.
+    """
+    if workers is None:
+        return
+    if isinstance(workers, bool) or not isinstance(workers, int):
+        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
+    if workers < 1:
+        raise ValueError(f"workers must be 1 or more, not {workers}")
 
 
 def _crew(function: Callable[[Any], Any], executor: Any, workers: int | None) -> Crew | None:
@@ -103,8 +115,7 @@ def _crew(function: Callable[[Any], Any], executor: Any, workers: int | None) ->
         return ExecutorCrew(function, executor, workers)
     if isinstance(executor, str) and executor != "dask" and ":" not in executor:
         raise ValueError(f'the executor must be "dask" or as "tcp://host:port", not {executor!r}')
-    of_dask = type(executor).__module__.partition(".")[0] == "distributed"
-    if isinstance(executor, str) or of_dask:
+    if isinstance(executor, str) or type(executor).__module__.split(".")[0] == "distributed":
         crew = load("flexact.sweeps.dask").DaskCrew(function, executor, workers)
         return crew
     raise TypeError(
@@ -160,7 +171,9 @@ class ExecutorCrew:
     ) -> None:
         """Nothing is sent yet."""
         self._function, self._executor = function, executor
-        self._workers = workers or _workers_of(executor)
+        said = [getattr(executor, name, None) for name in ("num_workers", "_max_workers")]
+        counts = [count for count in said if isinstance(count, int) and count > 0]
+        self._workers = workers or next(iter(counts), 0) or processors()
         self._chunks: dict[Future[Any], Chunk] = {}
 
     @property
@@ -191,7 +204,7 @@ class ExecutorCrew:
 
 def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
     try:
-        results, seconds, error = future.result()
+        return Answer(chunk, *future.result()[:3])
     except (BrokenExecutor, CancelledError) as reason:
         words = str(reason) or "cancelled"
         raise EngineError(f"the executor is broken ({words}); {_MEND}") from reason
@@ -200,13 +213,3 @@ def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
             f"the executor cannot send the function, an item or a result ({reason}): define the "
             "function in a module of its own, outside of other functions"
         ) from reason
-    return Answer(chunk, results, seconds, error)
-
-
-def _workers_of(executor: Executor) -> int:
-    """How many workers an executor says that it has."""
-    for name in ("num_workers", "_max_workers"):
-        count = getattr(executor, name, None)
-        if isinstance(count, int) and count > 0:
-            return count
-    return processors()

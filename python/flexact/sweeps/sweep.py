@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from functools import partial
 from itertools import islice
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,17 +23,15 @@ from .evaluate import (
     NO_STRESSES,
     Answer,
     Make,
-    Making,
     Positions,
     Source,
-    columns_of_signed,
+    answer_of,
     failed,
-    of_function,
-    of_model,
+    signed_column,
     swept,
 )
-from .parameters import Parameters, Row, Wrong, array_of, given
-from .running import results_of
+from .parameters import Parameters, Row, array_of, given
+from .running import require_workers, results_of
 from .table import Table
 
 Array = np.ndarray
@@ -82,36 +80,32 @@ def table_of_answers(
         further["motions"] = tuple(each[0] for each in modes)
         further["self_stresses"] = tuple(each[1] for each in modes)
     if any(answer.signed is not None for answer in answers):
-        further["_signed"] = columns_of_signed([answer.signed for answer in answers])
+        further["_signed"] = signed_column(answer.signed for answer in answers)
     return table_of(rows, found, want, source, **further)
 
 
 Item = TypeVar("Item")
 
 
-class Work(NamedTuple):
-    """By whom the work is done, and who is told of it."""
-
-    workers: int | None = None
-    executor: Any = None
-    progress: Progress | None = None
-
-
 def answers_of(
     function: Callable[[Item], Answer],
-    items: Iterator[Item | Wrong],
+    items: Iterator[Item | str],
     count: int | None,
     want: str,
-    work: Work,
+    workers: int | None,
+    executor: Any,
+    progress: Progress | None,
 ) -> list[Answer]:
     """The answer to each item; what is done when the engine is lost stays.
 
     Args:
         function: What makes an answer.
-        items: Taken as they are needed; what is wrong with one is its answer.
+        items: Taken as they are needed; in place of one a text says what is wrong with it.
         count: How many there will be, if that is known.
         want: One of `WANTS`.
-        work: By whom.
+        workers: As for `results_of`.
+        executor: Likewise.
+        progress: As for `sweep`.
 
     Raises:
         EngineError: nothing could be done at all.
@@ -124,21 +118,20 @@ def answers_of(
         nonlocal seen
         for item in items:
             place, seen = seen, seen + 1
-            if isinstance(item, Wrong):
-                answers[place] = failed(item.message, want)
+            if isinstance(item, str):
+                answers[place] = failed(item, want)
             else:
                 sent.append(place)
                 yield item
 
-    results = results_of(function, taken(), executor=work.executor, workers=work.workers)
+    results = results_of(function, taken(), executor=executor, workers=workers)
     try:
         with closing(results):
             for done in results:
-                answer = done.result or failed(done.failure, want)
-                answers[sent[done.index]] = answer
-                if work.progress is not None:
+                answers[sent[done.index]] = done.result or failed(done.failure, want)
+                if progress is not None:
                     share = len(answers) / count if count else 0.0
-                    work.progress(f"variant {len(answers)}", min(share, 1.0))
+                    progress(f"variant {len(answers)}", min(share, 1.0))
     except EngineError as error:
         if not answers:
             raise
@@ -217,23 +210,38 @@ def sweep(
     asked = asked_for(method, tolerance, prove)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be something to call, not {type(progress).__name__}")
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int)):
-        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
-    if workers is not None and workers < 1:
-        raise ValueError(f"workers must be 1 or more, not {workers}")
-    work = Work(workers, executor, progress)
-    if isinstance(of, Model):
-        source = _source_of(of, positions, held)
-        return _of_model(source, parameters, want, asked, work)
-    if not callable(of):
+    require_workers(workers)
+    if not isinstance(of, Model) and not callable(of):
         raise TypeError(
             f"a model, or a function that makes one, can be swept, not {type(of).__name__}"
         )
-    if positions is not None or held is not None:
+    if isinstance(of, Model):
+        source: Source = _source_of(of, positions, held)
+    elif positions is not None or held is not None:
         raise TypeError("positions and what is held belong to a model, not to a function")
-    if parameters is None:
+    elif parameters is None:
         raise TypeError("a function needs parameters: sweep(make, {'angle': [...]})")
-    return _of_function(of, parameters, want, asked, work)
+    else:
+        source = of
+    if isinstance(source, Positions):
+        kept = _labels(parameters, source.count)
+        if executor is None and asked == _PLAIN and want != "all":
+            return table_of(kept, swept(source, want, workers, progress), want, source)
+        count: int | None = source.count
+        items: Iterator[Any] = map(source.one, range(source.count))
+        function = partial(answer_of, source.data, want, asked)
+    else:
+        rows, count = given(parameters)
+        kept = []
+
+        def taken() -> Iterator[Row | str]:
+            for row in rows:
+                kept.append({} if isinstance(row, str) else row)
+                yield row
+
+        function, items = partial(answer_of, source, want, asked), taken()
+    answers = answers_of(function, items, count, want, workers, executor, progress)
+    return table_of_answers(kept, answers, want, source)
 
 
 def _source_of(model: Model, positions: ArrayLike | None, held: ArrayLike | None) -> Positions:
@@ -258,47 +266,14 @@ def _source_of(model: Model, positions: ArrayLike | None, held: ArrayLike | None
     )
 
 
-def _of_model(
-    source: Positions, parameters: Parameters | None, want: str, asked: Asked, work: Work
-) -> Table:
-    labels = _labels(parameters, source.count)
-    if work.executor is None and asked == _PLAIN and want != "all":
-        found = swept(
-            source.data,
-            positions=source.positions,
-            held=source.held,
-            want=want,
-            workers=work.workers,
-            progress=work.progress,
-        )
-        return table_of(labels, found, want, source)
-    items = map(source.one, range(source.count))
-    work_on = partial(of_model, source.data, want, asked)
-    answers = answers_of(work_on, items, source.count, want, work)
-    return table_of_answers(labels, answers, want, source)
-
-
 def _labels(parameters: Parameters | None, count: int) -> list[Row]:
     """What the variants of a model are called."""
     if parameters is None:
         return [{}] * count
     rows = list(given(parameters)[0])
     for row in rows:
-        if isinstance(row, Wrong):
-            raise ValueError(row.message)
+        if isinstance(row, str):
+            raise ValueError(row)
     if len(rows) != count:
         raise ValueError(f"there are {count} variants, but parameters of {len(rows)}")
-    return [row for row in rows if not isinstance(row, Wrong)]
-
-
-def _of_function(make: Make, parameters: Parameters, want: str, asked: Asked, work: Work) -> Table:
-    rows, count = given(parameters)
-    kept: list[Row] = []
-
-    def taken() -> Iterator[Row | Wrong]:
-        for row in rows:
-            kept.append({} if isinstance(row, Wrong) else row)
-            yield row
-
-    answers = answers_of(partial(of_function, make, want, asked), taken(), count, want, work)
-    return table_of_answers(kept, answers, want, Making(make))
+    return [row for row in rows if not isinstance(row, str)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+import pickle
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -23,11 +24,10 @@ from ..util.errors import FlexactError
 from ..util.loading import load
 from ..util.records import Frozen
 from ..util.text import harmless
-from .columns import COLUMNS, ERROR, Column
+from .columns import COLUMNS, ERROR, Column, write_table
 from .crossings import Crossing, Crossings, crossings_of, varying
-from .evaluate import MotionArrays, SignedColumns, Source, StressArrays
+from .evaluate import MotionArrays, Positions, Source, StressArrays, variant_of
 from .plots import MOST_SEARCHED, chosen, curve, finished, parameter_map
-from .writing import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -65,7 +65,7 @@ class Table(Frozen):
     motions: tuple[MotionArrays, ...] | None = None
     self_stresses: tuple[StressArrays, ...] | None = None
     _source: Source | None = None
-    _signed: SignedColumns | None = None
+    _signed: Array | None = None
 
     def __len__(self) -> int:
         """Number of variants."""
@@ -106,14 +106,12 @@ class Table(Frozen):
     @property
     def is_doubtful(self) -> BoolArray:
         """(variants,) whether the rank is in doubt."""
-        found: BoolArray = self.certainty == Certainty.DOUBTFUL.value
-        return found
+        return np.asarray(self.certainty == Certainty.DOUBTFUL.value)
 
     @property
     def has_error(self) -> BoolArray:
         """(variants,) whether there is no result."""
-        found: BoolArray = self.error != ""
-        return found
+        return np.asarray(self.error != "")
 
     def crossings(self, along: str | None = None, *, workers: int | None = None) -> Crossings:
         """Singular variants between neighbouring rows, found by bisection; see `Crossing`.
@@ -176,7 +174,7 @@ class Table(Frozen):
             made = parameter_map(self, x, str(y), found)
         else:
             made = curve(self, x, y, found)
-        return finished(made, path, in_short(self), described(self))
+        return finished(made, path, in_short(self), self.describe())
 
     def model(self, variant: int | Crossing) -> Model:
         """The model of a row, by its number from 0, or of a singular variant between rows.
@@ -189,15 +187,27 @@ class Table(Frozen):
         """
         source = self._known_source()
         if isinstance(variant, Crossing):
-            return Model.from_data(source.variant(*variant.rows, variant.share, variant.parameters))
-        row = range(len(self))[variant]
-        own = self._row(row)
-        parameters = {name: own[name] for name in self.parameter_names}
-        return Model.from_data(source.variant(row, row, 0.0, parameters))
+            a, b, share, parameters = *variant.rows, variant.share, variant.parameters
+        else:
+            a = b = range(len(self))[variant]
+            own, share = self._row(a), 0.0
+            parameters = {name: own[name] for name in self.parameter_names}
+        return Model.from_data(variant_of(source, a, b, share, parameters))
 
     def describe(self) -> str:
         """What the variants are, and where the margin is smallest, in plain English."""
-        return described(self)
+        of = ", ".join(f"{name} ({_values(self[name])})" for name in self.parameter_names)
+        lines = [f"{_counted(len(self), 'variant')}{' of ' * bool(of)}{of}."]
+        for words, count in counts_of(self):
+            lines.append(f"{_capital(words)}: {share_in_words(count, len(self))}.")
+        lines += _smallest(self)
+        if (wrong := np.flatnonzero(self.has_error)).size:
+            first = int(wrong[0])
+            lines.append(f"First error, {row_in_words(self, first)}: {self.error[first]}")
+        return "\n".join(
+            textwrap.fill(harmless(line), _WIDTH, subsequent_indent="  ", break_long_words=False)
+            for line in lines
+        )
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table as CSV, whole or not at all.
@@ -240,14 +250,25 @@ class Table(Frozen):
         return f"<Table: {in_short(self)}>"
 
     def _repr_html_(self) -> str:
-        return html_of(self)
+        heads = "".join(f"<th>{escape(harmless(name))}</th>" for name in self.columns)
+        first = (self[k].values() for k in range(min(len(self), _MOST_ROWS)))
+        cells = ("".join(f"<td>{escape(harmless(_value(v)))}</td>" for v in row) for row in first)
+        rows = "".join(f"<tr>{each}</tr>" for each in cells)
+        left = len(self) - _MOST_ROWS
+        more = f"<p>and {_counted(left, 'further row')}</p>" if left > 0 else ""
+        return (
+            f"<div><pre>{escape(self.describe())}</pre><table><thead><tr>{heads}</tr></thead>"
+            f"<tbody>{rows}</tbody></table>{more}</div>"
+        )
 
     def __reduce__(self) -> tuple[Callable[..., object], tuple[Any, ...]]:
         """Without the function that made the variants, where it cannot be pickled."""
-        source = None if self._source is None else self._source.portable()
-        if source is self._source:
-            return super().__reduce__()
-        return replace(self, _source=source).__reduce__()
+        if callable(self._source):
+            try:
+                pickle.dumps(self._source)
+            except Exception:
+                return replace(self, _source=None).__reduce__()
+        return super().__reduce__()
 
     def _known_source(self) -> Source:
         if self._source is None:
@@ -266,10 +287,10 @@ class Table(Frozen):
         for name in ("motions", "self_stresses"):
             modes = getattr(self, name)
             changed[name] = None if modes is None else tuple(modes[k] for k in index.tolist())
-        if self._source is not None:
+        if isinstance(self._source, Positions):
             changed["_source"] = self._source.taken(index)
         if self._signed is not None:
-            changed["_signed"] = self._signed.taken(index)
+            changed["_signed"] = self._signed[index]
         return replace(self, **changed)
 
     def _not_there(self, name: str) -> str:
@@ -290,33 +311,15 @@ class Table(Frozen):
 
 def _column_of(name: str, array: Array) -> Column:
     """What the writers are told of a column; those of results they know."""
-    known = next((column for column in (*COLUMNS, ERROR) if column.name == name), None)
-    if known is not None:
-        return known
     kind = {"b": bool, "i": int, "f": float}.get(array.dtype.kind, str)
-    return Column(name, kind, "parameter", "verdict")
+    known = (column for column in (*COLUMNS, ERROR) if column.name == name)
+    return next(known, Column(name, kind, "parameter", "verdict"))
 
 
 def in_short(table: Table) -> str:
     """Size and verdicts in a line."""
     told = [f"{count} {words}" for words, count in counts_of(table)]
     return f"{_counted(len(table), 'variant')}{': ' * bool(told)}{', '.join(told)}"
-
-
-def described(table: Table) -> str:
-    """See `Table.describe`."""
-    of = ", ".join(f"{name} ({_values(table[name])})" for name in table.parameter_names)
-    lines = [f"{_counted(len(table), 'variant')}{' of ' * bool(of)}{of}."]
-    for words, count in counts_of(table):
-        lines.append(f"{_capital(words)}: {share_in_words(count, len(table))}.")
-    lines += _smallest(table)
-    if (wrong := np.flatnonzero(table.has_error)).size:
-        first = int(wrong[0])
-        lines.append(f"First error, {row_in_words(table, first)}: {table.error[first]}")
-    return "\n".join(
-        textwrap.fill(harmless(line), _WIDTH, subsequent_indent="  ", break_long_words=False)
-        for line in lines
-    )
 
 
 def counts_of(table: Table) -> list[tuple[str, int]]:
@@ -329,23 +332,8 @@ def counts_of(table: Table) -> list[tuple[str, int]]:
 
 def row_in_words(table: Table, row: int) -> str:
     """A row by its number, and by its parameters."""
-    values = (f"{name} {_value(table[row][name])}" for name in table.parameter_names)
-    told = ", ".join(values)
+    told = ", ".join(f"{name} {_value(table[row][name])}" for name in table.parameter_names)
     return f"variant {row}{': ' * bool(told)}{told}"
-
-
-def html_of(table: Table) -> str:
-    """The words, and the first rows."""
-    heads = "".join(f"<th>{escape(harmless(name))}</th>" for name in table.columns)
-    first = (table[k].values() for k in range(min(len(table), _MOST_ROWS)))
-    cells = ("".join(f"<td>{escape(harmless(_value(v)))}</td>" for v in row) for row in first)
-    rows = "".join(f"<tr>{each}</tr>" for each in cells)
-    left = len(table) - _MOST_ROWS
-    more = f"<p>and {_counted(left, 'further row')}</p>" if left > 0 else ""
-    return (
-        f"<div><pre>{escape(described(table))}</pre><table><thead><tr>{heads}</tr></thead>"
-        f"<tbody>{rows}</tbody></table>{more}</div>"
-    )
 
 
 def _values(column: np.ndarray) -> str:

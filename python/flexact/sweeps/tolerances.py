@@ -29,7 +29,7 @@ from ..util.records import Frozen
 from ..util.text import in_short
 from .plots import finished, histograms, smallest_values
 from .sweep import sweep
-from .table import Table, described, per_cent, share_in_words
+from .table import Table, per_cent, share_in_words
 from .table import in_short as table_in_short
 
 if TYPE_CHECKING:
@@ -56,16 +56,14 @@ def misaligned(model: Model, sd: FloatArray, samples: int, seed: int) -> FloatAr
     data = model.data
     positions = model.positions
     point = points_of(data)
-    errors = np.random.default_rng(seed).standard_normal((samples, *positions.shape))
-    moved = errors[:, point] * sd
+    moved = np.random.default_rng(seed).standard_normal((samples, *positions.shape))[:, point] * sd
     for nodes, shares in _inner(data, positions):
         ends = moved[:, [nodes[0], nodes[-1]]]
         moved[:, nodes[1:-1]] = (
             ends[:, :1] * (1.0 - shares)[None, :, None] + ends[:, 1:] * shares[None, :, None]
         )
     moved *= axes_used(data)
-    made: FloatArray = positions + moved
-    return made
+    return np.asarray(positions + moved)
 
 
 def points_of(data: ModelData) -> IntArray:
@@ -74,8 +72,7 @@ def points_of(data: ModelData) -> IntArray:
     first: dict[tuple[float, ...], int] = {}
     made = np.arange(arrays.node_kind.size)
     for node in np.flatnonzero(arrays.node_kind <= NodeKind.POSITION).tolist():
-        place = tuple((arrays.node_value[:3, node] + 0.0).tolist())
-        made[node] = first.setdefault(place, node)
+        made[node] = first.setdefault(tuple((arrays.node_value[:3, node] + 0.0).tolist()), node)
     return made.astype(np.int32)
 
 
@@ -85,8 +82,7 @@ def _inner(data: ModelData, positions: FloatArray) -> list[tuple[list[int], Floa
     for chain in data.chains:
         nodes = list(chain.positions)
         steps = [float(np.linalg.norm(positions[b] - positions[a])) for a, b in pairwise(nodes)]
-        shares = np.cumsum(steps)[:-1] / sum(steps)
-        made.append((nodes, shares))
+        made.append((nodes, np.cumsum(steps)[:-1] / sum(steps)))
     return made
 
 
@@ -103,7 +99,13 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
     if isinstance(sd, Mapping):
         point = points_of(model.data)
         for name, value in sd.items():
-            made[point == point[_node(model, name)]] = _one(value)
+            given = floats(without_units(value, "m"), "the standard deviation of a point")
+            if given.shape not in ((), (3,)):
+                raise ValueError(
+                    "the standard deviation of a point is a length, or one of each of x, y and z, "
+                    f"not {in_short(value)}"
+                )
+            made[point == point[position_of(Parts(model.data), name)]] = given
     else:
         given = floats(without_units(sd, "m"), "the standard deviation")
         if given.shape not in ((), (nodes,), (nodes, 3)):
@@ -117,20 +119,6 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
     if not (np.isfinite(made).all() and (made >= 0.0).all()):
         raise ValueError("standard deviations must be finite and not negative")
     return made
-
-
-def _one(value: Any) -> FloatArray:
-    given = floats(without_units(value, "m"), "the standard deviation of a point")
-    if given.shape not in ((), (3,)):
-        raise ValueError(
-            f"the standard deviation of a point is a length, or one of each of x, y and z, "
-            f"not {in_short(value)}"
-        )
-    return given
-
-
-def _node(model: Model, name: Any) -> int:
-    return position_of(Parts(model.data), name)
 
 
 #: Of a normal distribution: 95 % lie within so many standard deviations.
@@ -204,8 +192,7 @@ class Tolerances(Frozen):
         parts = np.array(list(at), np.float64)
         if not values.size:
             return np.full(parts.shape, np.nan)
-        made: FloatArray = np.quantile(values, parts, method="inverted_cdf")
-        return made
+        return np.asarray(np.quantile(values, parts, method="inverted_cdf"))
 
     def share_below(self, margin: float) -> Share:
         """How many samples have a smaller margin [m]; samples with an error are left out."""
@@ -261,7 +248,7 @@ class Tolerances(Frozen):
             FlexactError: matplotlib is missing, or the file cannot be written.
         """
         figure = histograms(self.table, self.nominal, self.below)
-        return finished(figure, path, table_in_short(self.table), described(self.table))
+        return finished(figure, path, table_in_short(self.table), self.table.describe())
 
     def __repr__(self) -> str:
         """How many samples, and the verdicts."""

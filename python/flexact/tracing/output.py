@@ -1,26 +1,200 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A traced path as files: a table, a picture along the path, and meshes that play."""
+"""A traced path in plain English, and as files: a table, a picture, and meshes that play."""
 
 from __future__ import annotations
 
+import csv
+import io
+import math
+from collections.abc import Iterator
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..analysis.naming import motion_in_words
+from ..analysis.naming import (
+    counted,
+    counts_in_words,
+    freedom_in_words,
+    in_words,
+    motion_in_words,
+    named_element,
+    plain,
+)
+from ..analysis.places import listed, with_article
 from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
+from ..motion import Ending, Stop
 from ..show.mesh.collection import STEM, Collection, folder_of
 from ..show.mesh.content import Meshes
 from ..show.mesh.file import find_format
 from ..show.picture.files import load_matplotlib, still_bytes
 from ..show.picture.make import check_packages
-from ..show.writers import PLAYING, STILLS, Writers
+from ..show.writers import PLAYING, STILLS, Writers, as_bytes
 from ..util.outputs import OutputError
+from ..util.rotations import vector_of
 from ..util.text import file_name, harmless
-from .values import Names, Traced, drive_unit
-from .words import csv_bytes
+from .values import ROTATION, DeadPoint, Step, Traced, bodies_of, drive_unit, points_of
+
+_RANGES = {
+    "length": "its ends have come to one point",
+    "bending": "an end of it is at right angles to the line between its ends",
+}
+#: How many dead points, and how many changes of the counts, are told one by one.
+_MOST = 12
+#: Residuals up to here are rounding.
+_ROUNDING = 1.0e-14
+
+
+def lines(trace: Traced) -> list[str]:
+    """What is to be said of a path, in sentences."""
+    shown, dead = trace.shown, trace.dead_points
+    what = motion_in_words(trace.result, shown.number, shown.freedom)
+    told = [f"{_capital(what)}, followed both ways with every held deformation zero."]
+    for side, way in (("Along it", trace.along), ("Against it", trace.against)):
+        told.append(f"{side}: {way.length:.4g} m; {stop_in_words(trace, way.stop)}.")
+    if shown.freedom is not None:
+        values = [step.drive for step in trace.steps]
+        told.append(
+            f"{_capital(plain(freedom_in_words(shown.freedom)))} goes from {min(values):+.6g} to "
+            f"{max(values):+.6g} {drive_unit(shown.freedom)}; its declaration was let loose."
+        )
+    for step in dead[:_MOST]:
+        place = "At the reference" if step.arc == 0.0 else f"At {step.arc:+.6g} m"
+        if step.dead is not None:
+            is_last = step is trace.steps[0] or step is trace.steps[-1]
+            on = "; the path goes straight on" if step.dead.is_branch and not is_last else ""
+            told.append(f"{place}: {dead_in_words(step, step.dead)}{on}.")
+    if len(dead) > _MOST:
+        told.append(f"{len(dead) - _MOST} more dead points are in the file that -o writes.")
+    told += _verdicts(trace)
+    # The next power of ten; what is rounding on any machine is one.
+    bound = 10.0 ** math.ceil(math.log10(max(trace.residual, _ROUNDING)))
+    told.append(
+        f"Held deformations stay below {bound:.0e} of the model's size (angles in rad) all along."
+    )
+    return told
+
+
+def stop_in_words(trace: Traced, stop: Stop) -> str:
+    """Why a path was not followed farther."""
+    ending = stop.ending
+    if ending is Ending.BRANCHES:
+        return f"there {_branches(stop.directions)}, and none was chosen"
+    if ending is Ending.NOT_ZERO:
+        return (
+            f"there it ends: {stop.step * trace.size:.2g} m on, held deformations of "
+            f"{stop.residual:.2g} of the model's size are left"
+        )
+    if ending is Ending.ELEMENT:
+        element = int(trace.result.data.arrays.element_number[stop.element])
+        name = plain((named_element(trace.result, element),))
+        return f"there {name} leaves its range: {_RANGES[stop.range]}"
+    return {
+        Ending.LENGTH: "as far as was asked",
+        Ending.CLOSED: "there it is back at the reference: the path is closed",
+        Ending.TURNS_BACK: "there it ends in a cusp: no direction leads on but the one back",
+    }.get(ending, "more steps than are allowed would be needed")
+
+
+def _branches(directions: int) -> str:
+    return (
+        f"other paths branch off: the mechanism can move in {in_words(directions)} independent "
+        "directions"
+    )
+
+
+def dead_in_words(step: Step, dead: DeadPoint) -> str:
+    """What is special at a step."""
+    told = []
+    if dead.is_drive:
+        told.append("the declared degree of freedom turns back, as it can be driven no farther")
+    if dead.turning:
+        names = listed(
+            [
+                f"the rotation of {with_article(name.removeprefix(ROTATION))}"
+                if name.startswith(ROTATION)
+                else with_article(name)
+                for name in dead.turning
+            ]
+        )
+        told.append(f"{names} {'turns' if len(dead.turning) == 1 else 'turn'} back")
+    if dead.is_branch:
+        told.append(_branches(dead.directions))
+    counts = counts_in_words(step.under_constrained, step.over_constrained)
+    return f"{'; '.join(told)} ({counts})"
+
+
+def _verdicts(trace: Traced) -> list[str]:
+    plain_steps = [step for step in trace.steps if step.dead is None]
+    runs = [
+        list(run)
+        for _, run in groupby(
+            plain_steps, lambda step: (step.under_constrained, step.over_constrained)
+        )
+    ]
+    special = "" if len(plain_steps) == len(trace.steps) else ", but for the places above"
+    if len(runs) == 1:
+        counts = counts_in_words(runs[0][0].under_constrained, runs[0][0].over_constrained)
+        return [f"All along{special}: {counts}."]
+    told = [
+        f"From {run[0].arc:+.4g} to {run[-1].arc:+.4g} m: "
+        f"{counts_in_words(run[0].under_constrained, run[0].over_constrained)}."
+        for run in runs[:_MOST]
+    ]
+    if len(runs) > _MOST:
+        told.append(f"The counts change {counted(len(runs) - _MOST, 'more time', '', 's')}.")
+    return told
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+#: Of so many points, and so many bodies, the places stand in a table at most.
+_MOST_PLACES = 400
+
+Cell = str | int | float
+
+
+def csv_bytes(trace: Traced) -> bytes:
+    """The table as CSV; numbers read back to the last bit."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerows(rows(trace))
+    return as_bytes(text.getvalue())
+
+
+def rows(trace: Traced) -> Iterator[list[Cell]]:
+    """The names of the columns, with units, then a row a step; the reference is step 0."""
+    planar, drive = trace.result.given.planar, trace.shown.freedom
+    points, bodies = (each(trace.result, _MOST_PLACES) for each in (points_of, bodies_of))
+    kept = max(step.values.size for step in trace.steps)
+    axes, turns = ("xy", ("rz",)) if planar else ("xyz", ("rx", "ry", "rz"))
+    yield [
+        *("step", "arc [m]", "residual [size]"),
+        *(f"sigma {k + 1}" for k in range(kept)),
+        *("under_constrained", "over_constrained", "verdict", "dead_point"),
+        *([] if drive is None else [f"{drive.label} [{drive_unit(drive)}]"]),
+        *(f"{name} {axis} [m]" for name in points.values() for axis in axes),
+        *(f"{name} {turn} [rad]" for name in bodies.values() for turn in turns),
+    ]
+    first = trace.reference
+    for number, step in enumerate(trace.steps):
+        values = [*step.values.tolist(), *[math.nan] * (kept - step.values.size)]
+        places = step.pose.position[list(points), : len(axes)].ravel().tolist()
+        turned = vector_of(step.pose.rotation[list(bodies)])[:, -len(turns) :].ravel().tolist()
+        yield [
+            *(number - first, step.arc, step.residual),
+            *("" if math.isnan(value) else value for value in values),
+            *(step.under_constrained, step.over_constrained, step.verdict.value),
+            "" if step.dead is None else dead_in_words(step, step.dead),
+            *([] if drive is None else [step.drive]),
+            *places,
+            *turned,
+        ]
+
 
 #: Below this singular values are drawn at the lower edge.
 _FLOOR = 1.0e-9
@@ -55,8 +229,10 @@ def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
     axes[0].set_title(harmless(what), parse_math=False, fontsize=11, loc="left", pad=18)
     _draw_values(axes[0], trace)
     _draw_places(axes[1], trace)
-    if trace.shown.freedom is not None:
-        _draw_drive(axes[2], trace)
+    if (freedom := trace.shown.freedom) is not None:
+        axes[2].plot(trace.arc, [step.drive for step in trace.steps], color=_CURVES[0], lw=1.4)
+        drive = harmless(f"{freedom.label} [{drive_unit(freedom)}]")
+        axes[2].set_ylabel(drive, parse_math=False, fontsize=11)
     for panel in axes:
         for step in trace.dead_points:
             panel.axvline(step.arc, color=_DEAD, lw=1.0, ls=(0, (4, 3)), zorder=3)
@@ -74,8 +250,7 @@ def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
         )
     axes[-1].set_xlabel("along the path [m]", fontsize=11)
     _legend(figure, trace)
-    name = file_name(trace.result.given.name) or "path"
-    return still_bytes(figure, suffix, name, harmless(what))
+    return still_bytes(figure, suffix, file_name(trace.result.given.name) or "path", harmless(what))
 
 
 def _draw_values(axes: Any, trace: Traced) -> None:
@@ -92,14 +267,14 @@ def _draw_values(axes: Any, trace: Traced) -> None:
 
 def _draw_places(axes: Any, trace: Traced) -> None:
     """Coordinates that change most; of those that are the same the first."""
-    points = Names(trace.result).points(len(trace.result.given.node_names))
+    points = points_of(trace.result, len(trace.result.given.node_names))
     start = trace.steps[trace.reference].pose.position
     moved: list[tuple[float, str, FloatArray]] = []
-    for point in points:
-        way = np.array([step.pose.position[point.node] for step in trace.steps])
+    for node, point in points.items():
+        way = np.array([step.pose.position[node] for step in trace.steps])
         for k, axis in enumerate("xy" if trace.result.given.planar else "xyz"):
-            curve = way[:, k] - start[point.node, k]
-            moved.append((float(np.ptp(curve)), f"{point.name} {axis}", curve))
+            curve = way[:, k] - start[node, k]
+            moved.append((float(np.ptp(curve)), f"{point} {axis}", curve))
     largest = max((each[0] for each in moved), default=0.0)
     moved.sort(key=lambda each: -round(each[0] / (largest or 1.0), 9))
     curves: list[tuple[str, FloatArray]] = []
@@ -108,21 +283,10 @@ def _draw_places(axes: Any, trace: Traced) -> None:
         if size > _SAME * largest and is_new and len(curves) < _MOST_CURVES:
             curves.append((name, curve))
     for colour, (name, curve) in zip(_CURVES, curves, strict=False):
-        told = harmless(name).replace("$", r"\$")
-        axes.plot(trace.arc, curve, color=colour, lw=1.4, label=told)
+        axes.plot(trace.arc, curve, color=colour, lw=1.4, label=harmless(name).replace("$", r"\$"))
     axes.set_ylabel("displacement [m]", fontsize=11)
     if curves:
         axes.legend(fontsize=9, frameon=False, ncols=3, loc="best")
-
-
-def _draw_drive(axes: Any, trace: Traced) -> None:
-    freedom = trace.shown.freedom
-    if freedom is None:
-        return
-    axes.plot(trace.arc, [step.drive for step in trace.steps], color=_CURVES[0], lw=1.4)
-    axes.set_ylabel(
-        harmless(f"{freedom.label} [{drive_unit(freedom)}]"), parse_math=False, fontsize=11
-    )
 
 
 def _legend(figure: Any, trace: Traced) -> None:
@@ -162,8 +326,7 @@ def played(trace: Traced, target: Path) -> Collection:
     poses = {file: trace.steps[k].pose for file, k in zip(files, steps, strict=True)}
     start = steps.index(trace.reference)
     order = [*range(start, len(steps)), *range(len(steps) - 2, -1, -1), *range(1, start + 1)]
-    arc = trace.arc[steps][order]
-    times = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(arc)))))
+    times = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(trace.arc[steps][order])))))
     shown = {time: files[k] for time, k in zip(times.tolist(), order, strict=True)}
     return Collection(target, shown, lambda path: meshes.moved(poses[path]))
 

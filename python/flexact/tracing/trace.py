@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -14,17 +15,24 @@ import numpy as np
 from ..analysis.decomposition import asked_for
 from ..analysis.limits import TRUE
 from ..analysis.result import Result, result_of
+from ..core.arrays import FloatArray
+from ..core.elements import NodeKind
+from ..model.configuration import Configuration
 from ..model.model import Model
+from ..model.parts.parts import natural
 from ..model.reading import read
-from ..motion import Ending, Followed, Held, Wishes, follow, is_followed, least_error
+from ..motion import Ending, Followed, Held, Station, Wishes, follow, is_followed, least_error
 from ..motion.constraints import MOST_COORDINATES
+from ..motion.stations import Between, passing
+from ..show.drawing.movement import pose_in, poses_with_inner_nodes
+from ..show.drawing.pose import Pose
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
-from .output import TRACES
-from .stroke import Stroke
-from .values import Traced, Way
-from .words import lines
+from ..util.records import Frozen, cached_property
+from ..util.rotations import vector_of
+from .output import TRACES, lines
+from .values import ROTATION, DeadPoint, Step, Traced, Way, drive_unit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,8 +67,6 @@ _NO_PATH, _NEAR, _GROWN = 1.0e-3, 0.1, 1.0e-14
 _TRIED = 0.01
 #: Halved so often a step is too small.
 _LEAST = 2.0**-11
-#: Singular values up to here are zero away from the reference, where nothing smaller is not.
-_ZERO = 1.0e-10
 
 
 class TraceError(FlexactError):
@@ -127,16 +133,36 @@ def trace(
         raise TraceError(larger_in_words("the length", f"{wished:g} m", whole, "20mm"))
     most = size / steps
     wishes = Wishes(size, most, most, _LEAST * min(most, 0.1), 100 * steps + 2000, through)
-    return _traced(result, shown, held, wishes, progress)
+    direction = held.direction(shown.motion.analysed)
+    zero = result.gap.zero_elsewhere(result.raw.noise)
+    rank = result.rank
+    if shown.freedom is not None:
+        values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
+        rank = int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
+    stroke = Stroke(result, shown, held, zero)
+    ways: list[Followed] = []
+    for number, sense in enumerate((-1.0, 1.0)):
+
+        def report(arc: float, before: int = number) -> None:
+            if progress is not None:
+                progress(min(1.0, 0.5 * (before + arc / wishes.length)))
+
+        ways.append(follow(held, sense * direction, rank, wishes, zero, report))
+    _require_begun(result, ways, held)
+    against, along = (stroke.steps(way) for way in ways)
+    both = (*(replace(step, arc=-step.arc) for step in against[:0:-1]), *along)
+    made = stroke.at_reference(both, ways)
+    ends = (Way(way.length * held.size, way.stop) for way in ways)
+    return Trace(result, shown, held.size, made, *ends)
 
 
 def _analysed(given: object) -> Result:
     if isinstance(given, Result):
         return given
+    if isinstance(given, (str, bytes, os.PathLike)):
+        given = read(given)
     if isinstance(given, Model):
         return result_of(given.data, asked_for("auto", None))
-    if isinstance(given, (str, bytes, os.PathLike)):
-        return result_of(read(given).data, asked_for("auto", None))
     raise TypeError(
         f"a model, the path of a deck or an analysis can be traced, not {type(given).__name__}"
     )
@@ -155,47 +181,6 @@ def _checked(length: Quantity | None, steps: int) -> float | None:
     if not (math.isfinite(length) and length > 0.0):
         raise ValueError("the length must be positive and finite")
     return float(length)
-
-
-def _traced(
-    result: Result,
-    shown: Selection,
-    held: Held,
-    wishes: Wishes,
-    progress: Callable[[float], None] | None,
-) -> Trace:
-    direction = held.direction(shown.motion.analysed)
-    zero = _zero_of(result)
-    rank = result.rank
-    if shown.freedom is not None:
-        values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
-        rank = int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
-    stroke = Stroke(result, shown, held, zero)
-    ways: list[Followed] = []
-    for number, sense in enumerate((-1.0, 1.0)):
-
-        def report(arc: float, before: int = number) -> None:
-            if progress is not None:
-                progress(min(1.0, 0.5 * (before + arc / wishes.length)))
-
-        ways.append(follow(held, sense * direction, rank, wishes, zero, report))
-    _require_begun(result, ways, held)
-    against, along = (stroke.steps(way) for way in ways)
-    steps = (*(replace(step, arc=-step.arc) for step in against[:0:-1]), *along)
-    whole = stroke.at_reference(steps, ways)
-    ends = (Way(way.length * held.size, way.stop) for way in ways)
-    return Trace(result, shown, held.size, whole, *ends)
-
-
-def _zero_of(result: Result) -> float:
-    """Up to where scaled singular values are zero on the path.
-
-    Rounding of places is magnified there; what is small at the reference and not zero stays so.
-    """
-    gap = result.gap
-    above = gap.smallest_nonzero or 1.0
-    below = max(result.raw.noise, gap.largest_zero or 0.0)
-    return max(min(_ZERO, math.sqrt(above * below)), result.raw.noise)
 
 
 def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
@@ -218,16 +203,282 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
         f"{_TRIED * held.size:.2g} m along it, held deformations of {least.largest:.2g} of the "
         "model's size are left at the least"
     )
+    why = f"the motion is infinitesimal, or ends here; {tried}"
     if start.directions > 1:
-        here = f"the mechanism can move in {start.directions} independent directions here"
-        if least.largest <= TRUE:
-            raise TraceError(
-                f"the path cannot be begun: {here}, and the paths that are near leave in others "
-                "than this one. Trace from a configuration a little way along one of them"
-            )
-        raise TraceError(
-            f"the path cannot be begun: {here}, and no path leads along this one: {tried}"
+        why = f"the mechanism can move in {start.directions} independent directions here, and "
+        why += (
+            "the paths that are near leave in others than this one. Trace from a configuration a "
+            "little way along one of them"
+            if least.largest <= TRUE
+            else f"no path leads along this one: {tried}"
         )
-    raise TraceError(
-        f"the path cannot be begun: the motion is infinitesimal, or ends here; {tried}"
-    )
+    raise TraceError(f"the path cannot be begun: {why}")
+
+
+@dataclass(frozen=True, eq=False)
+class Found(Frozen):
+    """A place between two stations, and what is special there."""
+
+    arc: float
+    where: Configuration
+    nodes: tuple[int, ...] = ()
+    """Those that turn back there."""
+    resting: tuple[int, ...] = ()
+    """Those that are at rest, also such as never move."""
+    is_drive: bool = False
+    directions: int = 0
+
+
+def merged(found: Sequence[Found], apart: float) -> list[Found]:
+    """What was found, in order; what is at one place is one."""
+    made: list[Found] = []
+    for each in sorted(found, key=lambda one: one.arc):
+        if made and each.arc - made[-1].arc <= apart:
+            last = made[-1]
+            made[-1] = replace(
+                last,
+                nodes=tuple(sorted({*last.nodes, *each.nodes})),
+                resting=tuple(sorted({*last.resting, *each.resting})),
+                is_drive=last.is_drive or each.is_drive,
+                directions=max(last.directions, each.directions),
+            )
+        else:
+            made.append(each)
+    return made
+
+
+#: Velocities, with that of the fastest node one: below this a node rests, and above that it moves.
+_RESTS, _MOVES = 1.0e-6, 1.0e-6
+#: Places nearer than this part of a step are one.
+_ONE_PLACE = 1.0e-5
+#: At a dead point singular values up to here are zero.
+_ZERO_AT_DEAD = 1.0e-7
+#: How many of the smallest singular values are kept.
+_KEPT = 6
+
+
+class Stroke:
+    """Makes steps of stations."""
+
+    def __init__(self, result: Result, shown: Selection, held: Held, zero: float) -> None:
+        """Keep what was followed; `zero` is up to where scaled singular values are zero."""
+        self.result, self.held, self.zero = result, held, zero
+        self.judged = held if shown.freedom is None else Held(result.data)
+        self.freedom = shown.freedom
+
+    def steps(self, way: Followed) -> list[Step]:
+        """The steps of a path one way, the reference first, dead points among them."""
+        stations = way.stations
+        branches = {id(station) for station in way.branches}
+        made = [self._of_station(stations[0], self.result.rank)]
+        for k, (one, other) in enumerate(pairwise(stations)):
+            inside = [b for b in way.branches if one.arc < b.arc <= other.arc]
+            found = self._between(one, other, inside)
+            made += [self._of_found(each) for each in found]
+            if id(other) not in branches:
+                step = self._of_station(other)
+                if k + 2 < len(stations):
+                    names, is_drive = self._turning_at((one, 1.0), other, (stations[k + 2], 1.0))
+                    if names or is_drive:
+                        step = replace(step, dead=DeadPoint(names, is_drive))
+                made.append(step)
+        if len(stations) > 1 and id(stations[-1]) in branches:
+            # Where the path ends, with what comes to rest there.
+            before, last = stations[-2:]
+            moved = np.linalg.norm(self._speeds(before), axis=1) > _RESTS
+            rests = np.linalg.norm(self._speeds(last), axis=1) <= _RESTS
+            names = self._turning(np.flatnonzero(rests & moved).tolist(), rests)
+            rate = self._rate(last.within, last.tangent)
+            made[-1] = replace(
+                made[-1], dead=DeadPoint(names, abs(rate) <= _RESTS, last.directions)
+            )
+        return made
+
+    def at_reference(self, steps: Sequence[Step], ways: Sequence[Followed]) -> tuple[Step, ...]:
+        """The steps of both ways, with what is special at the reference."""
+        made = list(steps)
+        place = next(k for k, step in enumerate(made) if step.arc == 0.0)
+        start = ways[1].stations[0]
+        beside = [way.stations[1] for way in ways if len(way.stations) > 1]
+        directions = start.directions if any(b.rank > start.rank for b in beside) else 0
+        names: tuple[str, ...] = ()
+        is_drive = False
+        if len(beside) == 2:
+            names, is_drive = self._turning_at((beside[0], -1.0), start, (beside[1], 1.0))
+            # What moves to second order only turns a little on both sides: that is none.
+            names = tuple(name for name in names if not name.startswith(ROTATION))
+        if names or directions or is_drive:
+            made[place] = replace(made[place], dead=DeadPoint(names, is_drive, directions))
+        return tuple(made)
+
+    def _turning(self, nodes: Sequence[int], resting: np.ndarray) -> tuple[str, ...]:
+        """Bodies and points that turn back where nodes, by their index as analysed, rest.
+
+        A body does so if all of its nodes that move do, and its rotation if those that turn do.
+        """
+        given, kinds = self.result.condensed.nodes, self.result.given.arrays.node_kind
+        rests = set(given[resting].tolist())
+        names: set[str] = set()
+        for node in nodes:
+            name = self._name_of(int(given[node]))
+            mine = self._moving.get(name, set())
+            turned = {each for each in mine if kinds[each] > NodeKind.POSITION}
+            if mine <= rests:
+                names.add(name)
+            elif turned and turned <= rests:
+                names.add(f"{ROTATION}{name}")
+        return tuple(sorted(names, key=natural))
+
+    @cached_property
+    def _moving(self) -> dict[str, set[int]]:
+        """Nodes of the model as given that can move and were analysed, by what they belong to."""
+        made: dict[str, set[int]] = {}
+        free = (self.result.data.arrays.coordinate_class > 1).any(axis=0)
+        for given in np.asarray(self.result.condensed.nodes)[free].tolist():
+            made.setdefault(self._name_of(given), set()).add(given)
+        return made
+
+    def _name_of(self, node: int) -> str:
+        """The body of a node of the model as given, by its index; else the point."""
+        parts = self.result.parts
+        body = parts.body_at.get(node)
+        if body is not None:
+            return parts.of_body(body).name
+        position = parts.place_of(node)
+        name = "" if position is None else parts.name_of_point(position)
+        number = parts.data.arrays.node_number[node if position is None else position]
+        return name or f"node {number}"
+
+    def _turning_at(
+        self, before: tuple[Station, float], here: Station, behind: tuple[Station, float]
+    ) -> tuple[tuple[str, ...], bool]:
+        """What turns back at a station itself, and whether the drive does.
+
+        The stations beside it stand with 1, or -1 where their tangents point the other way.
+        """
+        came, goes = (sense * self._speeds(station) for station, sense in (before, behind))
+        resting = np.linalg.norm(self._speeds(here), axis=1) <= _RESTS
+        moves = _least_norm(came, goes) > _MOVES
+        turns = resting & moves & (np.sum(came * goes, axis=1) < 0.0)
+        names = self._turning(np.flatnonzero(turns).tolist(), resting)
+        rates = [
+            sense * self._rate(station.within, station.tangent)
+            for station, sense in (before, (here, 1.0), behind)
+        ]
+        least = _RESTS * max(abs(rate) for rate in rates)
+        return names, rates[0] * rates[2] < 0.0 and abs(rates[1]) <= least
+
+    def _rate(self, where: Configuration, along: FloatArray) -> float:
+        """How fast what drives changes along a direction (n,); 1 where the path itself does."""
+        if self.freedom is None:
+            return 1.0
+        part, owner = self.freedom.place
+        if self.freedom.is_coordinate:
+            return float(self.held.at_nodes(along)[owner, part])
+        return self.held.rate(where, 6 * owner + part, along)
+
+    def _value(self, where: Configuration, pose: Pose) -> float:
+        """By how much what drives has changed since the reference [m, rad]; of a pose as given.
+
+        Of a declared rotation it is the component of the rotation vector; NaN of the path itself.
+        """
+        if self.freedom is None:
+            return np.nan
+        part, owner = self.freedom.place
+        is_length = drive_unit(self.freedom) == "m"
+        if not self.freedom.is_coordinate:
+            value = self.held.deformation(where, 6 * owner + part)
+            return value * self.held.sizes.unit if is_length else value
+        analysis = self.freedom.analysis
+        node = int(analysis.condensed.nodes[owner])
+        if not is_length:
+            return float(vector_of(pose.rotation[node][np.newaxis])[0, part])
+        return float(pose.position[node, part] - analysis.given.arrays.node_value[part, node])
+
+    def _speeds(self, station: Station) -> FloatArray:
+        """(nodes, 3) velocities along the path, that of the fastest node one."""
+        return self.held.at_nodes(station.tangent) / self.held.reach(station.tangent)
+
+    def _of_station(self, station: Station, rank: int | None = None) -> Step:
+        if rank is None and self.judged is self.held:
+            rank = station.rank
+        # Where the path is a multiple zero of D(x) it is known to half as many digits.
+        zero = self.zero if station.directions == 1 else max(self.zero, _ZERO_AT_DEAD)
+        return self._step(station.within, station.arc, station.residual, zero, rank)
+
+    def _of_found(self, found: Found) -> Step:
+        resting = np.zeros(self.held.arrays.node_kind.size, bool)
+        resting[list(found.resting)] = True
+        names = self._turning(found.nodes, resting)
+        residual = self.held.at(found.where).residual
+        step = self._step(found.where, found.arc, residual, max(self.zero, _ZERO_AT_DEAD))
+        if not (names or found.is_drive or found.directions):
+            return step
+        return replace(step, dead=DeadPoint(names, found.is_drive, found.directions))
+
+    def _step(
+        self,
+        where: Configuration,
+        arc: float,
+        residual: float,
+        zero: float,
+        rank: int | None = None,
+    ) -> Step:
+        values = self.judged.values(where)
+        known = int(np.count_nonzero(values > zero)) if rank is None else rank
+        rows, columns = self.judged.rows.size, self.judged.columns.size
+        (pose,) = poses_with_inner_nodes(self.result.condensed, [pose_in(self.held, where)])
+        return Step(
+            arc * self.held.size,
+            self.held.outside(where),
+            pose,
+            residual,
+            values[::-1][:_KEPT].copy(),
+            columns - known,
+            rows - known,
+            self._value(where, pose),
+        )
+
+    def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[Found]:
+        found = [Found(b.arc, b.within, directions=b.directions) for b in branches]
+        before, behind = self._speeds(one), self._speeds(other)
+        reverses = np.sum(before * behind, axis=1) < 0.0
+        turning = np.flatnonzero((_least_norm(before, behind) > _MOVES) & reverses).tolist()
+        rates = (self._rate(each.within, each.tangent) for each in (one, other))
+        turns = math.prod(rates) < 0.0
+        if turning or turns:
+            between = Between(self.held, one, other)
+            if turns:
+                place = passing(
+                    between,
+                    lambda near: self._rate(near.place.configuration, between.direction(near)),
+                )
+                found += [] if place is None else [Found(place.arc, place.where, is_drive=True)]
+            while turning:
+                rest = self._rest(between, turning[0])
+                at_rest = () if rest is None else rest.nodes
+                turning = [each for each in turning[1:] if each not in at_rest]
+                found += [] if rest is None else [rest]
+        return merged(found, _ONE_PLACE * (other.arc - one.arc))
+
+    def _rest(self, between: Between, node: int) -> Found | None:
+        """Where a node comes to rest between two stations, and the nodes that do so with it."""
+        before, behind = self._speeds(between.one), self._speeds(between.other)
+        difference = before[node] - behind[node]
+        place = passing(
+            between,
+            lambda near: float(self.held.at_nodes(between.direction(near))[node] @ difference),
+        )
+        if place is None:
+            return None
+        speeds = self.held.at_nodes(place.tangent) / self.held.reach(place.tangent)
+        rests = np.linalg.norm(speeds, axis=1) <= _RESTS
+        turns = rests & (np.sum(before * behind, axis=1) < 0.0)
+        if not turns[node]:
+            return None
+        nodes, resting = (tuple(np.flatnonzero(each).tolist()) for each in (turns, rests))
+        return Found(place.arc, place.where, nodes, resting)
+
+
+def _least_norm(one: FloatArray, other: FloatArray) -> FloatArray:
+    return np.asarray(np.minimum(np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)))

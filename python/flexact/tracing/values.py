@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,138 +14,43 @@ from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, dual_table
 from ..model.configuration import Configuration
-from ..model.parts.parts import natural
-from ..motion import Held, Stop
+from ..motion import Stop
 from ..show.drawing.pose import Pose
 from ..show.drawing.selection import Selection
-from ..util.records import Frozen, cached_property
-from ..util.rotations import vector_of
+from ..util.records import Frozen
 
 #: Before the name of a body that only turns back in its rotation.
 ROTATION = "rotation of "
 
 
-class Point(NamedTuple):
-    """A position node of the model as given."""
-
-    node: int
-    """Its index."""
-    name: str
-    """Such as "E", or "node 5" where it has none, or not for itself alone."""
-
-
-class Names:
-    """Names of what moves."""
-
-    def __init__(self, result: Result) -> None:
-        """Keep the result."""
-        self.result, self.parts = result, result.parts
-
-    def of_node(self, node: int) -> str:
-        """The body of a node of the model as given, by its index; else the point."""
-        body = self.parts.body_at.get(node)
-        if body is not None:
-            return self.parts.of_body(body).name
-        position = self.parts.place_of(node)
-        name = "" if position is None else self.parts.name_of_point(position)
-        number = self.parts.data.arrays.node_number[node if position is None else position]
-        return name or f"node {number}"
-
-    def turning(
-        self, nodes: Sequence[int], resting: np.ndarray, turns: np.ndarray
-    ) -> tuple[str, ...]:
-        """Bodies and points that turn back where nodes, by their index as analysed, rest.
-
-        A body does so if all of its nodes that move do, and its rotation if those that turn do.
-        """
-        given, kinds = self.result.condensed.nodes, self.result.given.arrays.node_kind
-        rests = {int(given[node]) for node in np.flatnonzero(resting | turns).tolist()}
-        names: set[str] = set()
-        for node in nodes:
-            name = self.of_node(int(given[node]))
-            mine = self._moving.get(name, set())
-            turned = {each for each in mine if kinds[each] > NodeKind.POSITION}
-            if mine <= rests:
-                names.add(name)
-            elif turned and turned <= rests:
-                names.add(f"{ROTATION}{name}")
-        return tuple(sorted(names, key=natural))
-
-    @cached_property
-    def _moving(self) -> dict[str, set[int]]:
-        """Nodes of the model as given that can move and were analysed, by what they belong to."""
-        made: dict[str, set[int]] = {}
-        classes = self.result.data.arrays.coordinate_class
-        free = np.flatnonzero((classes > 1).any(axis=0)).tolist()
-        for node in free:
-            given = int(self.result.condensed.nodes[node])
-            made.setdefault(self.of_node(given), set()).add(given)
-        return made
-
-    def points(self, most: int) -> tuple[Point, ...]:
-        """Position nodes that can move, by their numbers; at most so many."""
-        arrays = self.result.given.arrays
-        free = (arrays.coordinate_class > 1).any(axis=0) & (arrays.node_kind <= NodeKind.POSITION)
-        nodes = sorted(
-            np.flatnonzero(free).tolist(), key=lambda node: int(arrays.node_number[node])
-        )[:most]
-        own = [self.parts.name_of_point(node) for node in nodes]
-        return tuple(
-            Point(
-                node,
-                name
-                if name and own.count(name) == 1
-                else f"{name} (node {arrays.node_number[node]})".strip()
-                if name
-                else f"node {arrays.node_number[node]}",
-            )
-            for node, name in zip(nodes, own, strict=True)
-        )
-
-    def bodies(self, most: int) -> tuple[Point, ...]:
-        """An orientation node of each body that can turn, with the body's name; at most so many."""
-        kinds = self.result.given.arrays.node_kind
-        classes = self.result.given.arrays.coordinate_class
-        made: list[Point] = []
-        for k, body in enumerate(self.parts.bodies):
-            turns = [
-                node
-                for node in body.orientations
-                if kinds[node] > NodeKind.POSITION and bool((classes[:, node] > 1).any())
-            ]
-            if turns and len(made) < most:
-                made.append(Point(turns[0], self.parts.of_body(k).name))
-        return tuple(made)
+def points_of(result: Result, most: int) -> dict[int, str]:
+    """Names of position nodes that can move, in the order of their numbers; at most so many."""
+    arrays = result.given.arrays
+    free = (arrays.coordinate_class > 1).any(axis=0) & (arrays.node_kind <= NodeKind.POSITION)
+    number = arrays.node_number.tolist()
+    nodes = sorted(np.flatnonzero(free).tolist(), key=number.__getitem__)[:most]
+    own = {node: result.parts.name_of_point(node) for node in nodes}
+    every = list(own.values())
+    return {
+        node: name
+        if name and every.count(name) == 1
+        else f"{name} (node {number[node]})"
+        if name
+        else f"node {number[node]}"
+        for node, name in own.items()
+    }
 
 
-class Drive(NamedTuple):
-    """What drives a path, and how to look at it."""
-
-    freedom: Freedom
-    held: Held
-
-    def rate(self, where: Configuration, along: FloatArray) -> float:
-        """How fast it changes along a direction (n,)."""
-        part, owner = self.freedom.place
-        if self.freedom.is_coordinate:
-            return float(self.held.at_nodes(along)[owner, part])
-        return self.held.rate(where, 6 * owner + part, along)
-
-    def value(self, where: Configuration, pose: Pose) -> float:
-        """By how much it has changed since the reference [m, rad]; of a pose as given.
-
-        Of a declared rotation it is the component of the rotation vector.
-        """
-        part, owner = self.freedom.place
-        if not self.freedom.is_coordinate:
-            value = self.held.deformation(where, 6 * owner + part)
-            return value * self.held.sizes.unit if drive_unit(self.freedom) == "m" else value
-        analysis = self.freedom.analysis
-        node = int(analysis.condensed.nodes[owner])
-        if drive_unit(self.freedom) == "m":
-            start = analysis.given.arrays.node_value[part, node]
-            return float(pose.position[node, part] - start)
-        return float(vector_of(pose.rotation[node][np.newaxis])[0, part])
+def bodies_of(result: Result, most: int) -> dict[int, str]:
+    """An orientation node of each body that can turn, with the body's name; at most so many."""
+    arrays = result.given.arrays
+    turns = (arrays.coordinate_class > 1).any(axis=0) & (arrays.node_kind > NodeKind.POSITION)
+    made: dict[int, str] = {}
+    for k, body in enumerate(result.parts.bodies):
+        node = next((each for each in body.orientations if turns[each]), None)
+        if node is not None and len(made) < most:
+            made[node] = result.parts.of_body(k).name
+    return made
 
 
 def drive_unit(freedom: Freedom) -> str:
@@ -156,8 +59,7 @@ def drive_unit(freedom: Freedom) -> str:
     arrays = freedom.analysis.data.arrays
     if freedom.is_coordinate:
         return "m" if arrays.node_kind[owner] <= NodeKind.POSITION else "rad"
-    turns = dual_table()[arrays.element_kind[owner], part] == Dual.MOMENT
-    return "rad" if turns else "m"
+    return "rad" if dual_table()[arrays.element_kind[owner], part] == Dual.MOMENT else "m"
 
 
 @dataclass(frozen=True, eq=False)

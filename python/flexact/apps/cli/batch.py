@@ -32,10 +32,9 @@ from ...sweeps.batch import (
     filter_of,
     first_error,
 )
-from ...sweeps.columns import Column
+from ...sweeps.columns import Cell, Column, require_table, write_table
 from ...sweeps.journal import Journal, JournalError
 from ...sweeps.running import results_of
-from ...sweeps.writing import Cell, require_table, write_table
 from ...util.decks import DeckFile, FolderError, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import undisturbed, unwinding
@@ -462,11 +461,11 @@ class BatchRun:
         """
         self._decks, self._work, self._outputs, self._journal = decks, work, outputs, journal
         self._place = array("q", [_NOT_DONE]) * len(decks)
-        for entry in journal.entries():
-            index = entry.record.get("deck")
+        for place, record in journal.entries():
+            index = record.get("deck")
             # Whatever else stands there was written by others.
-            if entry.place and type(index) is int and 0 <= index < len(decks):
-                self._place[index] = entry.place
+            if place and type(index) is int and 0 <= index < len(decks):
+                self._place[index] = place
         self._left = array("q", (k for k in range(len(decks)) if not self._is_done(k)))
         for k in self._left:
             self._place[k] = _NOT_DONE

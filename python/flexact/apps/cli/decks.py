@@ -54,7 +54,7 @@ from .terminal import (
 )
 
 if TYPE_CHECKING:
-    from ...sweeps.writing import Cell
+    from ...sweeps.columns import Cell
 
 _MEMORY = "out-of-memory"
 #: Failures that are none of the deck's.
@@ -566,7 +566,7 @@ def summarise_results(
         # A folder that gives no decks has not come to a step.
         found = ((deck, rows.get(deck.name, {"error": str(deck.error)})) for deck in decks)
         lines = ([deck.name, *(row.get(c.name) for c in columns[1:])] for deck, row in found)
-        load("flexact.sweeps.writing").write_table(target, columns, lines)
+        load("flexact.sweeps.columns").write_table(target, columns, lines)
         say(f"table in {harmless(str(target))}")
     return code
 

@@ -10,9 +10,8 @@ from pathlib import Path
 
 from ...show.mesh.collection import STEM, folder_of
 from ...show.writers import PLAYING
-from ...tracing.output import ENDINGS, TRACES
+from ...tracing.output import ENDINGS, TRACES, csv_bytes, lines
 from ...tracing.trace import STEPS, trace
-from ...tracing.words import csv_bytes, lines
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
