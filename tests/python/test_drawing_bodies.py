@@ -63,7 +63,7 @@ def test_a_solid_moves_with_its_points_and_keeps_its_shape(make: type) -> None:
     (solid,) = drawing.solids
     for motion in analysis.motions:
         for pose in move(drawing, motion).poses:
-            corners = solid.placed(drawing.members, drawing.reference, pose).corners
+            corners, _ = solid.placed(drawing.members, drawing.reference, pose)
             sides = [np.linalg.norm(c[:, None] - c, axis=-1) for c in (corners, solid.corners)]
             np.testing.assert_allclose(*sides, atol=1e-9)
             for strip in stations(drawing.members, pose, chosen=drawing.in_solid):

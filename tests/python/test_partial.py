@@ -73,7 +73,7 @@ PARTS = {
     "show.page.content.stresses_part": {"page", "watch"},
     "show.picture.make.picture_bytes": {"page"},
     "show.picture.subject.move": set(),
-    "show.picture.subject.stress_of": set(),
+    "show.picture.subject.resultants": set(),
     "show.drawing.selection.natural_shape": set(),
     "show.notebook.rows.motion_in_parts": {"rows"},
     "show.notebook.output.describe": set(),

@@ -169,15 +169,6 @@ _INNER, _DEEP = np.linspace(0.25, 0.75, 9), 0.3
 _BOX = np.array(list(product((-0.5, 0.5), repeat=3)))
 
 
-class Placed(NamedTuple):
-    """A body in a pose."""
-
-    corners: FloatArray
-    """(v, 3) [m]."""
-    normal: FloatArray
-    """(faces, 3) outward unit vectors; none in the plane."""
-
-
 @dataclass(frozen=True, eq=False)
 class Solid(Frozen):
     """A rigid body in the reference configuration.
@@ -200,13 +191,15 @@ class Solid(Frozen):
     edge_colour: FloatArray
     opacity: float
 
-    def placed(self, members: Members, reference: Pose, pose: Pose) -> Placed:
-        """Where it is in a pose."""
+    def placed(
+        self, members: Members, reference: Pose, pose: Pose
+    ) -> tuple[FloatArray, FloatArray]:
+        """(v, 3) its corners in a pose [m], and the outward (faces, 3) unit vectors in space."""
         p, op = members.nodes[self.rows[0], :2]
         turn = pose.rotation[op].T
         corners = pose.position[p] + (self.corners - reference.position[p]) @ turn
         normal = np.zeros((0, 3)) if self.hull is None else self.hull.normal @ turn
-        return Placed(corners, normal)
+        return corners, normal
 
     @property
     def triangles(self) -> np.ndarray:

@@ -165,39 +165,27 @@ HEIGHT, GAP = 0.1, 0.012
 SHOWN, _END_ON = 0.45, 0.05
 #: Values below this part of the largest are not drawn.
 _LEAST = 1.0e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Diagrams(Frozen):
-    """Diagrams from the same end of each member, whichever is called p.
-
-    Attributes:
-        member: (k,) which of the drawing's members; one whose moment changes its sign is there
-            twice.
-        value: (k, s) moments at stations [N m].
-        base: (k, s, 3) where they are zero [m].
-        top: (k, s, 3) where they are as they are [m].
-        ends: (k, 2) which ends are those of a sheet or a wire, and not within it.
-    """
-
-    member: np.ndarray
-    value: FloatArray
-    base: FloatArray
-    top: FloatArray
-    ends: np.ndarray
+#: Pieces of a diagram, and of a member for its colours.
+PIECES = 36
 
 
 def diagrams_of(
-    drawing: Drawing, values: Resultants, quantity: str, towards: FloatArray, pieces: int = 36
-) -> Diagrams:
+    drawing: Drawing, values: Resultants, quantity: str, towards: FloatArray
+) -> tuple[np.ndarray, FloatArray, FloatArray, FloatArray, np.ndarray]:
     """The diagrams of a bending moment in the reference configuration.
+
+    From the same end of each member, whichever is called p.
 
     Args:
         drawing: The drawing.
         values: Of a self-stress along its members.
         quantity: One of `BENDING`; of another there are none.
         towards: (3,) unit vector to the eye.
-        pieces: Of each diagram.
+
+    Returns:
+        (k,) which of the drawing's members, one whose moment changes its sign twice; (k, s)
+        moments at stations [N m]; (k, s, 3) where they are zero, and (k, s, 3) where they are
+        as they are [m]; (k, 2) which ends are those of a sheet or a wire, and not within it.
     """
     largest = values.largest(quantity)
     rows, sign = np.zeros(0, np.int64), np.zeros(0)
@@ -213,14 +201,14 @@ def diagrams_of(
     for each in (ends, value, last):
         each[turned] = each[turned, ::-1]
     share, cut = _interval(sign[:, None] * value)
-    at = share[:, :1] + (share[:, 1:] - share[:, :1]) * np.linspace(0.0, 1.0, pieces + 1)
+    at = share[:, :1] + (share[:, 1:] - share[:, :1]) * np.linspace(0.0, 1.0, PIECES + 1)
     along = (1 - at) * value[:, :1] + at * value[:, 1:]
     centre = (1 - at)[..., None] * ends[:, :1] + at[..., None] * ends[:, 1:]
     foot, way = stance(members, rows, sign, BENDING.get(quantity, 0), towards)
     base = centre + (foot + GAP * drawing.size * way)[:, None]
     height = HEIGHT * drawing.size / (largest or 1.0)
     top = base + (height * np.abs(along))[..., None] * way[:, None]
-    return Diagrams(rows, along, base, top, last & ~cut)
+    return rows, along, base, top, last & ~cut
 
 
 def stance(

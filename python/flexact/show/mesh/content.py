@@ -432,7 +432,7 @@ def _bodies(
         index = drawing.members.index[row]
         if not skinned[index]:
             continue
-        corners = body.placed(drawing.members, drawing.reference, pose).corners
+        corners, _ = body.placed(drawing.members, drawing.reference, pose)
         points = body.quads(corners).reshape(-1, 3)
         quads = np.arange(len(points)).reshape(1, -1, 4)
         owner = np.full(len(points), first[row])
