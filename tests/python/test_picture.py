@@ -80,7 +80,7 @@ def test_clamped_ends_of_a_folded_sheet_are_opposite() -> None:
     pixels = Pixels(draw(analysis, stress=1, view=VIEW))
     drawing = drawing_of(analysis.given)
     hues = []
-    clamped = set(drawing.supports.node.tolist())
+    clamped = {each.held[0] for each in drawing.supports}
     for row in range(2):
         p, _, q, _ = drawing.members.nodes[row]
         near, far = (p, q) if p in clamped else (q, p)

@@ -34,13 +34,12 @@ from .pose import (
     stations,
 )
 from .spaces import SpaceShape, dashes, shape_of_space
-from .supports import Arrows, Support, Supports
+from .supports import Support, Symbol
 
 __all__ = [
     "BENDING",
     "QUANTITIES",
     "UNITS",
-    "Arrows",
     "Drawing",
     "Field",
     "Form",
@@ -54,7 +53,7 @@ __all__ = [
     "SpaceShape",
     "Strip",
     "Support",
-    "Supports",
+    "Symbol",
     "axes_of",
     "cylinders",
     "dashes",

@@ -178,13 +178,11 @@ def _tube_quads(rings: FloatArray) -> Integers:
 
 def symbols_of(drawing: Drawing) -> Symbols:
     """The symbols of a drawing."""
-    supports, position = drawing.supports, drawing.reference.position
+    reference = drawing.reference
     made = [
-        (node, SUPPORT + kind, rings)
-        for row, (node, kind) in enumerate(
-            zip(supports.node.tolist(), supports.kind.tolist(), strict=True)
-        )
-        for rings, _ in supports.solids(row, position[node], _ROUND, _TIP)
+        (each.held[0], SUPPORT + each.kind, rings)
+        for each in drawing.supports
+        for rings, _ in each.solids(each.at(reference, reference), _ROUND, _TIP)
     ]
     made += _arrows(drawing)
     points, quads, behind = [np.zeros((0, 3))], [np.zeros((0, 4), np.int64)], 0
@@ -208,15 +206,13 @@ def symbols_of(drawing: Drawing) -> Symbols:
 
 
 def _arrows(drawing: Drawing) -> Iterator[tuple[int, int, FloatArray]]:
-    arrows = drawing.arrows
-    frames = frames_along(arrows.direction)
-    for row in range(len(arrows)):
-        node = int(arrows.node[row])
+    nodes, direction, turning = drawing.arrows
+    for node, frame, turns in zip(nodes.tolist(), frames_along(direction), turning, strict=True):
         place = drawing.reference.position[node]
-        if arrows.turning[row]:
-            yield node, ROTATION, _bent(place, frames[row], drawing.size)
+        if turns:
+            yield node, ROTATION, _bent(place, frame, drawing.size)
         else:
-            yield node, TRANSLATION, rings_about(place, frames[row], _ARROW, drawing.size, _ROUND)
+            yield node, TRANSLATION, rings_about(place, frame, _ARROW, drawing.size, _ROUND)
 
 
 def _bent(place: FloatArray, frame: FloatArray, size: float) -> FloatArray:

@@ -67,10 +67,6 @@ class Frame:
         """Positions (..., 3) [m] as places in the page."""
         return np.asarray((position - self.centre) / self.size)
 
-    def nodes(self, index: np.ndarray) -> np.ndarray:
-        """Node indices in the page; -1 stays."""
-        return np.asarray(self.new[index])
-
 
 def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
     """Of drawings that are seen side by side: one scale, one middle, one view, the first's."""
@@ -138,7 +134,7 @@ def _nodes(parts: Parts, frame: Frame) -> dict[str, Any]:
     return {
         "number": integers(arrays.node_number[kept]),
         "placed": integers(np.flatnonzero(placed[kept])),
-        "place": integers(frame.nodes(place[kept])),
+        "place": integers(frame.new[place[kept]]),
         "held": _held(frame, pairs),
         "names": {
             row: name
@@ -230,7 +226,7 @@ def _hinges(frame: Frame) -> dict[str, Any]:
         "number": integers(hinges.number[rows]),
         "names": [harmless(hinges.names[row]) for row in rows.tolist()],
         "keyword": [hinges.keyword[row] for row in rows.tolist()],
-        "node": integers(frame.nodes(hinges.nodes[rows, 0])),
+        "node": integers(frame.new[hinges.nodes[rows, 0]]),
         "size": floats(hinges.size[rows] / frame.size),
         "colour": flags(_bytes(hinges.colour[rows])),
     }
@@ -238,54 +234,50 @@ def _hinges(frame: Frame) -> dict[str, Any]:
 
 def hinges_in(frame: Frame) -> np.ndarray:
     """Rows of the drawing's hinges that are in the page."""
-    nodes = frame.nodes(frame.drawing.hinges.nodes)
+    nodes = frame.new[frame.drawing.hinges.nodes]
     return np.flatnonzero((nodes[:, 1:] >= 0).all(axis=1))
 
 
 def _supports(parts: Parts, frame: Frame) -> dict[str, Any]:
     """Symbols in frames whose ex points from the ground to what is held, and their sizes."""
-    supports = frame.drawing.supports
-    node = frame.nodes(supports.node)
-    rows = np.flatnonzero(node >= 0)
-    sizes = np.repeat(supports.size[rows, None], 3, axis=1)
-    kind = supports.kind[rows]
-    block = kind == Support.CLAMP
-    held = rows[block]
-    sizes[block] = np.column_stack((supports.depth[held], 2 * supports.extent[held]))
+    reference = frame.drawing.reference
+    chosen = [each for each in frame.drawing.supports if frame.new[each.held[0]] >= 0]
+    offset = [each.middle - reference.position[each.held[0]] for each in chosen]
+    sizes = [
+        (each.depth, *2 * each.extent) if each.kind == Support.CLAMP else [each.size] * 3
+        for each in chosen
+    ]
+    held = (
+        # Points and parts.
+        (*map(parts.name_of_point, each.held), *(p.name for n in each.held for p in parts.at(n)))
+        for each in chosen
+    )
     return {
-        "node": integers(node[rows]),
-        "kind": flags(kind),
-        "offset": floats(supports.offset[rows] / frame.size),
-        "names": [_held_by(parts, supports.held[row]) for row in rows.tolist()],
-        "frame": floats(euler_of(supports.frame[rows])),
-        "size": floats(sizes / frame.size),
+        "node": integers([frame.new[each.held[0]] for each in chosen]),
+        "kind": flags([each.kind for each in chosen]),
+        "offset": floats(np.array(offset) / frame.size),
+        "names": [list(dict.fromkeys(map(harmless, filter(None, each)))) for each in held],
+        "frame": floats(euler_of(np.array([each.frame for each in chosen]).reshape(-1, 3, 3))),
+        "size": floats(np.array(sizes) / frame.size),
     }
-
-
-def _held_by(parts: Parts, nodes: tuple[int, ...]) -> list[str]:
-    """The names of points and parts that a support holds, each once."""
-    points = [parts.name_of_point(node) for node in nodes]
-    there = [part.name for node in nodes for part in parts.at(node)]
-    return list(dict.fromkeys(harmless(name) for name in (*points, *there) if name))
 
 
 def _joints(frame: Frame) -> dict[str, Any]:
     node, radius = joints_of(frame.drawing)
-    rows = frame.nodes(node) >= 0
+    rows = frame.new[node] >= 0
     return {
-        "node": integers(frame.nodes(node[rows])),
+        "node": integers(frame.new[node[rows]]),
         "radius": floats(radius[rows] / frame.size),
     }
 
 
 def _arrows(frame: Frame) -> dict[str, Any]:
-    arrows = frame.drawing.arrows
-    node = frame.nodes(arrows.node)
-    rows = node >= 0
+    node, direction, turning = frame.drawing.arrows
+    rows = frame.new[node] >= 0
     return {
-        "node": integers(node[rows]),
-        "direction": floats(arrows.direction[rows]),
-        "turning": flags(arrows.turning[rows]),
+        "node": integers(frame.new[node[rows]]),
+        "direction": floats(direction[rows]),
+        "turning": flags(turning[rows]),
     }
 
 

@@ -310,7 +310,7 @@ def caption(drawing: Drawing, subject: Subject) -> str:
     elif subject.stress is not None:
         about = "Relative values, only their ratios matter."
     elif movement is None:
-        about = "Arrows: declared degrees of freedom." * (len(drawing.arrows) > 0)
+        about = "Arrows: declared degrees of freedom." * (len(drawing.arrows[0]) > 0)
     else:
         largest, turned = reach_of(drawing, [movement.pose(1.0)])
         part = largest / drawing.size

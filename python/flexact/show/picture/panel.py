@@ -269,20 +269,18 @@ def _add_flat_hinges(
 
 def _add_flat_supports(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Draw the supports; those that let a node slide go with it."""
-    supports = drawing.supports
-    for row in range(len(supports)):
-        place = pose.position[supports.node[row]] + supports.offset[row]
-        size, kind = float(supports.size[row]), supports.kind[row]
+    for symbol in drawing.supports:
+        place, size, kind = symbol.at(drawing.reference, pose), symbol.size, symbol.kind
         if kind == Support.TURN:
             # A rotation that is held, while the node may slide.
             corner = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * 0.4 * size
             above = _SUPPORT * drawing.size
             canvas.polygons((place + corner)[None], _WHITE, edge=_INK, width=1.1, nearer=above)
             continue
-        up = supports.direction[row]
+        up = symbol.frame[:, 0]
         frame = np.array((up[1], -up[0], 0.0)), up
         if kind == Support.CLAMP:
-            half = 0.3 * size + float(supports.extent[row].max())
+            half = 0.3 * size + float(symbol.extent.max())
             _ground(canvas, place, frame, half, size, drawing.size)
         else:
             _triangle(canvas, place, frame, size, drawing.size, kind == Support.SLIDE)
@@ -351,14 +349,12 @@ _HATCH = (0.36, 0.38, 0.41)
 
 def _add_supports(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Draw the supports; those that let a node slide go with it."""
-    supports = drawing.supports
-    for row in range(len(supports)):
-        node = pose.position[supports.node[row]]
-        for rings, thick in supports.solids(row, node, _ROUND):
+    for symbol in drawing.supports:
+        for rings, thick in symbol.solids(symbol.at(drawing.reference, pose), _ROUND):
             colour = np.array([[_GROUND]]) if thick else np.array([[SUPPORT]]) * 1.35
             add_grid(canvas, rings[None], colour)
             if thick:
-                _add_hatches(canvas, rings, supports.frame[row], thick)
+                _add_hatches(canvas, rings, symbol.frame, thick)
 
 
 def _add_hinges(
