@@ -19,11 +19,9 @@ from .diagrams import (
     sides_in,
 )
 from .drawing import Drawing, drawing_of, joints_of
-from .members import Hinges, Members
-from .movement import Movement, move, reach_of, swing
+from .members import Elements, Members
+from .movement import Movement, Moving, move, reach_of, swing
 from .pose import (
-    Field,
-    Moving,
     Pose,
     Strip,
     axes_of,
@@ -41,9 +39,8 @@ __all__ = [
     "QUANTITIES",
     "UNITS",
     "Drawing",
-    "Field",
+    "Elements",
     "Form",
-    "Hinges",
     "Members",
     "Movement",
     "Moving",

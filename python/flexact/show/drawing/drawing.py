@@ -12,7 +12,7 @@ from ...core.elements import NodeKind
 from ...model.data import ModelData
 from ...util.records import Frozen, cached_property
 from .bodies import Solid, solids_of
-from .members import Hinges, Members, hinges_of, members_of
+from .members import Elements, Members, hinges_of, members_of
 from .pose import Pose, reference_pose
 from .supports import Symbol, arrows_of, supports_of
 
@@ -37,7 +37,7 @@ class Drawing(Frozen):
 
     data: ModelData
     members: Members
-    hinges: Hinges
+    hinges: Elements
     supports: tuple[Symbol, ...]
     arrows: tuple[np.ndarray, FloatArray, np.ndarray]
     reference: Pose
@@ -91,7 +91,7 @@ def drawing_of(data: ModelData) -> Drawing:
     return Drawing(
         data,
         members,
-        hinges_of(data, size),
+        hinges_of(data),
         supports_of(arrays, members, size),
         arrows_of(arrays),
         reference,

@@ -103,6 +103,7 @@ STOPS = (
 )
 STOPS.flags.writeable = False
 
+#: In the order of the forms.
 OF_FORMS = {
     Form.SHEET: (0.53, 0.70, 0.88),
     Form.WIRE: (0.80, 0.69, 0.20),
@@ -123,15 +124,6 @@ MARK = (1.0, 0.92, 0.0)
 FREEDOM_SPACE = (0.90, 0.15, 0.24)
 CONSTRAINT_SPACE = (0.06, 0.28, 0.84)
 NEW_WIRE = (0.32, 0.16, 0.0)
-
-
-def of_forms(form: np.ndarray) -> FloatArray:
-    """(k, 3) red, green and blue of (k,) forms."""
-    table = np.zeros((max(Form) + 1, 3))
-    for each, colour in OF_FORMS.items():
-        table[each] = colour
-    made: FloatArray = table[form]
-    return made
 
 
 def diverging(values: FloatArray) -> FloatArray:
@@ -258,7 +250,7 @@ def members_of(data: ModelData, size: float) -> Members:
     wide = np.where(plainly | (planar_table()[kind] == 1), wide, 0)
     section, round_ = _as_given(appearance, index, wide, section, round_, size)
     return Members(
-        **described(data, index, of_forms(form)),
+        **described(data, index, np.array([(0.0, 0.0, 0.0), *OF_FORMS.values()])[form]),
         form=form,
         nodes=nodes,
         length=length,
@@ -333,34 +325,20 @@ def _as_given(
     return section, np.where(known, circle, round_)
 
 
-#: Length and diameter, parts of the drawing's size.
-_HINGES_PARTS = (0.06, 0.03)
+#: Length and diameter of the symbol of a hinge, parts of the drawing's size.
+HINGE_SIZE = (0.06, 0.03)
 
 
-@dataclass(frozen=True, eq=False)
-class Hinges(Elements):
-    """Drawn elements without extent; ex is the axis.
+def hinges_of(data: ModelData) -> Elements:
+    """The drawn elements without extent; ex is the axis.
 
     Their nodes are the position where each stands, -1 where none is known, and its two
     orientations.
-
-    Attributes:
-        size: (h, 2) length and diameter of its symbol [m].
     """
-
-    size: FloatArray
-
-
-def hinges_of(data: ModelData, size: float) -> Hinges:
-    """The hinges of a model; `size` is that of the drawing [m]."""
-    arrays = data.arrays
-    slots = slots_of(arrays)
-    is_line = ~is_member(arrays.element_kind, Member.HINGE)
+    slots = slots_of(data.arrays)
+    is_line = ~is_member(data.arrays.element_kind, Member.HINGE)
     every = np.flatnonzero(~is_line)
     chosen = data.appearance.drawn[every]
     place, index = places_of_hinges(slots, is_line)[chosen], every[chosen]
-    return Hinges(
-        **described(data, index, HINGE),
-        nodes=np.column_stack((place, slots[index][:, [1, 3]])),
-        size=np.tile(np.array(_HINGES_PARTS) * size, (index.size, 1)),
-    )
+    nodes = np.column_stack((place, slots[index][:, [1, 3]]))
+    return Elements(**described(data, index, HINGE), nodes=nodes)

@@ -285,9 +285,9 @@ class Layout(Frozen):
         place, turn, _ = self.drawing.hinges.nodes.T
         moved = [np.where((place >= 0)[:, None], displacement[place], 0.0)]
         turned = [rotation[turn]]
-        for field in field_along(self.drawing.members, displacement, rotation, SEGMENTS):
-            moved.append(field.displacement.reshape(-1, 3))
-            turned.append(field.rotation.reshape(-1, 3))
+        for _, way, turns in field_along(self.drawing.members, displacement, rotation, SEGMENTS):
+            moved.append(way.reshape(-1, 3))
+            turned.append(turns.reshape(-1, 3))
         about = np.concatenate(turned)[self.axis_point]
         made = np.concatenate(moved)[self.axis_point]
         skin = slice(len(self.frame), None)
@@ -397,7 +397,7 @@ def _skins(drawing: Drawing, strips: tuple[Strip, ...], skinned: BoolArray) -> I
         for each in (
             solid(part, drawing.members, drawing.planar)
             if number
-            else cylinders(part, drawing.hinges, drawing.planar, _CORNERS)
+            else cylinders(part, drawing.size, drawing.planar, _CORNERS)
         ):
             k, s, c, _ = each.points.shape
             # A disc is seen from the side to which z points.

@@ -198,9 +198,9 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
         row = solid.rows[0]
         arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
         corners.append(arm @ members.frame[row] / frame.size)
-        triangles.append(behind + solid.triangles)
-        owner.append(np.full(len(solid.triangles), number))
-        edges.append(behind + solid.edges)
+        triangles.append(behind + solid.hull.triangles)
+        owner.append(np.full(len(solid.hull.triangles), number))
+        edges.append(behind + solid.hull.edges)
         behind += len(arm)
     own = np.array([solid.colour for solid in solids]).reshape(-1, 3).clip(0.0, 1.0)
     edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
@@ -221,13 +221,13 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
 
 def _hinges(frame: Frame) -> dict[str, Any]:
     hinges = frame.drawing.hinges
-    rows = hinges_in(frame)
+    rows, size = hinges_in(frame), np.array(colours.HINGE_SIZE) * frame.drawing.size
     return {
         "number": integers(hinges.number[rows]),
         "names": [harmless(hinges.names[row]) for row in rows.tolist()],
         "keyword": [hinges.keyword[row] for row in rows.tolist()],
         "node": integers(frame.new[hinges.nodes[rows, 0]]),
-        "size": floats(hinges.size[rows] / frame.size),
+        "size": floats(np.tile(size / frame.size, (len(rows), 1))),
         "colour": flags(_bytes(hinges.colour[rows])),
     }
 

@@ -27,7 +27,7 @@ from ..drawing import (
 from ..drawing.diagrams import PIECES
 from ..drawing.members import GHOST as GHOST_COLOUR
 from ..drawing.members import GHOST_FACE as PALE
-from ..drawing.members import SUPPORT
+from ..drawing.members import HINGE_SIZE, SUPPORT
 from ..drawing.view import View
 from .arrows import add_displacements, add_freedoms, add_rotations, add_space
 from .canvas import GHOST, SOLID, Canvas
@@ -47,7 +47,7 @@ def _add_bodies(canvas: Canvas, drawing: Drawing, pose: Pose, *, pale: bool = Fa
         own = _GHOST_FACE if pale else each.colour
         line = _GHOST_EDGE if pale else _outlines(each.edge_colour)
         corners, normal = each.placed(drawing.members, drawing.reference, pose)
-        if each.hull is None:
+        if len(each.outline):
             ring = corners[each.outline][None]
             above = _HEIGHT * drawing.size
             canvas.polygons(ring, own, opacity=each.opacity, nearer=above, layer=layer)
@@ -256,7 +256,7 @@ def _add_flat_hinges(
     _discs(
         canvas,
         pose.position[hinges.nodes[there, 0]],
-        np.minimum(hinges.size[there, 1] / 2, 0.016 * drawing.size),
+        np.full(len(colours), HINGE_SIZE[1] / 2 * drawing.size),
         fill,
         rim,
         _HINGE * drawing.size,
@@ -364,7 +364,7 @@ def _add_hinges(
     hinges = drawing.hinges
     colours = hinges.colour if colour is None else colour
     seen = np.flatnonzero((hinges.nodes[:, 0] >= 0) & hinges.seen)
-    for body in cylinders(axes_of(hinges, pose, seen), hinges, corners=_ROUND):
+    for body in cylinders(axes_of(hinges, pose, seen), drawing.size, corners=_ROUND):
         own, opacity = colours[body.member][:, None], hinges.opacity[body.member]
         add_grid(canvas, body.points, own, opacity)
 
