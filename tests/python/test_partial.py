@@ -64,8 +64,8 @@ DYNX 3 2
 """
 #: What stumbles, and which outputs say so.
 PARTS = {
-    "show.page.modes.move": {"page", "watch"},
-    "show.page.modes.resultants": {"page", "watch"},
+    "show.page.viewer.move": {"page", "watch"},
+    "show.page.viewer.resultants": {"page", "watch"},
     "show.page.viewer.holds_data": {"page", "watch"},
     "show.page.content.viewer_data": {"page", "watch"},
     "show.page.content.advised": {"page", "watch"},
