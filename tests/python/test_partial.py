@@ -75,7 +75,7 @@ PARTS = {
     "show.picture.subject.move": set(),
     "show.picture.subject.resultants": set(),
     "show.drawing.selection.natural_shape": set(),
-    "show.notebook.rows.motion_in_parts": {"rows"},
+    "show.notebook.output.motion_in_parts": {"rows"},
     "show.notebook.output.describe": set(),
     "show.mesh.content.select_motion": set(),
     "apps.watch.messages.motion_in_parts": set(),

@@ -31,7 +31,6 @@ from .pose import (
     solid,
     stations,
 )
-from .spaces import SpaceShape, dashes, shape_of_space
 from .supports import Support, Symbol
 
 __all__ = [
@@ -47,13 +46,11 @@ __all__ = [
     "Pose",
     "Resultants",
     "Solid",
-    "SpaceShape",
     "Strip",
     "Support",
     "Symbol",
     "axes_of",
     "cylinders",
-    "dashes",
     "drawing_of",
     "field_along",
     "joints_of",
@@ -64,7 +61,6 @@ __all__ = [
     "reach_of",
     "reference_pose",
     "resultants",
-    "shape_of_space",
     "sides_in",
     "solid",
     "stations",

@@ -31,7 +31,6 @@ from ..drawing import (
     Moving,
     Pose,
     axes_of,
-    dashes,
     move,
     reach_of,
     resultants,
@@ -39,7 +38,7 @@ from ..drawing import (
     swing,
 )
 from ..drawing.selection import way_of
-from ..spaces import SpaceShown, holds_shown, spaces_shown
+from ..spaces import SpaceShown, dashes, holds_shown, spaces_shown
 from .assets import (
     FEW_MODES,
     MANY_ELEMENTS,

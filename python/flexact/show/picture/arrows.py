@@ -7,9 +7,9 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...util.rotations import frames_along, matrix_of, unit, vector_of
-from ..drawing import Drawing, Pose, dashes, reach_of
+from ..drawing import Drawing, Pose, reach_of
 from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE
-from ..spaces import SpaceShown
+from ..spaces import SpaceShown, dashes
 from .canvas import OVER, Canvas
 
 #: Displacements below this part of the largest get no arrow, and no more than so many get one.
