@@ -12,7 +12,7 @@ import shutil
 import sys
 import tempfile
 import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -101,32 +101,21 @@ def _completed(content: bytes, data: Mapping[str, NDArray[np.generic]]) -> bytes
     ParaView warps by `displacement` unless told otherwise.
     """
     components = component_names(data)
-    arrays = b"".join(
-        _array(name, values, components.get(name, [])) for name, values in data.items()
-    )
+    arrays = b""
+    for name, values in data.items():
+        told = "".join(
+            f" ComponentName{k}={quoteattr(harmless(words))}"
+            for k, words in enumerate(components.get(name, []))
+        )
+        if values.ndim > 1:
+            told = f' NumberOfComponents="{values.shape[1]}"{told}'
+        head = (
+            f'<DataArray type="{_TYPES[values.dtype.name]}" Name={quoteattr(name)}{told} '
+            f'NumberOfTuples="{len(values)}" format="binary">\n'
+        )
+        arrays += head.encode() + _encoded(values.tobytes()) + b"\n</DataArray>\n"
     content = content.replace(_GRID, _GRID + b"<FieldData>\n" + arrays + b"</FieldData>\n", 1)
     return content.replace(_POINTS, b'<PointData Vectors="displacement">\n', 1)
-
-
-def _array(name: str, values: NDArray[np.generic], components: Sequence[str]) -> bytes:
-    """An array of field data."""
-    many = values.shape[1] if values.ndim > 1 else 1
-    told = "".join(
-        f" ComponentName{k}={quoteattr(harmless(words))}" for k, words in enumerate(components)
-    )
-    if many > 1 or values.ndim > 1:
-        told = f' NumberOfComponents="{many}"{told}'
-    head = (
-        f'<DataArray type="{_TYPES[values.dtype.name]}" Name={quoteattr(name)}{told} '
-        f'NumberOfTuples="{len(values)}" format="binary">\n'
-    )
-    return head.encode() + _encoded(values.tobytes()) + b"\n</DataArray>\n"
-
-
-def cell_names(mesh: Mesh) -> list[str]:
-    """The name of each cell's element or symbol as VTK can keep it."""
-    names = list(map(spelt, mesh.names))
-    return [names[i] for i in mesh.element.tolist()]
 
 
 def _encoded(raw: bytes) -> bytes:
@@ -206,10 +195,14 @@ def _polydata(mesh: Mesh) -> Any:
     points = _module("vtkCommonCore").vtkPoints()
     points.SetData(to_vtk(np.ascontiguousarray(mesh.points), deep=True))
     made.SetPoints(points)
+    to_cells = _module("util.numpy_support").numpy_to_vtkIdTypeArray
     for take, corners in zip(
         (made.SetVerts, made.SetLines, made.SetPolys), mesh.corners, strict=True
     ):
-        take(_cells(corners))
+        cells = _module("vtkCommonDataModel").vtkCellArray()
+        offsets = np.arange(len(corners) + 1) * corners.shape[1]
+        cells.SetData(to_cells(offsets, deep=True), to_cells(corners.ravel().copy(), deep=True))
+        take(cells)
     for place, data in (
         (made.GetPointData(), mesh.point_data),
         (made.GetCellData(), mesh.cell_data),
@@ -220,27 +213,15 @@ def _polydata(mesh: Mesh) -> Any:
             array.SetName(name)
             place.AddArray(array)
     made.GetPointData().SetActiveVectors("displacement")
-    made.GetCellData().AddArray(_names(mesh))
+    names = _module("vtkCommonCore").vtkStringArray()
+    names.SetName("name")
+    names.SetNumberOfValues(len(mesh.element))
+    known = list(map(spelt, mesh.names))
+    for i, element in enumerate(mesh.element.tolist()):
+        names.SetValue(i, known[element])
+    made.GetCellData().AddArray(names)
     for name, words in component_names(mesh.field_data).items():
         # Names of elements are strings here.
         if len(words) == 1 and name != "element_number":
             made.GetFieldData().GetArray(name).SetComponentName(0, words[0])
-    return made
-
-
-def _cells(corners: np.ndarray) -> Any:
-    to_vtk = _module("util.numpy_support").numpy_to_vtkIdTypeArray
-    made = _module("vtkCommonDataModel").vtkCellArray()
-    offsets = np.arange(len(corners) + 1) * corners.shape[1]
-    made.SetData(to_vtk(offsets, deep=True), to_vtk(corners.ravel().copy(), deep=True))
-    return made
-
-
-def _names(mesh: Mesh) -> Any:
-    made = _module("vtkCommonCore").vtkStringArray()
-    made.SetName("name")
-    names = cell_names(mesh)
-    made.SetNumberOfValues(len(names))
-    for i, name in enumerate(names):
-        made.SetValue(i, name)
     return made
