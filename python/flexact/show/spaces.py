@@ -48,21 +48,19 @@ def _fan(normal: FloatArray, count: int = _FAN) -> FloatArray:
     """(count, 3) directions in a plane, over half a turn."""
     frame = frames_along(normal[None])[0]
     angle = np.pi * np.arange(count) / count
-    made: FloatArray = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
-    return made
+    cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    return np.asarray(cosine * frame[:, 1] + sine * frame[:, 2])
 
 
 def disc(point: FloatArray, normal: FloatArray, radius: float) -> FloatArray:
     """(c, 3) corners of what looks round."""
     ring = _fan(normal, _ROUND // 2)
-    made: FloatArray = point + radius * np.concatenate((ring, -ring))
-    return made
+    return np.asarray(point + radius * np.concatenate((ring, -ring)))
 
 
 def _square(point: FloatArray, one: FloatArray, other: FloatArray, half: float) -> FloatArray:
     corners = np.array(((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)))
-    made: FloatArray = point + half * (corners[:, :1] * one + corners[:, 1:] * other)
-    return made
+    return np.asarray(point + half * (corners[:, :1] * one + corners[:, 1:] * other))
 
 
 def _sides(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -155,13 +153,13 @@ def _meeting(family: Family, middle: FloatArray, size: float) -> _Parts:
 
 
 def _across(family: Family, middle: FloatArray, size: float) -> _Parts:
-    lines, faces = [], []
-    for share in (-0.55, 0.0, 0.55):
-        place = middle + share * _REACH * size * family.direction
-        more = _flat(place, family.direction, 0.8 * _REACH * size)
-        lines += more[0]
-        faces += more[1]
-    return lines, faces, []
+    planes = [
+        _flat(
+            middle + share * _REACH * size * family.direction, family.direction, 0.8 * _REACH * size
+        )
+        for share in (-0.55, 0.0, 0.55)
+    ]
+    return [line for lines, _ in planes for line in lines], [faces[0] for _, faces in planes], []
 
 
 def _every(family: Family, middle: FloatArray, size: float) -> _Parts:

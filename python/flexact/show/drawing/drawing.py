@@ -75,8 +75,7 @@ class Drawing(Frozen):
     @property
     def centre(self) -> FloatArray:
         """(3,) middle of that box [m]."""
-        middle: FloatArray = self.low / 2 + self.high / 2
-        return middle
+        return np.asarray(self.low / 2 + self.high / 2)
 
 
 def drawing_of(data: ModelData) -> Drawing:

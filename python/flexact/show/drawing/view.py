@@ -66,10 +66,6 @@ class View(Frozen):
         """Points (..., 3) to the right, up, and towards the eye."""
         return np.asarray(points @ self.axes.T)
 
-    def turned(self, degrees: float) -> View:
-        """The view from farther round."""
-        return View(self.azimuth + degrees, self.elevation)
-
 
 #: The plane x right, y up.
 FLAT = View(-90.0, 90.0)

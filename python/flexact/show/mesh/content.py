@@ -285,11 +285,13 @@ def layout_of(drawing: Drawing, pose: Pose, skinned: BoolArray) -> Layout:
     strips = (hinges, *members)
     axes = np.concatenate([each.centre.reshape(-1, 3) for each in strips])
     frame = np.concatenate([each.frame.reshape(-1, 3, 3) for each in strips])
-    lines, of_lines, nodes = _lines(drawing, hinges.member.size, members)
+    # The first point of each strip.
+    starts = np.cumsum([0, *(each.member.size * each.at.size for each in strips)]).tolist()
+    lines, of_lines, nodes = _lines(drawing, starts[1:], members)
     itself = skinned.copy()
     itself[drawing.members.index[drawing.in_solid]] = False
-    own = _joined(_skins(drawing, strips, itself))
-    skin = _joined((own, *_bodies(drawing, pose, strips, skinned)))
+    own = _joined(_skins(drawing, starts, strips, itself))
+    skin = _joined((own, *_bodies(drawing, pose, starts[1:], members, skinned)))
     points = np.concatenate((axes, skin.points))
     return Layout(
         drawing,
@@ -316,12 +318,12 @@ def _straight(drawing: Drawing) -> Iterator[Strip]:
 
 
 def _lines(
-    drawing: Drawing, behind: int, strips: tuple[Strip, ...]
+    drawing: Drawing, starts: list[int], strips: tuple[Strip, ...]
 ) -> tuple[Integers, Integers, Integers]:
     """Points of the lines, their elements, and the nodes of the points of all axes."""
     lines, owners = [np.zeros((0, 2), np.int64)], [np.zeros(0, np.int64)]
     nodes = [drawing.hinges.nodes[:, 0]]
-    for strip in strips:
+    for behind, strip in zip(starts, strips, strict=False):
         count = strip.at.size
         first = behind + np.arange(strip.member.size)[:, None] * count + np.arange(count - 1)
         lines.append(np.stack((first, first + 1), axis=-1).reshape(-1, 2))
@@ -329,14 +331,14 @@ def _lines(
         at_ends = np.full((strip.member.size, count), -1)
         at_ends[:, [0, -1]] = drawing.members.nodes[strip.member][:, [0, 2]]
         nodes.append(at_ends.ravel())
-        behind += strip.member.size * count
     return np.concatenate(lines), np.concatenate(owners), np.concatenate(nodes)
 
 
-def _skins(drawing: Drawing, strips: tuple[Strip, ...], skinned: BoolArray) -> Iterator[Surface]:
+def _skins(
+    drawing: Drawing, starts: list[int], strips: tuple[Strip, ...], skinned: BoolArray
+) -> Iterator[Surface]:
     """The surfaces of the hinges, which are the first strip, and of the members."""
-    behind = 0
-    for number, strip in enumerate(strips):
+    for number, (behind, strip) in enumerate(zip(starts, strips, strict=False)):
         index = (drawing.members if number else drawing.hinges).index[strip.member]
         rows = np.flatnonzero(skinned[index])
         part = Strip(strip.member[rows], strip.at, strip.centre[rows], strip.frame[rows])
@@ -356,28 +358,29 @@ def _skins(drawing: Drawing, strips: tuple[Strip, ...], skinned: BoolArray) -> I
                 quads.reshape(-1, 4),
                 np.repeat(index[rows][each.strip], quads.shape[1]),
             )
-        behind += strip.member.size * strip.at.size
 
 
 def _bodies(
-    drawing: Drawing, pose: Pose, strips: tuple[Strip, ...], skinned: BoolArray
+    drawing: Drawing,
+    pose: Pose,
+    starts: list[int],
+    strips: tuple[Strip, ...],
+    skinned: BoolArray,
 ) -> Iterator[Surface]:
     """The surfaces of bodies that are solids, as those of their first elements."""
     first: dict[int, int] = {}
-    behind = strips[0].member.size
-    for strip in strips[1:]:
-        starts = behind + np.arange(strip.member.size) * strip.at.size
-        first.update(zip(strip.member.tolist(), starts.tolist(), strict=True))
-        behind += strip.member.size * strip.at.size
+    for behind, strip in zip(starts, strips, strict=False):
+        points = behind + np.arange(strip.member.size) * strip.at.size
+        first.update(zip(strip.member.tolist(), points.tolist(), strict=True))
     for body in drawing.solids:
         row = int(body.rows[0])
         index = drawing.members.index[row]
         if not skinned[index]:
             continue
         corners, _ = body.placed(drawing.members, drawing.reference, pose)
-        points = body.quads(corners).reshape(-1, 3)
-        quads = np.arange(len(points)).reshape(-1, 4)
-        yield Surface(points, np.full(len(points), first[row]), quads, np.full(len(quads), index))
+        place = body.quads(corners).reshape(-1, 3)
+        quads = np.arange(len(place)).reshape(-1, 4)
+        yield Surface(place, np.full(len(place), first[row]), quads, np.full(len(quads), index))
 
 
 #: With more elements than these there are no surfaces, and no motion is looked for that the
@@ -549,12 +552,11 @@ class Meshes:
         """Cell data: a symbol has a form alone."""
         arrays, element = self.analysis.given.arrays, self.reference.element
         nothing = np.zeros(len(self.symbols.quads), np.int64)
-        made: dict[str, NDArray[np.generic]] = {
+        return {
             "element": np.append(arrays.element_number.astype(np.int64)[element], nothing),
             "kind": np.append(arrays.element_kind.astype(np.int64)[element], nothing),
             "form": np.append(forms_of(arrays)[0][element], self.forms[self.symbols.owner]),
         }
-        return made
 
     @cached_property
     def _of_analysis(self) -> dict[str, NDArray[np.generic]]:

@@ -430,11 +430,11 @@ def _divided(quads: FloatArray, item: np.ndarray, finest: float) -> tuple[FloatA
     """Quadrilaterals in pieces about so large from corner 0 to 1, and whose pieces they are."""
     sides = np.linalg.norm(quads[:, [1, 2]] - quads[:, [0, 3]], axis=-1).max(axis=1, initial=0.0)
     counts = np.clip(np.ceil(sides / finest), 1, 48).astype(np.int64)
-    row = np.repeat(np.arange(len(quads)), counts)
-    start = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[row]
+    row, step = _repeated(counts)
+    start = step / counts[row]
     share = np.stack((start, start + 1 / counts[row]), axis=1)[..., None]
-    first, last = (quads[row][:, [i]] for i in (0, 3))
     first, last = (
-        side + share * (quads[row][:, [i]] - side) for side, i in ((first, 1), (last, 2))
+        quads[row][:, [i]] + share * (quads[row][:, [j]] - quads[row][:, [i]])
+        for i, j in ((0, 1), (3, 2))
     )
     return np.concatenate((first, last[:, ::-1]), axis=1), item[row]

@@ -165,14 +165,20 @@ class _Frame:
             **others,
         )
 
+    def lines(self, x: float, y: float, lines: list[str], kind: str, **others: Any) -> float:
+        """Put lines of text below each other; where they end [px]."""
+        for line in lines:
+            self.text(x, y, line, kind, **others)
+            y += self.line(kind)
+        return y
+
     def wide(self, text: str, kind: str) -> float:
         """Width of a line of text [px], on a raster, where letters are wider."""
         from matplotlib.backends.backend_agg import RendererAgg
         from matplotlib.font_manager import FontProperties
 
         font = FontProperties(size=self._points(kind))
-        made: Any = RendererAgg
-        raster = made(1, 1, DPI)
+        raster: Any = RendererAgg(1, 1, DPI)  # type: ignore[no-untyped-call]
         return float(raster.get_text_width_height_descent(text, font, ismath=False)[0])
 
     def _points(self, kind: str) -> float:
@@ -191,26 +197,20 @@ class _Frame:
 def _add_verdict(frame: _Frame, analysis: Result) -> float:
     """The name, the verdict and the margin; where they end [px]."""
     left, y = 18 * frame.scale, 14 * frame.scale
-    name = harmless(os.path.basename(analysis.name))
-    if name:
-        frame.text(left, y, _cut(name, frame, "name"), "name", color=_FAINT)
-        y += frame.line("name")
+    if name := harmless(os.path.basename(analysis.name)):
+        y = frame.lines(left, y, [_cut(name, frame, "name")], "name", color=_FAINT)
     words = str(verdict_in_words(analysis))
     # As few lines as can be, about equally long.
     narrow = _letters(frame, "title")
     lines = textwrap.wrap(words, narrow)
     while narrow > 12 and len(textwrap.wrap(words, narrow - 1)) == len(lines):
         narrow -= 1
-    for line in textwrap.wrap(words, narrow):
-        frame.text(left, y, line, "title", color=analysis.colour, weight="bold")
-        y += frame.line("title")
+    look = {"color": analysis.colour, "weight": "bold"}
+    y = frame.lines(left, y, textwrap.wrap(words, narrow), "title", **look)
     lines = textwrap.wrap(without_links(margin_line(analysis).head), _letters(frame, "caption"))
     if len(lines) > _MOST_OF_MARGIN:
         lines = [f"{margin_in_short(analysis).capitalize()}."]
-    for line in lines:
-        frame.text(left, y, line, "caption")
-        y += frame.line("caption")
-    return y + 4 * frame.scale
+    return frame.lines(left, y, lines, "caption") + 4 * frame.scale
 
 
 def _letters(frame: _Frame, kind: str, width: float | None = None) -> int:
@@ -244,10 +244,9 @@ def _add_panel(
     pad = 18 * frame.scale
     bottom = frame.height
     if not plain:
-        for line in textwrap.wrap(subject.title, _letters(frame, "panel", right - left)):
-            frame.text(left + pad, top, line, "panel")
-            top += frame.line("panel")
-        words = caption(drawing, subject)
+        title = textwrap.wrap(subject.title, _letters(frame, "panel", right - left))
+        top = frame.lines(left + pad, top, title, "panel")
+        words = _caption(drawing, subject)
         lines = textwrap.wrap(words, _letters(frame, "caption", right - left))
         bottom -= frame.line("caption") * len(lines) + 0.6 * pad
         for number, line in enumerate(lines):
@@ -298,7 +297,7 @@ def _fill(axes: Axes, canvas: Canvas, box: Box, room: tuple[float, float]) -> No
     axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
 
 
-def caption(drawing: Drawing, subject: Subject) -> str:
+def _caption(drawing: Drawing, subject: Subject) -> str:
     """What is to be known of a panel."""
     hinges = drawing.hinges
     if len(hinges) and not len(drawing.members) and not np.any(hinges.nodes[:, 0] >= 0):

@@ -429,7 +429,7 @@ def _schedule(
         return order, phases, [view] * len(phases)
     if drawing.planar:
         return [0], [0.0], [view]
-    views = [view.turned(360.0 * k / _TURN) for k in range(_TURN)]
+    views = [View(view.azimuth + 360.0 * k / _TURN, view.elevation) for k in range(_TURN)]
     return list(range(_TURN)), [0.0] * _TURN, views
 
 

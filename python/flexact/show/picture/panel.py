@@ -16,7 +16,6 @@ from ..drawing import (
     Drawing,
     Form,
     Pose,
-    Strip,
     Support,
     axes_of,
     cylinders,
@@ -102,24 +101,32 @@ def _add_solids(
     pose: Pose,
     detail: tuple[int, int],
     stress: Stress | None = None,
+    *,
+    pale: bool = False,
 ) -> None:
-    """Draw the members, coloured by a self-stress if there is one."""
-    members, pieces, segments = drawing.members, 1, detail[0]
+    """Draw the members, coloured by a self-stress if there is one, or pale behind all else."""
+    members, pieces, (segments, corners) = drawing.members, 1, detail
     if stress is not None:
         if (stress.pieces > 1 or stress.quantity in BENDING) and len(members) <= _FEW:
             segments = PIECES
         pieces = min(stress.pieces, segments)
     for strip in stations(members, pose, segments, drawing.seen):
-        for body in solid(strip, members, corners=_corners(drawing, strip, detail)):
+        round_ = strip.member[members.round[strip.member]]
+        thick = members.section[round_].max(initial=0.0) > _THICK * drawing.size
+        for body in solid(strip, members, corners=corners * (2 if thick else 1)):
+            joined = members.joined[body.member]
+            if pale:
+                look = _GHOST_FACE, 1.0, _GHOST_EDGE
+                add_grid(canvas, body.points, *look, joined, layer=GHOST, shade=1.0)
+                continue
             points = _in_pieces(body.points, pieces)
             at = np.linspace(0.0, 1.0, points.shape[1])
             own = (
                 stress.colours(body.member, at) if stress else members.colour[body.member][:, None]
             )
             edges = _outlines(members.edge_colour[body.member])
-            opacity, joined = members.opacity[body.member], members.joined[body.member]
             shade = _SHADE_OF_STRESS if stress else SHADE
-            add_grid(canvas, points, own, opacity, edges, joined, shade=shade)
+            add_grid(canvas, points, own, members.opacity[body.member], edges, joined, shade=shade)
 
 
 def _in_pieces(points: FloatArray, pieces: int) -> FloatArray:
@@ -128,21 +135,6 @@ def _in_pieces(points: FloatArray, pieces: int) -> FloatArray:
         return points
     share = np.linspace(0.0, 1.0, pieces + 1)[None, :, None, None]
     return np.asarray((1 - share) * points[:, :1] + share * points[:, 1:])
-
-
-def _add_ghosts(canvas: Canvas, drawing: Drawing, detail: tuple[int, int]) -> None:
-    """Draw the reference shape, pale and behind everything else."""
-    members = drawing.members
-    for strip in stations(members, drawing.reference, detail[0], drawing.seen):
-        for body in solid(strip, members, corners=_corners(drawing, strip, detail)):
-            pale, joined = (_GHOST_FACE, 1.0, _GHOST_EDGE), members.joined[body.member]
-            add_grid(canvas, body.points, *pale, joined, layer=GHOST, shade=1.0)
-
-
-def _corners(drawing: Drawing, strip: Strip, detail: tuple[int, int]) -> int:
-    round_ = strip.member[drawing.members.round[strip.member]]
-    thick = drawing.members.section[round_].max(initial=0.0) > _THICK * drawing.size
-    return detail[1] * (2 if thick else 1)
 
 
 def _add_many(
@@ -167,26 +159,22 @@ def _add_many(
         own = colour[strip.member]
         for chosen, part in ((~wide & ~loud[strip.member], 1.0), (~wide & loud[strip.member], 2.0)):
             canvas.lines(strip.centre[chosen], _DARKER * own[chosen], part * width, layer=SOLID)
-        if wide.any():
-            _add_strips(canvas, drawing, strip, wide, own[wide])
-
-
-def _add_strips(
-    canvas: Canvas, drawing: Drawing, strip: Strip, chosen: np.ndarray, colour: FloatArray
-) -> None:
-    """Sheets as their middle surfaces."""
-    section = drawing.members.section[strip.member[chosen]]
-    wide = np.argmax(section, axis=1)
-    along = np.take_along_axis(strip.frame[chosen], (1 + wide)[:, None, None, None], axis=3)[..., 0]
-    half = section.max(axis=1)[:, None, None] / 2 * along
-    left, right = strip.centre[chosen] - half, strip.centre[chosen] + half
-    quads = np.stack((left[:, :-1], right[:, :-1], right[:, 1:], left[:, 1:]), axis=2)
-    pieces, quads = quads.shape[1], quads.reshape(-1, 4, 3)
-    normal = unit(np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1]))
-    towards = np.where((normal @ canvas.view.axes[2])[:, None] < 0.0, -normal, normal)
-    canvas.polygons(quads, np.repeat(colour, pieces, axis=0) * lit(towards, canvas.view))
-    for edge in (left, right):
-        canvas.lines(edge, np.array(OUTLINE), _NARROW / 2)
+        if not wide.any():
+            continue
+        # Sheets as their middle surfaces.
+        section = members.section[strip.member[wide]]
+        which = 1 + np.argmax(section, axis=1)[:, None, None, None]
+        along = np.take_along_axis(strip.frame[wide], which, axis=3)[..., 0]
+        half = section.max(axis=1)[:, None, None] / 2 * along
+        left, right = strip.centre[wide] - half, strip.centre[wide] + half
+        quads = np.stack((left[:, :-1], right[:, :-1], right[:, 1:], left[:, 1:]), axis=2)
+        pieces, quads = quads.shape[1], quads.reshape(-1, 4, 3)
+        normal = unit(np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1]))
+        towards = np.where((normal @ canvas.view.axes[2])[:, None] < 0.0, -normal, normal)
+        colours = np.repeat(own[wide], pieces, axis=0) * lit(towards, canvas.view)
+        canvas.polygons(quads, colours)
+        for edge in (left, right):
+            canvas.lines(edge, np.array(OUTLINE), _NARROW / 2)
 
 
 _DISC = 28
@@ -389,35 +377,29 @@ def _add_hatches(canvas: Canvas, rings: FloatArray, frame: FloatArray, thick: fl
     """Slanting lines over the sides of a block of ground that are seen."""
     towards = canvas.view.axes[2]
     for side in range(4):
-        first, last = rings[:, side], rings[:, (side + 1) % 4]
-        normal = np.cross(last[0] - first[0], frame[:, 0])
-        if normal @ towards > 0.0:
-            _add_hatch(canvas, first, last, thick)
-
-
-def _add_hatch(canvas: Canvas, first: FloatArray, last: FloatArray, thick: float) -> None:
-    """Slanting lines over a side: `first` and `last` are its edges, from below to above."""
-    length = float(np.linalg.norm(last[0] - first[0]))
-    count = max(2, min(14, round(length / (0.55 * thick))))
-    pitch = 1.0 / count
-    lean = min(thick / length, 1.0) if length > 0.0 else 1.0
-    lines = []
-    for start in np.arange(-lean + pitch / 2, 1.0, pitch).tolist():
-        # From (start, 0) to (start + lean, 1), cut at the edges.
-        low, high = max(0.0, -start / lean), min(1.0, (1.0 - start) / lean)
-        if high - low > 0.05:
+        # The edges of the side, from below to above.
+        edges = rings[:, side], rings[:, (side + 1) % 4]
+        along = edges[1][0] - edges[0][0]
+        if not np.cross(along, frame[:, 0]) @ towards > 0.0:
+            continue
+        length = float(np.linalg.norm(along))
+        pitch = 1.0 / max(2, min(14, round(length / (0.55 * thick))))
+        lean = min(thick / length, 1.0) if length > 0.0 else 1.0
+        lines = []
+        for start in np.arange(-lean + pitch / 2, 1.0, pitch).tolist():
+            # From (start, 0) to (start + lean, 1), cut at the edges.
+            low, high = max(0.0, -start / lean), min(1.0, (1.0 - start) / lean)
             ends = []
             for share in (low, high):
-                lower, upper = (edge[0] + share * (edge[1] - edge[0]) for edge in (first, last))
+                lower, upper = (edge[0] + share * (edge[1] - edge[0]) for edge in edges)
                 ends.append(lower + (start + share * lean) * (upper - lower))
-            lines.append(ends)
-    canvas.lines(np.array(lines), np.array(_HATCH), 0.5)
+            if high - low > 0.05:
+                lines.append(ends)
+        canvas.lines(np.array(lines), np.array(_HATCH), 0.5)
 
 
 #: Of more members no bending diagrams are drawn.
 _MOST_DIAGRAMS = 200
-#: Phases whose poses need room.
-_EXTREMES = (-1.0, 1.0)
 
 
 def paint(
@@ -437,15 +419,24 @@ def paint(
     pose = drawing.reference if movement is None else movement.pose(phase)
     detail = detail_of(drawing)
     peaks: list[Peak] = []
-    shown = [] if movement is None else [movement.pose(each) for each in _EXTREMES]
-    _leave_room(canvas, drawing, [drawing.reference, *shown])
+    shown = [] if movement is None else [movement.pose(end) for end in (-1.0, 1.0)]
+    # Room for the members with what is round their axes, invisible ones too.
+    for each in (drawing.reference, *shown):
+        for strip in stations(drawing.members, each):
+            wide = drawing.members.section[strip.member][:, None, None] / 2
+            for axis in (1, 2) if not drawing.planar else (1,):
+                side = wide[..., axis - 1] * strip.frame[..., axis]
+                canvas.room(strip.centre + side)
+                canvas.room(strip.centre - side)
+        for body in drawing.solids:
+            canvas.room(body.placed(drawing.members, drawing.reference, each)[0])
     if detail is None:
         _add_many(canvas, drawing, pose, stress, movement is not None)
     elif drawing.planar:
         _paint_flat(canvas, drawing, pose, subject, detail)
     else:
         if movement is not None:
-            _add_ghosts(canvas, drawing, detail)
+            _add_solids(canvas, drawing, drawing.reference, detail, pale=True)
             _add_bodies(canvas, drawing, drawing.reference, pale=True)
         _add_bodies(canvas, drawing, pose)
         _add_solids(canvas, drawing, pose, detail, stress)
@@ -479,16 +470,3 @@ def _paint_flat(
     _add_flat_members(canvas, drawing, pose, segments, colour)
     _add_bodies(canvas, drawing, pose)
     _add_flat_hinges(canvas, drawing, pose, stress.hinge_colours() if stress else None)
-
-
-def _leave_room(canvas: Canvas, drawing: Drawing, poses: list[Pose]) -> None:
-    """Room for the members in some poses with what is round their axes, invisible ones too."""
-    for pose in poses:
-        for strip in stations(drawing.members, pose):
-            wide = drawing.members.section[strip.member][:, None, None] / 2
-            for axis in (1, 2) if not drawing.planar else (1,):
-                side = wide[..., axis - 1] * strip.frame[..., axis]
-                canvas.room(strip.centre + side)
-                canvas.room(strip.centre - side)
-        for body in drawing.solids:
-            canvas.room(body.placed(drawing.members, drawing.reference, pose)[0])
