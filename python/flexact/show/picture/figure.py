@@ -255,7 +255,8 @@ def _add_panel(
         if subject.stress is not None:
             bottom -= frame.line("legend") * 3.6
     axes = frame.axes(left, top, right, bottom)
-    _fill(axes, canvas, box, (right - left, bottom - top))
+    axes.add_artist(canvas.artist())
+    _fit(axes, box, (right - left, bottom - top))
     if not plain:
         room = Room(axes, canvas)
         if not drawing.planar:
@@ -264,7 +265,7 @@ def _add_panel(
                 # Nowhere beside the drawing: below it.
                 strip = 2 * _TRIAD * frame.scale
                 axes.set_position(_part(frame, left, top, right, bottom - strip))
-                _fill(axes, canvas, box, (right - left, bottom - strip - top))
+                _fit(axes, box, (right - left, bottom - strip - top))
                 middle = left + _TRIAD * frame.scale, bottom - 0.9 * _TRIAD * frame.scale
                 room = Room(axes, canvas)
             _add_triad(frame, canvas.view, *middle)
@@ -285,9 +286,8 @@ def _add_panel(
             _add_legend(frame, subject.stress, words, (left + pad, right - pad), bottom)
 
 
-def _fill(axes: Axes, canvas: Canvas, box: Box, room: tuple[float, float]) -> None:
-    """Put the canvas into its axes, as large as it fits."""
-    axes.add_artist(canvas.artist())
+def _fit(axes: Axes, box: Box, room: tuple[float, float]) -> None:
+    """Have axes show a box as large as it fits."""
     low, high = box
     extent = np.maximum(high - low, 1.0e-9 * np.max(high - low, initial=1.0e-300))
     pixels = np.array(room) * (1 - 2 * _MARGIN)
