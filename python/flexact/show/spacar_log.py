@@ -325,10 +325,15 @@ def _log(analysis: Result) -> Iterator[str]:
     data = analysis.given
     numbering = SpacarNumbering(data)
     x, e = numbering.coordinates, numbering.deformations
-    kinematics, dynamics = _echoes(data)
+    tokens = Tokens(deck_of(data)) if data.source is None else tokens_of(data.source)
+    deck = list(tokens)[: -1 if tokens.text.endswith("\n") else None]
+    ends = [line.number + 1 for line in deck if line.ends and line.name == "END"]
+    echo = [f" {harmless(line.text.rstrip()) or ' '}" for line in deck]
+    # Up to the first END, and from there up to the second.
+    first, second = [*ends, len(deck), len(deck)][:2]
     yield f"Flexact {VERSION}: log in the form of SPACAR"
     yield f"Deck: {harmless(analysis.name)}"
-    yield from ("", _LINE, " Kinematic data", "", *kinematics, "")
+    yield from ("", _LINE, " Kinematic data", "", *echo[:first], "")
     rows, columns = numbering.shape
     # What SPACAR says of a system of another number of equations than of unknowns.
     for line in (
@@ -349,9 +354,9 @@ def _log(analysis: Result) -> Iterator[str]:
     value[x.number - 1] = data.arrays.node_value[x.part, x.owner]
     for what, values in (("position", value), ("deformation", np.zeros(e.number.size))):
         yield from ("", f" Zero order transfer function {what} parameters")
-        for first in range(0, values.size, _IN_A_LINE):
-            yield "".join(f"{each:13.5E}" for each in values[first : first + _IN_A_LINE].tolist())
-    yield from (_LINE, " Dynamic data", "", *dynamics, "")
+        for start in range(0, values.size, _IN_A_LINE):
+            yield "".join(f"{each:13.5E}" for each in values[start : start + _IN_A_LINE].tolist())
+    yield from (_LINE, " Dynamic data", "", *echo[first:second], "")
     yield " NEO ={:5d}, NEMM ={:5d}, NEM ={:5d}, NEC ={:5d}.".format(*e.ends)
     yield from ("", " NXO ={:5d}, NXC ={:5d}, NXMM ={:5d}, NXM ={:5d}.".format(*x.ends))
     euler = numbering.euler_nodes.size
@@ -370,15 +375,3 @@ def _log(analysis: Result) -> Iterator[str]:
         f" Under-constrained by {analysis.under_constrained}, "
         f"over-constrained by {analysis.over_constrained}"
     )
-
-
-def _echoes(data: ModelData) -> list[list[str]]:
-    """The deck up to its first END, and from there up to the second, with blanks for tabs."""
-    tokens = Tokens(deck_of(data)) if data.source is None else tokens_of(data.source)
-    lines = list(tokens)[: -1 if tokens.text.endswith("\n") else None]
-    ends = [line.number + 1 for line in lines if line.ends and line.name == "END"]
-    first, second = [*ends, len(lines), len(lines)][:2]
-    return [
-        [f" {harmless(line.text.rstrip()) or ' '}" for line in part]
-        for part in (lines[:first], lines[first:second])
-    ]

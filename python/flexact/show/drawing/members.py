@@ -49,9 +49,13 @@ def places_of_hinges(slots: np.ndarray, is_line: np.ndarray) -> np.ndarray:
             if orientation in places:
                 places[orientation].append(position)
     _place_between_hinges(places, hinges)
-    found = np.array([_common(places[a], places[b]) for a, b in hinges], dtype=np.int64)
+    found = []
+    for a, b in hinges:
+        others = set(places[b])
+        shared = [node for node in places[a] if node in others]
+        found.append(next(itertools.chain(shared, places[a], places[b]), -1))
     own = slots[~is_line][:, 0]
-    return np.where(own >= 0, own, found)
+    return np.where(own >= 0, own, np.array(found, np.int64))
 
 
 def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]]) -> None:
@@ -76,12 +80,6 @@ def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]])
             nowhere |= found
         for node in joined:
             places[node] = [place for place, _ in around.most_common(1)]
-
-
-def _common(first: list[int], second: list[int]) -> int:
-    others = set(second)
-    shared = (node for node in first if node in others)
-    return next(itertools.chain(shared, first, second), -1)
 
 
 #: (7, 3) from the most negative value over zero to the most positive: blue, grey, red, even in
@@ -243,7 +241,8 @@ def members_of(data: ModelData, size: float) -> Members:
     kind = arrays.element_kind[index]
     frame, length = data.frames.frame[index], data.frames.length[index]
     stiff = all_held(arrays)[index]
-    section = _sections(form, wide, _whole_lengths(data)[index], size)
+    whole, joined = (each[index] for each in _in_chains(data))
+    section = _sections(form, wide, whole, size)
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
     in_xz, in_xy = bending_held(arrays)[:, index]
     plainly = np.abs(in_xz - in_xy) == 2
@@ -258,32 +257,27 @@ def members_of(data: ModelData, size: float) -> Members:
         round=round_,
         stiff=stiff,
         bends=is_member(kind, Member.BEAM) & ~stiff,
-        joined=_joined(data)[index],
+        joined=joined,
         across=data.across[index] @ frame[..., 1:],
         edge_colour=appearance.edge_colour[index],
     )
 
 
-def _whole_lengths(data: ModelData) -> FloatArray:
-    """(elements,) lengths [m]: of a divided sheet or wire from end to end."""
-    made = data.frames.length.copy()
-    place = data.arrays.node_value[:3].T
-    for chain in data.chains:
-        ends = place[[chain.positions[0], chain.positions[-1]]]
-        made[list(chain.elements)] = np.linalg.norm(ends[1] - ends[0])
-    return made
+def _in_chains(data: ModelData) -> tuple[FloatArray, np.ndarray]:
+    """(elements,) lengths, and (elements, 2) whether the same sheet or wire goes on at p and at q.
 
-
-def _joined(data: ModelData) -> np.ndarray:
-    """(elements, 2) whether the same sheet or wire goes on at p and at q."""
-    made = np.zeros((data.arrays.element_number.size, 2), bool)
-    drawn = data.appearance.drawn
+    The length of an element of a divided sheet or wire is that from end to end [m].
+    """
+    whole = data.frames.length.copy()
+    joined = np.zeros((whole.size, 2), bool)
+    place, drawn = data.arrays.node_value[:3].T, data.appearance.drawn
     for chain in data.chains:
         row, against = np.array(chain.elements), np.array(chain.reversed).astype(int)
+        whole[row] = np.linalg.norm(place[chain.positions[-1]] - place[chain.positions[0]])
         goes_on = drawn[row[:-1]] & drawn[row[1:]]
-        made[row[:-1], 1 - against[:-1]] = goes_on
-        made[row[1:], against[1:]] = goes_on
-    return made
+        joined[row[:-1], 1 - against[:-1]] = goes_on
+        joined[row[1:], against[1:]] = goes_on
+    return whole, joined
 
 
 def _sections(form: np.ndarray, wide: np.ndarray, whole: FloatArray, size: float) -> FloatArray:

@@ -210,10 +210,15 @@ def _blocks(
         groups.setdefault(key, []).append(node)
     blocks = [made(group) for group in groups.values()]
     while 1 < len(blocks) <= _MOST:
+        # Corners of some are too far apart for them to meet.
+        middle = np.array([block.corners.mean(axis=0) for block in blocks])
+        arm = np.array([block.corners[0] for block in blocks]) - middle
+        radius = np.linalg.norm(arm, axis=1)
+        near = np.linalg.norm(middle[:, None] - middle, axis=-1) < radius[:, None] + radius
         pairs = [
             (i, j)
-            for i, j in _near(blocks)
-            if blocks[i].reaches(blocks[j]) or blocks[j].reaches(blocks[i])
+            for i, j in combinations(range(len(blocks)), 2)
+            if near[i, j] and (blocks[i].reaches(blocks[j]) or blocks[j].reaches(blocks[i]))
         ]
         if not pairs:
             break
@@ -224,14 +229,6 @@ def _blocks(
         ]
         blocks = [made(group) for group in joined]
     return sorted(blocks, key=lambda block: block.held)
-
-
-def _near(blocks: list[Symbol]) -> list[tuple[int, int]]:
-    """Pairs of blocks whose corners are not too far apart for them to meet."""
-    middle = np.array([block.corners.mean(axis=0) for block in blocks])
-    radius = np.array([np.linalg.norm(b.corners[0] - b.corners.mean(axis=0)) for b in blocks])
-    near = np.linalg.norm(middle[:, None] - middle, axis=-1) < radius[:, None] + radius
-    return [(i, j) for i, j in combinations(range(len(blocks)), 2) if near[i, j]]
 
 
 def _block(

@@ -75,24 +75,24 @@ def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
     size = float(np.linalg.norm(high - low)) or 1.0
     planar = all(each.planar for each in drawings)
     towards = view_of(ISO, drawings[0]).axes[2]
-    common = (low / 2 + high / 2, size, planar, towards)
-    return tuple(Frame(each, *common, *_kept(each)) for each in drawings)
-
-
-def _kept(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
-    """All nodes, or, where members are left out, those of the ones that are drawn."""
-    count = drawing.data.arrays.node_kind.size
-    used = np.zeros(count + 1, bool)
-    used[:count] = len(drawing.members) <= MOST_MEMBERS
-    used[drawing.members.nodes[:MOST_MEMBERS]] = True
-    used[-1] = False
-    new = np.where(used, np.cumsum(used) - 1, -1)
-    return np.flatnonzero(used), new
+    made = []
+    for each in drawings:
+        # All nodes, or, where members are left out, those of the ones that are drawn.
+        used = np.zeros(each.data.arrays.node_kind.size + 1, bool)
+        used[:-1] = len(each.members) <= MOST_MEMBERS
+        used[each.members.nodes[:MOST_MEMBERS]] = True
+        used[-1] = False
+        new = np.where(used, np.cumsum(used) - 1, -1)
+        common = low / 2 + high / 2, size, planar, towards
+        made.append(Frame(each, *common, np.flatnonzero(used), new))
+    return tuple(made)
 
 
 def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
     """All that does not depend on motions and self-stresses."""
     drawing = frame.drawing
+    node, radius = joints_of(drawing)
+    joined = frame.new[node] >= 0
     return {
         "planar": frame.planar,
         "size": frame.size,
@@ -120,7 +120,10 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
         "supports": _supports(parts, frame),
-        "joints": _joints(frame),
+        "joints": {
+            "node": integers(frame.new[node[joined]]),
+            "radius": floats(radius[joined] / frame.size),
+        },
         "arrows": _arrows(frame),
     }
 
@@ -262,15 +265,6 @@ def _supports(parts: Parts, frame: Frame) -> dict[str, Any]:
     }
 
 
-def _joints(frame: Frame) -> dict[str, Any]:
-    node, radius = joints_of(frame.drawing)
-    rows = frame.new[node] >= 0
-    return {
-        "node": integers(frame.new[node[rows]]),
-        "radius": floats(radius[rows] / frame.size),
-    }
-
-
 def _arrows(frame: Frame) -> dict[str, Any]:
     node, direction, turning = frame.drawing.arrows
     rows = frame.new[node] >= 0
@@ -304,11 +298,12 @@ def drawing_part(
         mark: What tells its names from those of other drawings of the page.
     """
     keys = PLANAR_KEYS if data["planar"] else KEYS
+    picture, about = ("", f"{text(words)} ") if still is None else (image(still, words), "")
     note = f'<p class="note">{text(left_out)}</p>' if left_out else ""
     return (
         f'<section class="drawing" aria-label="{text(f"Drawing {mark}".strip())}">'
         f'<script type="application/json" class="drawing-data">{json_for_script(data)}</script>\n'
-        f'<div class="still">{_still(still, words)}</div>'
+        f'<div class="still">{picture}<p class="note">{about}{text(_WITHOUT)}</p></div>'
         '<div class="interactive" hidden>'
         '<div class="stage"><canvas class="canvas" tabindex="0" role="application" '
         f'aria-label="Drawing. {text(keys)}" aria-describedby="{mark}shown"></canvas>'
@@ -325,12 +320,6 @@ _LEGEND = (
     '<span class="ticks"><span class="legend-low"></span><span>0</span>'
     '<span class="legend-high"></span></span><span class="legend-note"></span></div>'
 )
-
-
-def _still(still: bytes | None, words: str) -> str:
-    if still is None:
-        return f'<p class="note">{text(words)} {text(_WITHOUT)}</p>'
-    return f'{image(still, words)}<p class="note">{text(_WITHOUT)}</p>'
 
 
 _WITHOUT = (
