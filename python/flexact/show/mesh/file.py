@@ -53,7 +53,7 @@ def find_format(name: str) -> str:
     known = name.lower().removeprefix(".")
     if known not in FORMATS:
         raise unknown_format(name)
-    _meshio()
+    _module("meshio")
     return known
 
 
@@ -66,12 +66,15 @@ def unknown_format(name: str) -> MeshFormatError:
     )
 
 
-def _meshio() -> ModuleType:
+def _module(name: str) -> ModuleType:
     try:
-        return import_module("meshio")
+        return import_module(name)
     except ImportError as error:
+        what, package = "mesh files need", name
+        if name != "meshio":
+            what, package = "mesh format vtp needs", "vtk"
         raise MeshFormatError(
-            f"mesh files need the package meshio: pip install meshio ({error})"
+            f"{what} the package {package}: pip install {package} ({error})"
         ) from error
 
 
@@ -85,7 +88,7 @@ def mesh_bytes(mesh: Mesh, form: str) -> bytes:
     try:
         with _temporary_folder() as folder, _placeholder_for_h5py(form):
             path = folder / f"mesh.{form}"
-            _meshio().write(path, mesh.to_meshio(), file_format=form, **FORMATS[form])
+            _module("meshio").write(path, mesh.to_meshio(), file_format=form, **FORMATS[form])
             content = path.read_bytes()
     except MemoryError as error:
         raise OutputError("there is not enough memory for the mesh") from error
@@ -160,7 +163,7 @@ def polydata_bytes(mesh: Mesh) -> bytes:
     Raises:
         MeshFormatError: The package vtk is not installed, or fails.
     """
-    writer = _module("vtkIOXML").vtkXMLPolyDataWriter()
+    writer = _module("vtkmodules.vtkIOXML").vtkXMLPolyDataWriter()
     writer.SetInputData(_polydata(mesh))
     writer.SetWriteToOutputString(True)
     # Text alone: a string of Python's holds no raw bytes.
@@ -177,29 +180,20 @@ def require_polydata(_suffix: str = "") -> None:
     Raises:
         MeshFormatError: The package vtk is not installed.
     """
-    _module("vtkIOXML")
-
-
-def _module(name: str) -> ModuleType:
-    try:
-        return import_module(f"vtkmodules.{name}")
-    except ImportError as error:
-        raise MeshFormatError(
-            f"mesh format vtp needs the package vtk: pip install vtk ({error})"
-        ) from error
+    _module("vtkmodules.vtkIOXML")
 
 
 def _polydata(mesh: Mesh) -> Any:
-    to_vtk: Callable[..., Any] = _module("util.numpy_support").numpy_to_vtk
-    made = _module("vtkCommonDataModel").vtkPolyData()
-    points = _module("vtkCommonCore").vtkPoints()
+    to_vtk: Callable[..., Any] = _module("vtkmodules.util.numpy_support").numpy_to_vtk
+    made = _module("vtkmodules.vtkCommonDataModel").vtkPolyData()
+    points = _module("vtkmodules.vtkCommonCore").vtkPoints()
     points.SetData(to_vtk(np.ascontiguousarray(mesh.points), deep=True))
     made.SetPoints(points)
-    to_cells = _module("util.numpy_support").numpy_to_vtkIdTypeArray
+    to_cells = _module("vtkmodules.util.numpy_support").numpy_to_vtkIdTypeArray
     for take, corners in zip(
         (made.SetVerts, made.SetLines, made.SetPolys), mesh.corners, strict=True
     ):
-        cells = _module("vtkCommonDataModel").vtkCellArray()
+        cells = _module("vtkmodules.vtkCommonDataModel").vtkCellArray()
         offsets = np.arange(len(corners) + 1) * corners.shape[1]
         cells.SetData(to_cells(offsets, deep=True), to_cells(corners.ravel().copy(), deep=True))
         take(cells)
@@ -213,7 +207,7 @@ def _polydata(mesh: Mesh) -> Any:
             array.SetName(name)
             place.AddArray(array)
     made.GetPointData().SetActiveVectors("displacement")
-    names = _module("vtkCommonCore").vtkStringArray()
+    names = _module("vtkmodules.vtkCommonCore").vtkStringArray()
     names.SetName("name")
     names.SetNumberOfValues(len(mesh.element))
     known = list(map(spelt, mesh.names))

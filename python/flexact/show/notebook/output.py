@@ -193,33 +193,22 @@ def shown(content: bytes, size: tuple[int, int], words: str) -> str:
 _CELL = "text-align:left;vertical-align:top;padding:6px 10px;white-space:normal"
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]], title: str = "") -> str:
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table.
 
     Args:
         heads: Of the columns, as text.
         rows: Cells, as HTML.
-        title: Above it, as HTML.
     """
     head = "".join(f"<th style='{_CELL}'>{text(each)}</th>" for each in heads)
     body = "".join(
         "<tr>" + "".join(f"<td style='{_CELL}'>{cell}</td>" for cell in row) + "</tr>"
         for row in rows
     )
-    told = f"<p>{title}</p>" if title else ""
     return (
-        f"<div style='overflow-x:auto'>{told}<table><thead><tr>{head}</tr></thead>"
+        f"<div style='overflow-x:auto'><table><thead><tr>{head}</tr></thead>"
         f"<tbody>{body}</tbody></table></div>"
     )
-
-
-def verdict(colour: str, sign: str, words: str) -> str:
-    """A verdict with its colour and its sign."""
-    mark = (
-        f"<span style='display:inline-block;min-width:1.4em;padding:0 .4em;border-radius:1em;"
-        f"background:{colour};color:#fff;text-align:center'>{sign}</span>"
-    )
-    return f"{mark} {text(words)}"
 
 
 _HOW = (
@@ -428,8 +417,12 @@ class Results(Sequence[Result]):
             name, word, *others = _words(each)
             words = str(verdict_in_words(each))
             picture = still(each, SMALL, words) if k < MOST_PICTURES else ""
-            told = verdict(each.colour, kind_of(each)[1], word)
-            rows.append((picture, f"<b>{text(name)}</b>", told, *map(text, others)))
+            sign = (
+                "<span style='display:inline-block;min-width:1.4em;padding:0 .4em;"
+                f"border-radius:1em;background:{each.colour};color:#fff;text-align:center'>"
+                f"{kind_of(each)[1]}</span> {text(word)}"
+            )
+            rows.append((picture, f"<b>{text(name)}</b>", sign, *map(text, others)))
         return table(_HEADS, rows) if rows else "<p>No results.</p>"
 
 

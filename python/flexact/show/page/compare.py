@@ -145,26 +145,6 @@ def designs_page(
         f'<span class="{"name" if k == 0 and name else "fact"}">{text(each)}</span>'
         for k, each in enumerate(about)
     )
-    groups = (f'<div class="charts">{"".join(each)}</div>' for each in charts if each)
-    body = (
-        '<header class="verdict top"><h1 class="headline">'
-        f"<span>{text(headline)}</span></h1>"
-        f'<p class="about">{facts}</p>{SWITCH}</header>',
-        f'<main class="{"pair" if sides else "plain"} designs">',
-        section("designs", "The designs", _table(key)),
-        section("charts", "What each bears and keeps", "".join(groups)),
-        _drawn(sides),
-        section("notes", "To be known", *(f"<p>{text(each)}</p>" for each in notes)),
-        "</main>",
-    )
-    title = f"{name or 'model'}: what over-constraint costs"
-    scripts = SCRIPTS if sides else PLAIN_SCRIPTS
-    # Those of charts come behind those of all pages.
-    styles = ("style.css", "charts.css")
-    return filled(title, "\n".join(body), scripts, styles, series_css())
-
-
-def _table(key: Key) -> str:
     rows = (
         row(
             f'<span class="s{each.series} swatch" aria-hidden="true"></span>'
@@ -177,7 +157,23 @@ def _table(key: Key) -> str:
         )
         for each in key.rows
     )
-    return table(("design", *key.heads), rows, kind="designs")
+    groups = (f'<div class="charts">{"".join(each)}</div>' for each in charts if each)
+    body = (
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(headline)}</span></h1>"
+        f'<p class="about">{facts}</p>{SWITCH}</header>',
+        f'<main class="{"pair" if sides else "plain"} designs">',
+        section("designs", "The designs", table(("design", *key.heads), rows, kind="designs")),
+        section("charts", "What each bears and keeps", "".join(groups)),
+        _drawn(sides),
+        section("notes", "To be known", *(f"<p>{text(each)}</p>" for each in notes)),
+        "</main>",
+    )
+    title = f"{name or 'model'}: what over-constraint costs"
+    scripts = SCRIPTS if sides else PLAIN_SCRIPTS
+    # Those of charts come behind those of all pages.
+    styles = ("style.css", "charts.css")
+    return filled(title, "\n".join(body), scripts, styles, series_css())
 
 
 def _drawn(sides: Sequence[Side]) -> str:

@@ -76,6 +76,8 @@ _SHADE_OF_STRESS = 0.84
 #: Of very many members up to so many sheets have their width; beyond, all are lines.
 _MOST_STRIPS = 12_000
 _SEGMENTS = 4
+#: Of very many members those above this part of the largest value are drawn thicker.
+_LOUD = 0.05
 #: Widths of lines [pt] up to that number, and beyond.
 _WIDE, _NARROW = 1.3, 0.6
 _DARKER = 0.85
@@ -152,7 +154,11 @@ def _add_many(
         for strip in stations(members, drawing.reference, 1, members.seen):
             canvas.lines(strip.centre[:, [0, -1]], _GHOST_EDGE, width / 2, layer=GHOST)
     colour = members.colour if stress is None else stress.member_colours()
-    loud = np.zeros(len(members), bool) if stress is None else stress.is_loud()
+    loud = (
+        np.zeros(len(members), bool)
+        if stress is None
+        else np.abs(stress.values[stress.quantity]).max(axis=1) > _LOUD * stress.largest
+    )
     is_sheet = (members.form == Form.SHEET) & few & (not drawing.planar)
     for strip in stations(members, pose, _SEGMENTS, members.seen):
         wide = is_sheet[strip.member]

@@ -104,8 +104,6 @@ _THROUGH = 0.3
 _NAMED, _MOST_NAMED = 0.3, 8
 #: Values that differ by less than this part of the largest have one colour.
 _EVEN = 0.01
-#: Of very many members those above this part of the largest value are drawn thicker.
-_LOUD = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,10 +130,6 @@ class Stress(Frozen):
         ends = self.values[self.quantity]
         high, low = ends.max(axis=1), ends.min(axis=1)
         return self.colours_of(np.where(high >= -low * (1.0 - _EVEN), high, low))
-
-    def is_loud(self) -> np.ndarray:
-        """(k,) whether a member has more than a small part of the largest value."""
-        return np.asarray(np.abs(self.values[self.quantity]).max(axis=1) > _LOUD * self.largest)
 
     def hinge_colours(self) -> FloatArray:
         """(h, 3) of the hinges."""
