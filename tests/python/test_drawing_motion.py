@@ -224,7 +224,8 @@ def test_what_lies_between_two_poses_is_between_them() -> None:
     _, drawing, movement = moved("paper/twelve_trusses")
     np.testing.assert_array_equal(movement.pose(0.0).position, drawing.reference.position)
     np.testing.assert_array_equal(movement.pose(1.0).position, movement.poses[-1].position)
-    middle = movement.pose((movement.phases[3] + movement.phases[4]) / 2)
+    phases = np.linspace(-1.0, 1.0, len(movement.poses))
+    middle = movement.pose((phases[3] + phases[4]) / 2)
     expected = (movement.poses[3].position + movement.poses[4].position) / 2
     np.testing.assert_allclose(middle.position, expected, atol=1e-15)
 

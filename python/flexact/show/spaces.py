@@ -48,8 +48,7 @@ def _fan(normal: FloatArray, count: int = _FAN) -> FloatArray:
     """(count, 3) directions in a plane, over half a turn."""
     frame = frames_along(normal[None])[0]
     angle = np.pi * np.arange(count) / count
-    cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
-    return np.asarray(cosine * frame[:, 1] + sine * frame[:, 2])
+    return np.outer(np.cos(angle), frame[:, 1]) + np.outer(np.sin(angle), frame[:, 2])
 
 
 def disc(point: FloatArray, normal: FloatArray, radius: float) -> FloatArray:

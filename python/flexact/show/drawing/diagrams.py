@@ -240,21 +240,15 @@ def stance(
     depth = stretched - seen[:, None] * sideways
     away = np.where(np.abs(seen) < SHOWN, SHOWN, np.abs(seen))
     way = away[:, None] * outward + np.sqrt(1.0 - np.minimum(away, 1.0) ** 2)[:, None] * unit(depth)
-    return _outermost(members, rows, outward, stretched), unit(way)
-
-
-def _outermost(
-    members: Members, rows: np.ndarray, outward: FloatArray, stretched: FloatArray
-) -> FloatArray:
-    """(k, 3) from axes to the points of sections that are farthest along a direction [m]."""
-    across, half = members.frame[rows][..., 1:], members.section[rows] / 2
+    # To the points of sections that are farthest along the direction.
+    across, half = frame[..., 1:], members.section[rows] / 2
     part = np.einsum("kx,kxd->kd", outward, across)
     tie = np.einsum("kx,kxd->kd", stretched, across)
     corner = np.where(np.abs(part) > 1.0e-9, np.sign(part), np.sign(np.round(tie, 9))) * half
     size = np.linalg.norm(half * part, axis=1, keepdims=True)
     ellipse = half**2 * part / np.where(size > 0.0, size, 1.0)
     chosen = np.where(members.round[rows][:, None], ellipse, corner)
-    return np.asarray(np.einsum("kxd,kd->kx", across, chosen))
+    return np.einsum("kxd,kd->kx", across, chosen), unit(way)
 
 
 def _interval(value: FloatArray) -> tuple[FloatArray, np.ndarray]:

@@ -304,8 +304,8 @@ class Movement(Frozen):
         deviation: The largest deformation in the poses that the motion holds, as a part of the
             drawing's size; infinite where there is no such path near, NaN where the model is too
             large to look for it. Then rigid bodies move on the screws of the motion.
-        phases: (17,) from -1 to 1, fewer of a shape that is elastic; 0 is the reference.
-        poses: One a phase.
+        poses: 17, at even phases from -1 to 1, fewer of a shape that is elastic; at 0 is the
+            reference.
         about: What is to be said of them where that is no path; may be empty.
         part: Size of what moves, as a part of the drawing's, where it is drawn to that; else 1.
         natural: Whether what nothing determines has the shape in which it bends least.
@@ -313,7 +313,6 @@ class Movement(Frozen):
 
     scale: float
     deviation: float
-    phases: FloatArray
     poses: tuple[Pose, ...]
     about: str = ""
     part: float = 1.0
@@ -370,9 +369,8 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
             break
         sides, deviation = fitted, there
     poses = (*sides[0][::-1], reference_pose(drawing.data.arrays), *sides[1])
-    phases = np.linspace(-1.0, 1.0, len(poses))
     natural = isinstance(motion, Natural)
-    return Movement(scale, deviation, phases, poses, part=part, natural=natural)
+    return Movement(scale, deviation, poses, part=part, natural=natural)
 
 
 def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
@@ -488,7 +486,6 @@ def swing(
     amplitude, part = amplitude_of(drawing, moved, turned)
     scale = scale_of(drawing, moved, turned, amplitude, _SWING_LARGEST_ROTATION)
     start, handles = pose_of(arrays, state), _handles_of(arrays)
-    phases = np.linspace(-1.0, 1.0, _POSES)
 
     def pose(share: float) -> Pose:
         there = pose_of(arrays, state.moved(share * (moved + turned)))
@@ -496,5 +493,5 @@ def swing(
         position = _carried_by_bodies(handles, *way)
         return Pose(np.where(placed, position, 0.0), there.rotation)
 
-    poses = tuple(pose(scale * phase) for phase in phases.tolist())
-    return Movement(scale, np.nan, phases, poses, about, part)
+    poses = tuple(pose(scale * phase) for phase in np.linspace(-1.0, 1.0, _POSES).tolist())
+    return Movement(scale, np.nan, poses, about, part)

@@ -359,7 +359,7 @@ def _picture(data: ModelData) -> str:
     if not has_packages() or not data.arrays.element_number.size:
         return ""
     try:
-        content = model_bytes(data, ".png", size=WHOLE)
+        content = model_bytes(data, WHOLE)
     except Exception as error:
         # A model that is not sound may have no drawing.
         if not data.problems.errors:

@@ -39,7 +39,6 @@ def before_and_after(
     changed: Pieces,
     told: Iterable[Line] = (),
     stills: tuple[bytes | None, bytes | None] = (None, None),
-    first: tuple[tuple[str, int], ...] = (),
     spaces: tuple[Spaces | None, Spaces | None] = (None, None),
     runs: tuple[str, str] | None = None,
     changes: str = "",
@@ -54,8 +53,6 @@ def before_and_after(
         changed: What was changed, in words that may name elements and nodes of the changed one.
         told: Further advice, which stands below; it may name elements and nodes of the first.
         stills: Pictures of both as PNG, for browsers without scripts or WebGL.
-        first: What of the mechanism as it is is shown at first, such as ("motion", 2) and
-            ("self-stress", 1); else what its verdict says, both where it is both.
         spaces: Freedom and constraint spaces of a body of each, to be switched on.
         runs: What both are called, where they are two decks.
         changes: What changed, as HTML.
@@ -65,10 +62,8 @@ def before_and_after(
     results = (before, after)
     frames = frames_of(*(drawing_of(each.given) for each in results))
     one, two = (viewer_data(*each) for each in zip(results, frames, spaces, strict=True))
-    if first:
-        kinds = {"motion": "movement", "self-stress": "stress"}
-        one["first"] = [(kinds[kind], str(number - 1)) for kind, number in first]
-    elif one["first"] == [("movement", "0")] and one["stresses"]:
+    # What the verdict says, both where it is both.
+    if one["first"] == [("movement", "0")] and one["stresses"]:
         one["first"] = [*one["first"], ("stress", "0")]
     name = file_name(before.name)
     title = f"{name or 'model'}: before and after"

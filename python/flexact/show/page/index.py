@@ -351,13 +351,9 @@ def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
     if change.gravity is Gravity.STATEMENTS:
         nothing = '<p class="note">The result is as before.</p>'
     told = f'<ul class="told-changes">{told}{modes}</ul>' if told or modes else nothing
-    return told + _statements(change)
-
-
-def _statements(change: Change) -> str:
     many = len(change.statements)
     if not many:
-        return ""
+        return told
     lines = "".join(
         f'<span class="{"came" if each.added else "went"}">{"+" if each.added else "-"}'
         f'<span class="no">{each.line}</span> {text(each.written)}\n</span>'
@@ -367,7 +363,7 @@ def _statements(change: Change) -> str:
     rest = f'<p class="note">and {more} more</p>' if more > 0 else ""
     words = f"{many} statement{'s' * (many != 1)} of the deck differ{'s' * (many == 1)}"
     return (
-        f'<details class="statements"><summary>{words}</summary>'
+        f'{told}<details class="statements"><summary>{words}</summary>'
         f'<pre class="excerpt"><code>{lines}</code></pre>{rest}</details>'
     )
 

@@ -286,29 +286,15 @@ def _quiet() -> Iterator[None]:
         logger.setLevel(level)
 
 
-def model_bytes(
-    data: ModelData,
-    suffix: str = ".png",
-    *,
-    view: str | None = None,
-    size: tuple[int, int] | None = None,
-) -> bytes:
-    """A picture of a model without words, as the content of a file.
-
-    Args:
-        data: The model.
-        suffix: `.png`, `.svg` or `.pdf`.
-        view: As of `draw`.
-        size: Width and height [px].
+def model_bytes(data: ModelData, size: tuple[int, int]) -> bytes:
+    """A picture of a model without words as PNG, so many pixels wide and high.
 
     Raises:
-        PictureError: There is no such kind of picture, or a package is missing.
-        ViewError: There is no such view.
+        PictureError: A package is missing.
     """
-    kind = check_suffix(suffix)
     check_packages()
     words = harmless(data.name) or "Mechanism", ""
-    return _bytes(data, lambda _: [Subject()], None, kind, words, view, size, True)
+    return _bytes(data, lambda _: [Subject()], None, ".png", words, None, size, True)
 
 
 def shape_bytes(

@@ -186,7 +186,6 @@ def _add_many(
 _DISC = 28
 _INK = np.array(OUTLINE)
 _WHITE = np.ones(3)
-_MEMBERS_LINE = 0.7
 #: Places along z, parts of the drawing's size; of members by their form.
 _HEIGHTS = np.array([0, 1, 1, 2, 3, 4])
 _SUPPORT, _PIN, _HINGE, _JOINT = 6, 7, 8, 10
@@ -233,9 +232,7 @@ def _add_flat_members(
             )
             around = np.concatenate((lower, upper[:, ::-1], lower[:, :1]), axis=1)
             line = _GHOST_EDGE if pale else _outlines(members.edge_colour[body.member])
-            canvas.lines(
-                around, line, _MEMBERS_LINE, nearer=above + 0.1 * drawing.size, layer=layer
-            )
+            canvas.lines(around, line, _LINE, nearer=above + 0.1 * drawing.size, layer=layer)
 
 
 def _add_flat_hinges(
