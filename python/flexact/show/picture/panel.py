@@ -269,12 +269,22 @@ def _add_flat_supports(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
             canvas.polygons((place + corner)[None], _WHITE, edge=_INK, width=1.1, nearer=above)
             continue
         up = symbol.frame[:, 0]
-        frame = np.array((up[1], -up[0], 0.0)), up
+        along, whole = np.array((up[1], -up[0], 0.0)), drawing.size
         if kind == Support.CLAMP:
             half = 0.3 * size + float(symbol.extent.max())
-            _ground(canvas, place, frame, half, size, drawing.size)
-        else:
-            _triangle(canvas, place, frame, size, drawing.size, kind == Support.SLIDE)
+            _ground(canvas, place, (along, up), half, size, whole)
+            continue
+        base = place - size * up
+        corners = np.stack((place, base - 0.6 * size * along, base + 0.6 * size * along))
+        canvas.polygons(corners[None], _WHITE, edge=_INK, width=1.1, nearer=_SUPPORT * whole)
+        radius = 0.17 * size
+        if kind == Support.SLIDE:
+            # It rolls.
+            middle = base - radius * up + np.array([[-0.33], [0.33]]) * size * along
+            _discs(canvas, middle, np.full(2, radius), _WHITE, OUTLINE, _SUPPORT * whole, 1.0)
+            base = base - 2 * radius * up
+        _ground(canvas, base, (along, up), 0.85 * size, size, whole)
+        _discs(canvas, place[None], np.full(1, radius), _WHITE, OUTLINE, _PIN * whole, 1.0)
 
 
 def _ground(
@@ -295,27 +305,6 @@ def _ground(
     top = place + start[:, None] * along
     below = top - depth * along - depth * up
     canvas.lines(np.stack((top, below), axis=1), _INK, 0.7, nearer=_SUPPORT * whole)
-
-
-def _triangle(
-    canvas: Canvas,
-    place: FloatArray,
-    frame: tuple[FloatArray, FloatArray],
-    size: float,
-    whole: float,
-    rolling: bool,
-) -> None:
-    along, up = frame
-    base = place - size * up
-    corners = np.stack((place, base - 0.6 * size * along, base + 0.6 * size * along))
-    canvas.polygons(corners[None], _WHITE, edge=_INK, width=1.1, nearer=_SUPPORT * whole)
-    if rolling:
-        radius = 0.17 * size
-        middle = base - radius * up + np.array([[-0.33], [0.33]]) * size * along
-        _discs(canvas, middle, np.full(2, radius), _WHITE, OUTLINE, _SUPPORT * whole, 1.0)
-        base = base - 2 * radius * up
-    _ground(canvas, base, frame, 0.85 * size, size, whole)
-    _discs(canvas, place[None], np.full(1, 0.17 * size), _WHITE, OUTLINE, _PIN * whole, 1.0)
 
 
 def _discs(
