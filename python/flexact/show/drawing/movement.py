@@ -15,7 +15,6 @@ from ...analysis.result import Motion
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Class, NodeKind, Role, role_table
 from ...model.configuration import Configuration
-from ...model.data import ModelData
 from ...model.parts.condensing import Condensed
 from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
@@ -60,14 +59,13 @@ def _carried(chord: FloatArray, now: FloatArray, turns: FloatArray) -> FloatArra
     mean = turns[0] @ matrix_of(half)
     along = mean @ chord / np.linalg.norm(chord)
     length = float(np.linalg.norm(now))
-    if not length > 0.0:
-        return np.asarray(mean)
-    to = now / length
-    axis = np.cross(along, to)
-    sine, cosine = float(np.linalg.norm(axis)), float(along @ to)
-    if sine <= 0.0:
-        return np.asarray(mean)
-    return np.asarray(matrix_of(axis / sine * np.arctan2(sine, cosine)) @ mean)
+    if length > 0.0:
+        axis = np.cross(along, now / length)
+        sine = float(np.linalg.norm(axis))
+        if sine > 0.0:
+            turn = np.arctan2(sine, float(along @ (now / length)))
+            mean = matrix_of(axis / sine * turn) @ mean
+    return np.asarray(mean)
 
 
 #: More coordinates than these are not followed: it would take seconds.
@@ -200,11 +198,12 @@ def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
     motions = getattr(outcome, "motions", ())
     if not 0 < len(motions) <= _MOST:
         return motion
-    data, length = motion.analysed.data, outcome.characteristic_length
-    given = motion.analysed
-    free = np.array([_both(each.analysed) for each in motions])
-    start = _both(given)
-    weight = np.where(_placed(data)[:, None], 1.0, length)
+    data = motion.analysed.data
+    placed = (data.arrays.node_kind <= NodeKind.POSITION)[:, None]
+    *free_motions, start = (
+        each.analysed.displacement + each.analysed.rotation for each in (*motions, motion)
+    )
+    free, weight = np.array(free_motions), np.where(placed, 1.0, outcome.characteristic_length)
     # Orthonormal in lengths, so that what stores nothing is told apart from what does.
     basis = np.linalg.qr((free * weight).reshape(len(free), -1).T)[0].T.reshape(free.shape) / weight
     rates = np.array([_rates(outcome, each) for each in (*basis, start)])
@@ -218,17 +217,8 @@ def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
     if np.linalg.norm(shares) <= _NOTHING * np.linalg.norm(start * weight):
         return motion
     made = start + np.einsum("k,knx->nx", shares, basis)
-    placed = _placed(data)[:, None]
     velocities = Velocities(data, np.where(placed, made, 0.0), np.where(placed, 0.0, made))
     return Natural(**{**vars(replace(motion)), "analysed": velocities})
-
-
-def _placed(data: ModelData) -> np.ndarray:
-    return np.asarray(data.arrays.node_kind <= NodeKind.POSITION)
-
-
-def _both(velocities: Velocities) -> FloatArray:
-    return velocities.displacement + velocities.rotation
 
 
 def _rates(outcome: Decomposition, velocity: FloatArray) -> FloatArray:
