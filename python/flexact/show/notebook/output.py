@@ -43,9 +43,16 @@ from ..writers import as_bytes
 
 #: What starts a page from disk is left out.
 _START = "start.js"
+#: What of the page's styles becomes what, of a tree of its own.
+_RULES = (
+    (re.escape(':root[data-theme="dark"]'), ':host([data-theme="dark"])'),
+    (re.escape(':root:not([data-theme="light"])'), ":host(:not([data-theme]))"),
+    (r":root\b", ":host"),
+    (r"(?m)^(\s*)body \{", r"\1.page {"),
+    (r"@media \((m(?:in|ax)-width: [^)]*)\)", r"@container (\1)"),
+    (r"(?<![\w.])(\d*\.?\d+)vw\b", r"\1cqw"),
+)
 _REM = re.compile(r"(?<![\w.])(\d*\.?\d+)rem\b")
-_VW = re.compile(r"(?<![\w.])(\d*\.?\d+)vw\b")
-_WIDTHS = re.compile(r"@media \((m(?:in|ax)-width: [^)]*)\)")
 
 
 @cache
@@ -92,13 +99,9 @@ def style() -> str:
     a notebook has; light and dark stand on the host.
     """
     made = asset("style.css")
-    made = made.replace(':root[data-theme="dark"]', ':host([data-theme="dark"])')
-    made = made.replace(':root:not([data-theme="light"])', ":host(:not([data-theme]))")
-    made = re.sub(r":root\b", ":host", made)
-    made = re.sub(r"(?m)^(\s*)body \{", r"\1.page {", made)
     made += resources.files(__package__).joinpath("notebook.css").read_text("utf-8")
-    made = _WIDTHS.sub(r"@container (\1)", made)
-    made = _VW.sub(r"\1cqw", made)
+    for pattern, instead in _RULES:
+        made = re.sub(pattern, instead, made)
     return _REM.sub(lambda found: f"{16 * float(found[1]):g}px", made)
 
 
