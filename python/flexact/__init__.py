@@ -49,8 +49,7 @@ if _typing.TYPE_CHECKING:
     from .model.model import Model
     from .model.reading import read, read_text
     from .model.sections import Material
-    from .show.notebook.output import viewer
-    from .show.notebook.rows import Results
+    from .show.notebook.output import Results, viewer
     from .sweeps.crossings import Crossing, Crossings
     from .sweeps.parameters import grid
     from .sweeps.sweep import sweep
@@ -133,8 +132,10 @@ _HOMES = {
         "read_text",
     ),
     "model.sections": ("Material",),
-    "show.notebook.output": ("viewer",),
-    "show.notebook.rows": ("Results",),
+    "show.notebook.output": (
+        "Results",
+        "viewer",
+    ),
     "sweeps.crossings": (
         "Crossing",
         "Crossings",

@@ -190,7 +190,7 @@ class Analysis(Result):
 
     def in_notebook(self, what: object) -> str | None:
         """HTML of a motion, a self-stress or a row of them, with pictures."""
-        made: str | None = load("flexact.show.notebook.rows").html_of(self, what)
+        made: str | None = load("flexact.show.notebook.output").html_of_part(self, what)
         return made
 
 

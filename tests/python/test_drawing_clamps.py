@@ -18,11 +18,10 @@ def drawn(model: flexact.Model) -> Drawing:
 
 def corners(drawing: Drawing, row: int) -> np.ndarray:
     """(8, 3) of a block."""
-    supports = drawing.supports
-    middle = drawing.reference.position[supports.node[row]] + supports.offset[row]
-    sizes = np.array((supports.depth[row], *supports.extent[row]))
+    support = drawing.supports[row]
+    sizes = np.array((support.depth, *support.extent))
     unit = np.array([(i, j, k) for i in (-1, 0) for j in (-1, 1) for k in (-1, 1)])
-    return np.asarray(middle + (unit * sizes) @ supports.frame[row].T)
+    return np.asarray(support.middle + (unit * sizes) @ support.frame.T)
 
 
 def fan(*feet: tuple[float, float, float]) -> flexact.Model:
@@ -40,13 +39,14 @@ def test_members_at_one_point_have_one_block() -> None:
     """Three wires end at points of their own in one place: one block that knows all of them."""
     model = fan((0, 0, 0), (0, 0, 0), (0, 0, 0))
     drawing = drawn(model)
-    assert drawing.supports.kind.tolist() == [Support.CLAMP]
-    assert len(drawing.supports.held[0]) in (1, 3)
+    (support,) = drawing.supports
+    assert support.kind == Support.CLAMP
+    assert len(support.held) in (1, 3)
     data = static_data(Parts(drawing.data), frames_of(drawing)[0])
     (names,) = data["supports"]["names"]
     assert {"wire 0", "wire 1", "wire 2"} <= set(names)
     # The block is below what it holds: the wires stand on the same side of its face.
-    away = np.sum(drawing.members.frame[:3, :, 0] * drawing.supports.direction[0], axis=1)
+    away = np.sum(drawing.members.frame[:3, :, 0] * support.frame[:, 0], axis=1)
     assert np.all(np.abs(away) > 0.2)
 
 
@@ -55,12 +55,11 @@ def test_blocks_that_would_overlap_are_one(gap: float, blocks: int) -> None:
     drawing = drawn(fan((0, 0, 0), (0, gap, 0)))
     supports = drawing.supports
     assert len(supports) == blocks
-    assert sum(map(len, supports.held)) == 2
-    for row, held in enumerate(supports.held):
-        inside = (drawing.reference.position[list(held)] - corners(drawing, row).mean(axis=0)) @ (
-            supports.frame[row]
-        )
-        sizes = np.array((supports.depth[row] / 2, *supports.extent[row]))
+    assert sum(len(each.held) for each in supports) == 2
+    for row, each in enumerate(supports):
+        middle = corners(drawing, row).mean(axis=0)
+        inside = (drawing.reference.position[list(each.held)] - middle) @ each.frame
+        sizes = np.array((each.depth / 2, *each.extent))
         assert np.all(np.abs(inside) <= sizes + 1e-12)
 
 
@@ -73,14 +72,14 @@ def test_a_block_covers_the_widths_of_crossing_sheets() -> None:
     model.fix(foot)
     model.body([(0, 0, 0.1), (0.0, 0.1, 0.1)], name="stage")
     drawing = drawn(model)
-    (row,) = np.flatnonzero(drawing.supports.kind == Support.CLAMP)
-    members, frame = drawing.members, drawing.supports.frame[row]
+    (row,) = (k for k, each in enumerate(drawing.supports) if each.kind == Support.CLAMP)
+    members, frame = drawing.members, drawing.supports[row].frame
     centre = corners(drawing, row).mean(axis=0)
     for k in range(2):
         wide = int(np.argmax(members.section[k]))
         for side in (-0.5, 0.5):
             edge = side * members.section[k, wide] * members.frame[k, :, 1 + wide]
-            assert np.all(np.abs((edge - centre) @ frame)[1:] <= drawing.supports.extent[row])
+            assert np.all(np.abs((edge - centre) @ frame)[1:] <= drawing.supports[row].extent)
 
 
 def test_a_clamp_of_one_member_lies_along_its_section() -> None:
@@ -88,7 +87,9 @@ def test_a_clamp_of_one_member_lies_along_its_section() -> None:
     model.sheet((0, 0, 0), (0.1, 0.03, 0), width=(0, 0, 1))
     model.fix((0, 0, 0))
     drawing = drawn(model)
-    own, frame = drawing.members.frame[0], drawing.supports.frame[0]
+    own, (support,) = drawing.members.frame[0], drawing.supports
+    frame = support.frame
     np.testing.assert_allclose(np.abs(np.sum(own * frame, axis=0)), 1.0, atol=1e-12)
-    assert np.all(drawing.supports.extent[0] > drawing.members.section[0] / 2)
-    np.testing.assert_allclose(drawing.supports.offset, 0.0, atol=1e-12)
+    assert np.all(support.extent > drawing.members.section[0] / 2)
+    place = drawing.reference.position[support.held[0]]
+    np.testing.assert_allclose(support.middle, place, atol=1e-12)

@@ -18,7 +18,7 @@ from flexact.model.data import ModelData
 from flexact.show.drawing import drawing_of, resultants
 from flexact.show.mesh import to_meshio
 from flexact.show.page.drawing import frames_of
-from flexact.show.page.modes import stresses
+from flexact.show.page.viewer import stresses
 from flexact.show.picture import picture_bytes
 
 #: Deformations of an element whose ends have changed places.

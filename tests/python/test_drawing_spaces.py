@@ -13,10 +13,9 @@ from reference_decks import ROOT
 import flexact
 from flexact.advice.spaces.screws import Family, FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
-from flexact.show.drawing import SpaceShape, dashes, shape_of_space
-from flexact.show.drawing.spaces import MADE_BY
 from flexact.show.page import page
 from flexact.show.picture import SubjectError, draw, has_packages, picture_bytes
+from flexact.show.spaces import MADE_BY, SpaceShape, dashes, shape_of_space
 
 DECKS = ROOT / "input_decks"
 #: With translations and parallel lines, lines that meet one, a screw, one direction.

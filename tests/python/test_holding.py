@@ -11,9 +11,9 @@ import flexact
 from flexact.advice.constraint_quality import Hold, holds_of
 from flexact.advice.spaces.screws import FamilyKind
 from flexact.show.drawing import drawing_of
-from flexact.show.drawing.spaces import shape_of_hold
 from flexact.show.page.drawing import frames_of
 from flexact.show.page.viewer import holds_data
+from flexact.show.spaces import shape_of_hold
 
 
 def holds_in(name: str) -> dict[str, Hold]:

@@ -225,10 +225,9 @@ def test_names_stay_text() -> None:
 
 
 def test_without_packages_for_pictures_the_words_are_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    from flexact.show.notebook import rows as models
     from flexact.show.picture import make as stills
 
-    for module in (stills, models):
+    for module in (stills, given):
         monkeypatch.setattr(module, "has_packages", lambda: False)
     trusses = deck("paper/twelve_trusses")
     for what in (trusses, trusses.motions, flexact.Results([trusses]), trusses.model):

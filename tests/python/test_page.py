@@ -21,7 +21,7 @@ from reference_decks import ROOT
 import flexact
 from flexact.advice.describe import verdict_in_words
 from flexact.show.page import Entry, broken_page, content, index_page, page
-from flexact.show.page import modes as modes_data
+from flexact.show.page import viewer as viewer_data
 from flexact.show.page.assets import SCRIPTS, asset, json_for_script, script
 
 PAGE = ROOT / "python" / "flexact" / "show" / "page"
@@ -330,7 +330,7 @@ def test_a_failed_analysis_has_a_page_that_says_why() -> None:
 
 
 def test_what_does_not_fit_is_left_out_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("drawing", "modes", "viewer"):
+    for module in ("drawing", "viewer"):
         monkeypatch.setattr(import_module(f"flexact.show.page.{module}"), "MOST_MEMBERS", 7)
     analysis = flexact.analyse(twelve_trusses())
     text = page(analysis)
@@ -358,7 +358,7 @@ def test_many_motions_are_cut_and_told() -> None:
 
 
 def test_poses_that_take_much_room_are_cut_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(modes_data, "MOST_POSES", 2500)
+    monkeypatch.setattr(viewer_data, "MOST_POSES", 2500)
     analysis = flexact.analyse(folded_sheet(clamped=False))
     text = page(analysis)
     shown = len(data_of(text)["movements"])

@@ -68,7 +68,10 @@ def test_the_page_draws_the_shapes_of_python(name: str, browser: Browser, tmp_pa
         browser.run("flexact.showMovement(arguments[0])", number)
         phases = browser.run("return flexact.movement.phases")
         assert phases == len(movement.poses)
-        for phase, most in (*((p, 1e-5) for p in movement.phases[[0, 5, 8, 16]]), (0.93, 2e-3)):
+        for phase, most in (
+            *((p, 1e-5) for p in np.linspace(-1.0, 1.0, 17)[[0, 5, 8, 16]]),
+            (0.93, 2e-3),
+        ):
             found = browser.run(
                 "flexact.movePhase(arguments[0]); return Array.from(flexact.members.shape.corner)",
                 float(phase),

@@ -64,8 +64,8 @@ DYNX 3 2
 """
 #: What stumbles, and which outputs say so.
 PARTS = {
-    "show.page.modes.move": {"page", "watch"},
-    "show.page.modes.resultants": {"page", "watch"},
+    "show.page.viewer.move": {"page", "watch"},
+    "show.page.viewer.resultants": {"page", "watch"},
     "show.page.viewer.holds_data": {"page", "watch"},
     "show.page.content.viewer_data": {"page", "watch"},
     "show.page.content.advised": {"page", "watch"},
@@ -73,9 +73,9 @@ PARTS = {
     "show.page.content.stresses_part": {"page", "watch"},
     "show.picture.make.picture_bytes": {"page"},
     "show.picture.subject.move": set(),
-    "show.picture.subject.stress_of": set(),
+    "show.picture.subject.resultants": set(),
     "show.drawing.selection.natural_shape": set(),
-    "show.notebook.rows.motion_in_parts": {"rows"},
+    "show.notebook.output.motion_in_parts": {"rows"},
     "show.notebook.output.describe": set(),
     "show.mesh.content.select_motion": set(),
     "apps.watch.messages.motion_in_parts": set(),

@@ -80,7 +80,7 @@ def test_clamped_ends_of_a_folded_sheet_are_opposite() -> None:
     pixels = Pixels(draw(analysis, stress=1, view=VIEW))
     drawing = drawing_of(analysis.given)
     hues = []
-    clamped = set(drawing.supports.node.tolist())
+    clamped = {each.held[0] for each in drawing.supports}
     for row in range(2):
         p, _, q, _ = drawing.members.nodes[row]
         near, far = (p, q) if p in clamped else (q, p)
@@ -178,11 +178,11 @@ def test_a_diagram_is_seen_beside_its_member(view: str, quantity: str) -> None:
         values = Resultants(
             flexible, np.zeros((0, 4)), drawing.seen, drawing.seen, analysis.characteristic_length
         )
-        made = diagrams_of(drawing, values, quantity, eye.axes[2])
+        rows, value, bases, tops, _ = diagrams_of(drawing, values, quantity, eye.axes[2])
         # A moment that changes its sign is on both sides.
-        assert sorted(made.member) == sorted(2 * np.flatnonzero(drawing.seen).tolist())
+        assert sorted(rows) == sorted(2 * np.flatnonzero(drawing.seen).tolist())
         members, height = drawing.members, 0.1 * drawing.size
-        for row, member in enumerate(made.member.tolist()):
+        for row, member in enumerate(rows.tolist()):
             p = drawing.reference.position[members.nodes[member, 0]]
             frame = members.frame[member]
             corner = np.array(list(product((-0.5, 0.5), repeat=2))) * members.section[member]
@@ -191,15 +191,15 @@ def test_a_diagram_is_seen_beside_its_member(view: str, quantity: str) -> None:
                 continue  # a point
             across = np.array((-flat[1], flat[0])) / np.hypot(*flat)
             outline = eye.project(p + corner @ frame[:, 1:].T)[:, :2] @ across
-            base, top = (eye.project(each[row])[:, :2] @ across for each in (made.base, made.top))
+            base, top = (eye.project(each[row])[:, :2] @ across for each in (bases, tops))
             side = np.sign((top - base).sum())
             assert np.all(side * base > (side * outline).max())
-            seen = np.abs(top - base).max() / (height * np.abs(made.value[row]).max())
+            seen = np.abs(top - base).max() / (height * np.abs(value[row]).max())
             assert seen > 0.4
             # On the stretched side, wherever that is seen.
             stretched = frame[:, 1:] @ members.across[member, BENDING[quantity]]
-            way = np.sign(made.value[row][np.abs(made.value[row]).argmax()]) * stretched
-            assert (made.top - made.base)[row].sum(axis=0) @ way > -1e-9
+            way = np.sign(value[row][np.abs(value[row]).argmax()]) * stretched
+            assert (tops - bases)[row].sum(axis=0) @ way > -1e-9
 
 
 # Motions

@@ -13,7 +13,7 @@ RED, GREEN, BLUE = np.eye(3)
 def facets(corners: list[list[list[float]]], colours: np.ndarray, opacity: float = 1.0) -> Facets:
     """Polygons whose corners are given in pixels."""
     colour = np.column_stack((colours, np.full(len(colours), opacity)))
-    return Facets(SAMPLES * np.array(corners, float), colour)
+    return SAMPLES * np.array(corners, float), colour
 
 
 def square(left: float, right: float, near_left: float, near_right: float) -> list[list[float]]:

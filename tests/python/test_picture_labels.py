@@ -51,3 +51,17 @@ def test_words_are_on_white(script: Path) -> None:
             width = min(a[2], b[2]) - max(a[0], b[0])
             height = min(a[3], b[3]) - max(a[1], b[1])
             assert width < 2 or height < 4, (one, other, chosen)
+
+
+def test_a_panel_without_a_free_corner_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The triad stands below the drawing then, which becomes smaller and is not doubled."""
+    model = flexact.Model(name="wire")
+    model.wire((0, 0, 0), (0.1, 0.02, 0.05))
+    model.fix((0, 0, 0))
+    analysis = flexact.analyse(model)
+    usual = draw(analysis).axes[0]
+    monkeypatch.setattr("flexact.show.picture.figure._place_for_triad", lambda *_: None)
+    lifted = draw(analysis).axes[0]
+    assert lifted.get_position().y0 > usual.get_position().y0
+    kinds = [type(each).__name__ for each in lifted.get_children()]
+    assert kinds.count("CanvasArtist") == 1

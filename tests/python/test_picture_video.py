@@ -19,7 +19,7 @@ from small_decks import COLLINEAR, files_in
 import flexact
 from flexact.apps.cli.main import main
 from flexact.show.picture import VideoError, picture_bytes
-from flexact.show.picture import animation as module
+from flexact.show.picture import files as module
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")

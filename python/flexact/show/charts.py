@@ -56,9 +56,7 @@ def unit_for(values: ArrayLike, unit: str) -> Unit:
     known = _WRITTEN.get(unit, ((1.0, unit),))
     sizes = np.abs(np.asarray(values, float))
     largest = float(sizes[np.isfinite(sizes)].max(initial=0.0))
-    if unit == "Hz" and 1.0 <= largest < _HERTZ:
-        return Unit(1.0, unit)
-    if not largest > 0.0:
+    if not largest > 0.0 or (unit == "Hz" and 1.0 <= largest < _HERTZ):
         return Unit(1.0, unit)
     fitting = [each for each in known if each[0] <= largest * (1.0 + 1e-9)]
     return Unit(*(fitting[-1] if fitting else known[0]))
@@ -66,8 +64,7 @@ def unit_for(values: ArrayLike, unit: str) -> Unit:
 
 def told(value: float, unit: str, digits: int = 3) -> str:
     """A value in an SI unit as words with the prefix that fits, such as "0.13 mm"."""
-    found = unit_for([value], unit)
-    return found.told(value, digits)
+    return unit_for([value], unit).told(value, digits)
 
 
 def number(value: float, digits: int = 3) -> str:
@@ -156,9 +153,7 @@ def linear_scale(values: ArrayLike, unit: str, *, from_zero: bool = False) -> Sc
         low, high = (low - 0.5 * abs(low), high + 0.5 * abs(high)) if high else (-1.0, 1.0)
         low = 0.0 if from_zero else low
     room = _ROOM * (high - low)
-    low, high = (low if from_zero else low - room), high + room
-    written = unit_for([low, high], unit)
-    return Scale(low, high, written, False, _round_ticks(low, high, written), unit)
+    return exact_scale(low if from_zero else low - room, high + room, unit)
 
 
 def exact_scale(low: float, high: float, unit: str) -> Scale:

@@ -8,6 +8,7 @@ import re
 import sys
 import tempfile
 import threading
+import traceback
 import webbrowser
 from collections.abc import Callable
 from html import escape
@@ -71,15 +72,9 @@ def is_taken(shown: Any) -> bool:
 
 def _line_of_script() -> int:
     """The line of the outermost file that is being run, which is where a person looks."""
-    frame, line = sys._getframe(), 0
     main = getattr(sys.modules.get("__main__"), "__file__", None)
-    while frame is not None:
-        if frame.f_code.co_filename == main:
-            line = frame.f_lineno
-        if frame.f_back is None:
-            break
-        frame = frame.f_back
-    return line
+    lines = [line for frame, line in traceback.walk_stack(None) if frame.f_code.co_filename == main]
+    return lines[-1] if lines else 0
 
 
 def is_displayed(shown: Any) -> bool:

@@ -11,7 +11,7 @@ import contextlib
 import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..util.errors import BatchError
 from ..util.outputs import OutputError, write_together
@@ -39,18 +39,9 @@ class ChoiceError(BatchError):
     """A choice that such a file does not know."""
 
 
-class Writer(NamedTuple):
-    """What writes the files of a suffix.
-
-    Attributes:
-        make: Their contents, of what is saved, the path, and what is chosen to be shown.
-        shows: What can be chosen.
-        require: Raises where a package for the suffix is missing.
-    """
-
-    make: Make
-    shows: tuple[str, ...]
-    require: Callable[[str], object] | None
+#: What makes the contents of files of a suffix (of what is saved, the path, and what is chosen to
+#: be shown), what can be chosen, and what raises where a package for the suffix is missing.
+Writer = tuple[Make, tuple[str, ...], Callable[[str], object] | None]
 
 
 class Writers:
@@ -76,7 +67,7 @@ class Writers:
         """Register what makes the contents of files with some suffixes; see `Writer`."""
 
         def registered(make: Content) -> Content:
-            self._writers.update(dict.fromkeys(suffixes, Writer(make, shows, require)))
+            self._writers.update(dict.fromkeys(suffixes, (make, shows, require)))
             return make
 
         return registered
@@ -91,8 +82,8 @@ class Writers:
         if suffix not in self._writers:
             raise self.unknown(path, self.suffixes)
         writer = self._writers[suffix]
-        if writer.require is not None:
-            writer.require(suffix)
+        if writer[2] is not None:
+            writer[2](suffix)
         return writer
 
     def contents(self, thing: Any, path: Path, **chosen: Any) -> Contents:
@@ -101,10 +92,10 @@ class Writers:
         Raises:
             FlexactError: As of `require`, or something is chosen that the file cannot show.
         """
-        writer = self.require(path)
-        if surplus := [name for name in chosen if name not in writer.shows]:
+        make, shows, _ = self.require(path)
+        if surplus := [name for name in chosen if name not in shows]:
             raise ChoiceError(f"{path.name} shows no {' or '.join(surplus)} of its own choice")
-        return writer.make(thing, path, **chosen)
+        return make(thing, path, **chosen)
 
     def save(self, thing: Any, deck: ModelData, path: Path, **chosen: Any) -> None:
         """Write it to a path, whole or not at all, but never over its deck.

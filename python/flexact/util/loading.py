@@ -30,7 +30,7 @@ def load(name: str, *, for_good: bool = False) -> ModuleType:
 #: What a model offers and rooms above it do: the one place where names point up.
 FEATURES = {
     "show": ("flexact.api", "show_model"),
-    "html": ("flexact.show.notebook.rows", "html_of_model"),
+    "html": ("flexact.show.notebook.output", "html_of_model"),
 }
 
 

@@ -19,11 +19,9 @@ from .diagrams import (
     sides_in,
 )
 from .drawing import Drawing, drawing_of, joints_of
-from .members import Hinges, Members
-from .movement import Movement, move, reach_of, swing
+from .members import Elements, Members
+from .movement import Movement, Moving, move, reach_of, swing
 from .pose import (
-    Field,
-    Moving,
     Pose,
     Strip,
     axes_of,
@@ -33,31 +31,26 @@ from .pose import (
     solid,
     stations,
 )
-from .spaces import SpaceShape, dashes, shape_of_space
-from .supports import Arrows, Support, Supports
+from .supports import Support, Symbol
 
 __all__ = [
     "BENDING",
     "QUANTITIES",
     "UNITS",
-    "Arrows",
     "Drawing",
-    "Field",
+    "Elements",
     "Form",
-    "Hinges",
     "Members",
     "Movement",
     "Moving",
     "Pose",
     "Resultants",
     "Solid",
-    "SpaceShape",
     "Strip",
     "Support",
-    "Supports",
+    "Symbol",
     "axes_of",
     "cylinders",
-    "dashes",
     "drawing_of",
     "field_along",
     "joints_of",
@@ -68,7 +61,6 @@ __all__ = [
     "reach_of",
     "reference_pose",
     "resultants",
-    "shape_of_space",
     "sides_in",
     "solid",
     "stations",

@@ -79,7 +79,8 @@ def hull_round(points: FloatArray) -> Hull | None:
     apart = points - points.mean(axis=0) if len(points) else points
     if np.linalg.matrix_rank(apart, tol=_IN_PLANE * extent) != 3:
         return None
-    moved = _moved(points, extent)
+    chance = np.random.default_rng(7).uniform(-1.0, 1.0, points.shape)
+    moved = points + _MOVED * extent * chance
     triangles = _triangles(moved)
     owner = {way: k for k, face in enumerate(triangles.tolist()) for way in _around(face)}
     a, b, c = np.moveaxis(moved[triangles], 1, 0)
@@ -110,11 +111,6 @@ def hull_round(points: FloatArray) -> Hull | None:
 
 def _around(face: list[int]) -> list[tuple[int, int]]:
     return [(face[k], face[(k + 1) % 3]) for k in range(3)]
-
-
-def _moved(points: FloatArray, extent: float) -> FloatArray:
-    chance = np.random.default_rng(7)
-    return points + _MOVED * extent * chance.uniform(-1.0, 1.0, points.shape)
 
 
 def _triangles(points: FloatArray) -> np.ndarray:
@@ -169,15 +165,6 @@ _INNER, _DEEP = np.linspace(0.25, 0.75, 9), 0.3
 _BOX = np.array(list(product((-0.5, 0.5), repeat=3)))
 
 
-class Placed(NamedTuple):
-    """A body in a pose."""
-
-    corners: FloatArray
-    """(v, 3) [m]."""
-    normal: FloatArray
-    """(faces, 3) outward unit vectors; none in the plane."""
-
-
 @dataclass(frozen=True, eq=False)
 class Solid(Frozen):
     """A rigid body in the reference configuration.
@@ -185,7 +172,7 @@ class Solid(Frozen):
     Attributes:
         rows: Its members in the drawing; it moves with the first.
         corners: (v, 3) [m].
-        hull: Its surface, of `corners`; None in the plane.
+        hull: Its surface, of `corners`; in the plane with the normals of its sides.
         outline: (c,) its corners in the plane, anticlockwise; empty in space.
         colour: (3,) red, green, blue, 0 to 1.
         edge_colour: (3,) likewise; NaN where none is given.
@@ -194,39 +181,24 @@ class Solid(Frozen):
 
     rows: np.ndarray
     corners: FloatArray
-    hull: Hull | None
+    hull: Hull
     outline: np.ndarray
     colour: FloatArray
     edge_colour: FloatArray
     opacity: float
 
-    def placed(self, members: Members, reference: Pose, pose: Pose) -> Placed:
-        """Where it is in a pose."""
+    def placed(
+        self, members: Members, reference: Pose, pose: Pose
+    ) -> tuple[FloatArray, FloatArray]:
+        """(v, 3) its corners in a pose [m], and the outward (faces, 3) unit vectors in space."""
         p, op = members.nodes[self.rows[0], :2]
         turn = pose.rotation[op].T
         corners = pose.position[p] + (self.corners - reference.position[p]) @ turn
-        normal = np.zeros((0, 3)) if self.hull is None else self.hull.normal @ turn
-        return Placed(corners, normal)
-
-    @property
-    def triangles(self) -> np.ndarray:
-        """(t, 3) indices of corners; in the plane parts of the polygon."""
-        if self.hull is not None:
-            return self.hull.triangles
-        rest = self.outline[1:]
-        first = np.repeat(self.outline[:1], len(rest) - 1)
-        return np.stack((first, rest[:-1], rest[1:]), axis=1)
-
-    @property
-    def edges(self) -> np.ndarray:
-        """(e, 2) indices of corners."""
-        if self.hull is not None:
-            return self.hull.edges
-        return np.stack((self.outline, np.roll(self.outline, -1)), axis=1)
+        return corners, self.hull.normal @ turn
 
     def quads(self, corners: FloatArray, chosen: np.ndarray | slice = slice(None)) -> FloatArray:
         """(q, 4, 3) its surface, or some of its triangles, three a triangle; corners as placed."""
-        corner = corners[self.triangles[chosen]]
+        corner = corners[self.hull.triangles[chosen]]
         middle = corner.mean(axis=1)
         side = (corner + np.roll(corner, -1, axis=1)) / 2
         parts = [np.stack((corner[:, k], side[:, k], middle, side[:, k - 1]), 1) for k in range(3)]
@@ -273,25 +245,30 @@ def _solid(
     thick = min(_THICK * size, _LIMIT * extent)
     box = thick * _BOX @ _fitting(points, frames, thick).T
     every = (points[:, None] + box).reshape(-1, 3)
-    hull, outline = None, np.zeros(0, np.int64)
+    outline = np.zeros(0, np.int64)
     if data.planar:
         every[:, 2] = 0.0
         outline = polygon_round(every[:, :2])
-        if len(outline) < 3:
-            return None
-    else:
-        hull = hull_round(every)
-        if hull is None:
-            return None
-    return Solid(
-        np.array(rows),
-        every,
-        hull,
-        outline,
-        members.colour[rows[0]],
-        members.edge_colour[rows[0]],
-        float(members.opacity[rows[0]]),
-    )
+    hull = _polygon_hull(every, outline) if data.planar else hull_round(every)
+    if hull is None:
+        return None
+    colours = members.colour[rows[0]], members.edge_colour[rows[0]]
+    return Solid(np.array(rows), every, hull, outline, *colours, float(members.opacity[rows[0]]))
+
+
+def _polygon_hull(points: FloatArray, outline: np.ndarray) -> Hull | None:
+    """A polygon in the plane of points (n, 3); None where they lie in a line."""
+    if len(outline) < 3:
+        return None
+    following = np.roll(outline, -1)
+    first = np.repeat(outline[:1], len(outline) - 2)
+    triangles = np.stack((first, outline[1:-1], outline[2:]), axis=1)
+    way = points[following] - points[outline]
+    normal = np.stack((way[:, 1], -way[:, 0], np.zeros(len(way))), axis=1)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    sides = np.arange(len(outline))
+    edges = np.stack((outline, following), axis=1)
+    return Hull(triangles, np.zeros(len(first), int), normal, edges, np.stack((sides, sides), 1))
 
 
 def _sheets_at(
@@ -327,13 +304,7 @@ def _swallows(members: Members, solid: Solid, position: FloatArray, size: float)
     others[solid.rows] = False
     ends = position[members.nodes[others][:, [0, 2]]]
     places = ends[:, :1] + _INNER[:, None] * (ends[:, 1:] - ends[:, :1])
-    if solid.hull is None:
-        corner = solid.corners[solid.outline]
-        way = np.roll(corner, -1, axis=0) - corner
-        normal = np.stack((way[:, 1], -way[:, 0], np.zeros(len(way))), axis=1)
-        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    else:
-        normal = solid.hull.normal
+    normal = solid.hull.normal
     top = (solid.corners @ normal.T).max(axis=0)
     depth = (top - places @ normal.T).min(axis=-1)
     return bool(np.any(depth > _DEEP * _THICK * size))

@@ -165,39 +165,27 @@ HEIGHT, GAP = 0.1, 0.012
 SHOWN, _END_ON = 0.45, 0.05
 #: Values below this part of the largest are not drawn.
 _LEAST = 1.0e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Diagrams(Frozen):
-    """Diagrams from the same end of each member, whichever is called p.
-
-    Attributes:
-        member: (k,) which of the drawing's members; one whose moment changes its sign is there
-            twice.
-        value: (k, s) moments at stations [N m].
-        base: (k, s, 3) where they are zero [m].
-        top: (k, s, 3) where they are as they are [m].
-        ends: (k, 2) which ends are those of a sheet or a wire, and not within it.
-    """
-
-    member: np.ndarray
-    value: FloatArray
-    base: FloatArray
-    top: FloatArray
-    ends: np.ndarray
+#: Pieces of a diagram, and of a member for its colours.
+PIECES = 36
 
 
 def diagrams_of(
-    drawing: Drawing, values: Resultants, quantity: str, towards: FloatArray, pieces: int = 36
-) -> Diagrams:
+    drawing: Drawing, values: Resultants, quantity: str, towards: FloatArray
+) -> tuple[np.ndarray, FloatArray, FloatArray, FloatArray, np.ndarray]:
     """The diagrams of a bending moment in the reference configuration.
+
+    From the same end of each member, whichever is called p.
 
     Args:
         drawing: The drawing.
         values: Of a self-stress along its members.
         quantity: One of `BENDING`; of another there are none.
         towards: (3,) unit vector to the eye.
-        pieces: Of each diagram.
+
+    Returns:
+        (k,) which of the drawing's members, one whose moment changes its sign twice; (k, s)
+        moments at stations [N m]; (k, s, 3) where they are zero, and (k, s, 3) where they are
+        as they are [m]; (k, 2) which ends are those of a sheet or a wire, and not within it.
     """
     largest = values.largest(quantity)
     rows, sign = np.zeros(0, np.int64), np.zeros(0)
@@ -213,14 +201,14 @@ def diagrams_of(
     for each in (ends, value, last):
         each[turned] = each[turned, ::-1]
     share, cut = _interval(sign[:, None] * value)
-    at = share[:, :1] + (share[:, 1:] - share[:, :1]) * np.linspace(0.0, 1.0, pieces + 1)
+    at = share[:, :1] + (share[:, 1:] - share[:, :1]) * np.linspace(0.0, 1.0, PIECES + 1)
     along = (1 - at) * value[:, :1] + at * value[:, 1:]
     centre = (1 - at)[..., None] * ends[:, :1] + at[..., None] * ends[:, 1:]
     foot, way = stance(members, rows, sign, BENDING.get(quantity, 0), towards)
     base = centre + (foot + GAP * drawing.size * way)[:, None]
     height = HEIGHT * drawing.size / (largest or 1.0)
     top = base + (height * np.abs(along))[..., None] * way[:, None]
-    return Diagrams(rows, along, base, top, last & ~cut)
+    return rows, along, base, top, last & ~cut
 
 
 def stance(
@@ -252,21 +240,15 @@ def stance(
     depth = stretched - seen[:, None] * sideways
     away = np.where(np.abs(seen) < SHOWN, SHOWN, np.abs(seen))
     way = away[:, None] * outward + np.sqrt(1.0 - np.minimum(away, 1.0) ** 2)[:, None] * unit(depth)
-    return _outermost(members, rows, outward, stretched), unit(way)
-
-
-def _outermost(
-    members: Members, rows: np.ndarray, outward: FloatArray, stretched: FloatArray
-) -> FloatArray:
-    """(k, 3) from axes to the points of sections that are farthest along a direction [m]."""
-    across, half = members.frame[rows][..., 1:], members.section[rows] / 2
+    # To the points of sections that are farthest along the direction.
+    across, half = frame[..., 1:], members.section[rows] / 2
     part = np.einsum("kx,kxd->kd", outward, across)
     tie = np.einsum("kx,kxd->kd", stretched, across)
     corner = np.where(np.abs(part) > 1.0e-9, np.sign(part), np.sign(np.round(tie, 9))) * half
     size = np.linalg.norm(half * part, axis=1, keepdims=True)
     ellipse = half**2 * part / np.where(size > 0.0, size, 1.0)
     chosen = np.where(members.round[rows][:, None], ellipse, corner)
-    return np.asarray(np.einsum("kxd,kd->kx", across, chosen))
+    return np.einsum("kxd,kd->kx", across, chosen), unit(way)
 
 
 def _interval(value: FloatArray) -> tuple[FloatArray, np.ndarray]:

@@ -12,9 +12,9 @@ from ...core.elements import NodeKind
 from ...model.data import ModelData
 from ...util.records import Frozen, cached_property
 from .bodies import Solid, solids_of
-from .members import Hinges, Members, hinges_of, members_of
+from .members import Elements, Members, hinges_of, members_of
 from .pose import Pose, reference_pose
-from .supports import Arrows, Supports, arrows_of, supports_of
+from .supports import Symbol, arrows_of, supports_of
 
 #: Diameter of a joint, times that of the bars.
 _BALL = 1.9
@@ -29,7 +29,7 @@ class Drawing(Frozen):
         members: Drawn elements with two ends.
         hinges: Drawn elements without extent.
         supports: Symbols of fixed coordinates.
-        arrows: Symbols of independent coordinates.
+        arrows: Of the independent coordinates, as of `arrows_of`.
         reference: Where the nodes are.
         low: (3,) corner of the box round all positions [m].
         high: (3,) the opposite corner [m].
@@ -37,9 +37,9 @@ class Drawing(Frozen):
 
     data: ModelData
     members: Members
-    hinges: Hinges
-    supports: Supports
-    arrows: Arrows
+    hinges: Elements
+    supports: tuple[Symbol, ...]
+    arrows: tuple[np.ndarray, FloatArray, np.ndarray]
     reference: Pose
     low: FloatArray
     high: FloatArray
@@ -75,8 +75,7 @@ class Drawing(Frozen):
     @property
     def centre(self) -> FloatArray:
         """(3,) middle of that box [m]."""
-        middle: FloatArray = self.low / 2 + self.high / 2
-        return middle
+        return np.asarray(self.low / 2 + self.high / 2)
 
 
 def drawing_of(data: ModelData) -> Drawing:
@@ -91,7 +90,7 @@ def drawing_of(data: ModelData) -> Drawing:
     return Drawing(
         data,
         members,
-        hinges_of(data, size),
+        hinges_of(data),
         supports_of(arrays, members, size),
         arrows_of(arrays),
         reference,

@@ -49,9 +49,13 @@ def places_of_hinges(slots: np.ndarray, is_line: np.ndarray) -> np.ndarray:
             if orientation in places:
                 places[orientation].append(position)
     _place_between_hinges(places, hinges)
-    found = np.array([_common(places[a], places[b]) for a, b in hinges], dtype=np.int64)
+    found = []
+    for a, b in hinges:
+        others = set(places[b])
+        shared = [node for node in places[a] if node in others]
+        found.append(next(itertools.chain(shared, places[a], places[b]), -1))
     own = slots[~is_line][:, 0]
-    return np.where(own >= 0, own, found)
+    return np.where(own >= 0, own, np.array(found, np.int64))
 
 
 def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]]) -> None:
@@ -78,12 +82,6 @@ def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]])
             places[node] = [place for place, _ in around.most_common(1)]
 
 
-def _common(first: list[int], second: list[int]) -> int:
-    others = set(second)
-    shared = (node for node in first if node in others)
-    return next(itertools.chain(shared, first, second), -1)
-
-
 #: (7, 3) from the most negative value over zero to the most positive: blue, grey, red, even in
 #: lightness to both sides and told apart by colour-blind people (Moreland, Diverging Color Maps
 #: for Scientific Visualization, 2009: "cool to warm").
@@ -103,6 +101,7 @@ STOPS = (
 )
 STOPS.flags.writeable = False
 
+#: In the order of the forms.
 OF_FORMS = {
     Form.SHEET: (0.53, 0.70, 0.88),
     Form.WIRE: (0.80, 0.69, 0.20),
@@ -123,15 +122,6 @@ MARK = (1.0, 0.92, 0.0)
 FREEDOM_SPACE = (0.90, 0.15, 0.24)
 CONSTRAINT_SPACE = (0.06, 0.28, 0.84)
 NEW_WIRE = (0.32, 0.16, 0.0)
-
-
-def of_forms(form: np.ndarray) -> FloatArray:
-    """(k, 3) red, green and blue of (k,) forms."""
-    table = np.zeros((max(Form) + 1, 3))
-    for each, colour in OF_FORMS.items():
-        table[each] = colour
-    made: FloatArray = table[form]
-    return made
 
 
 def diverging(values: FloatArray) -> FloatArray:
@@ -251,14 +241,15 @@ def members_of(data: ModelData, size: float) -> Members:
     kind = arrays.element_kind[index]
     frame, length = data.frames.frame[index], data.frames.length[index]
     stiff = all_held(arrays)[index]
-    section = _sections(form, wide, _whole_lengths(data)[index], size)
+    whole, joined = (each[index] for each in _in_chains(data))
+    section = _sections(form, wide, whole, size)
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
     in_xz, in_xy = bending_held(arrays)[:, index]
     plainly = np.abs(in_xz - in_xy) == 2
     wide = np.where(plainly | (planar_table()[kind] == 1), wide, 0)
     section, round_ = _as_given(appearance, index, wide, section, round_, size)
     return Members(
-        **described(data, index, of_forms(form)),
+        **described(data, index, np.array([(0.0, 0.0, 0.0), *OF_FORMS.values()])[form]),
         form=form,
         nodes=nodes,
         length=length,
@@ -266,32 +257,27 @@ def members_of(data: ModelData, size: float) -> Members:
         round=round_,
         stiff=stiff,
         bends=is_member(kind, Member.BEAM) & ~stiff,
-        joined=_joined(data)[index],
+        joined=joined,
         across=data.across[index] @ frame[..., 1:],
         edge_colour=appearance.edge_colour[index],
     )
 
 
-def _whole_lengths(data: ModelData) -> FloatArray:
-    """(elements,) lengths [m]: of a divided sheet or wire from end to end."""
-    made = data.frames.length.copy()
-    place = data.arrays.node_value[:3].T
-    for chain in data.chains:
-        ends = place[[chain.positions[0], chain.positions[-1]]]
-        made[list(chain.elements)] = np.linalg.norm(ends[1] - ends[0])
-    return made
+def _in_chains(data: ModelData) -> tuple[FloatArray, np.ndarray]:
+    """(elements,) lengths, and (elements, 2) whether the same sheet or wire goes on at p and at q.
 
-
-def _joined(data: ModelData) -> np.ndarray:
-    """(elements, 2) whether the same sheet or wire goes on at p and at q."""
-    made = np.zeros((data.arrays.element_number.size, 2), bool)
-    drawn = data.appearance.drawn
+    The length of an element of a divided sheet or wire is that from end to end [m].
+    """
+    whole = data.frames.length.copy()
+    joined = np.zeros((whole.size, 2), bool)
+    place, drawn = data.arrays.node_value[:3].T, data.appearance.drawn
     for chain in data.chains:
         row, against = np.array(chain.elements), np.array(chain.reversed).astype(int)
+        whole[row] = np.linalg.norm(place[chain.positions[-1]] - place[chain.positions[0]])
         goes_on = drawn[row[:-1]] & drawn[row[1:]]
-        made[row[:-1], 1 - against[:-1]] = goes_on
-        made[row[1:], against[1:]] = goes_on
-    return made
+        joined[row[:-1], 1 - against[:-1]] = goes_on
+        joined[row[1:], against[1:]] = goes_on
+    return whole, joined
 
 
 def _sections(form: np.ndarray, wide: np.ndarray, whole: FloatArray, size: float) -> FloatArray:
@@ -333,34 +319,20 @@ def _as_given(
     return section, np.where(known, circle, round_)
 
 
-#: Length and diameter, parts of the drawing's size.
-_HINGES_PARTS = (0.06, 0.03)
+#: Length and diameter of the symbol of a hinge, parts of the drawing's size.
+HINGE_SIZE = (0.06, 0.03)
 
 
-@dataclass(frozen=True, eq=False)
-class Hinges(Elements):
-    """Drawn elements without extent; ex is the axis.
+def hinges_of(data: ModelData) -> Elements:
+    """The drawn elements without extent; ex is the axis.
 
     Their nodes are the position where each stands, -1 where none is known, and its two
     orientations.
-
-    Attributes:
-        size: (h, 2) length and diameter of its symbol [m].
     """
-
-    size: FloatArray
-
-
-def hinges_of(data: ModelData, size: float) -> Hinges:
-    """The hinges of a model; `size` is that of the drawing [m]."""
-    arrays = data.arrays
-    slots = slots_of(arrays)
-    is_line = ~is_member(arrays.element_kind, Member.HINGE)
+    slots = slots_of(data.arrays)
+    is_line = ~is_member(data.arrays.element_kind, Member.HINGE)
     every = np.flatnonzero(~is_line)
     chosen = data.appearance.drawn[every]
     place, index = places_of_hinges(slots, is_line)[chosen], every[chosen]
-    return Hinges(
-        **described(data, index, HINGE),
-        nodes=np.column_stack((place, slots[index][:, [1, 3]])),
-        size=np.tile(np.array(_HINGES_PARTS) * size, (index.size, 1)),
-    )
+    nodes = np.column_stack((place, slots[index][:, [1, 3]]))
+    return Elements(**described(data, index, HINGE), nodes=nodes)

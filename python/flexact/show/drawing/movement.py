@@ -11,18 +11,21 @@ import numpy as np
 from ...analysis.body_motions import Velocities
 from ...analysis.decomposition import Decomposition
 from ...analysis.freedoms import FreeMotion
+from ...analysis.result import Motion
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Class, NodeKind, Role, role_table
 from ...model.configuration import Configuration
-from ...model.data import ModelData
-from ...model.parts.condensing import Condensed, InnerNodes
+from ...model.parts.condensing import Condensed
 from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
 from ...motion.stations import onward, settle
 from ...util.records import Frozen
 from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
-from .pose import Moving, Pose, field_along, pose_of, reference_pose, stations
+from .pose import Pose, field_along, pose_of, reference_pose, stations
+
+#: A motion at the nodes: of an analysis, or of a declared degree of freedom.
+Moving = Motion | FreeMotion
 
 
 def poses_with_inner_nodes(condensed: Condensed, poses: Iterable[Pose]) -> tuple[Pose, ...]:
@@ -38,23 +41,16 @@ def poses_with_inner_nodes(condensed: Condensed, poses: Iterable[Pose]) -> tuple
         position[condensed.nodes], rotation[condensed.nodes] = pose.position, pose.rotation
         for inner in condensed.inner:
             ends, turns = position[inner.ends[[0, 2]]], rotation[inner.ends[[1, 3]]]
-            place, turned = _between(inner, ends, turns)
-            position[inner.positions], rotation[inner.orientations] = place, turned
+            way = ends[1] - ends[0]
+            carried = _carried(inner.chord, way, turns)
+            local = vector_of(np.swapaxes(carried, -1, -2) @ turns)
+            moved, turned = inner.between(np.zeros((2, 3)), local)
+            beside = inner.share[:, None] * inner.chord + inner.offset + moved
+            stretch = inner.share[:, None] * (way - carried @ inner.chord)
+            position[inner.positions] = ends[0] + beside @ carried.T + stretch
+            rotation[inner.orientations] = carried @ matrix_of(turned)
         made.append(Pose(position, rotation))
     return tuple(made)
-
-
-def _between(
-    inner: InnerNodes, ends: FloatArray, turns: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Positions (k, 3) and rotations (k, 3, 3) of inner nodes."""
-    carried = _carried(inner.chord, ends[1] - ends[0], turns)
-    local = vector_of(np.swapaxes(carried, -1, -2) @ turns)
-    moved, turned = inner.between(np.zeros((2, 3)), local)
-    beside = inner.share[:, None] * inner.chord + inner.offset + moved
-    stretch = (ends[1] - ends[0]) - carried @ inner.chord
-    place = ends[0] + beside @ carried.T + inner.share[:, None] * stretch
-    return place, carried @ matrix_of(turned)
 
 
 def _carried(chord: FloatArray, now: FloatArray, turns: FloatArray) -> FloatArray:
@@ -63,35 +59,20 @@ def _carried(chord: FloatArray, now: FloatArray, turns: FloatArray) -> FloatArra
     mean = turns[0] @ matrix_of(half)
     along = mean @ chord / np.linalg.norm(chord)
     length = float(np.linalg.norm(now))
-    if not length > 0.0:
-        return np.asarray(mean)
-    to = now / length
-    axis = np.cross(along, to)
-    sine, cosine = float(np.linalg.norm(axis)), float(along @ to)
-    if sine <= 0.0:
-        return np.asarray(mean)
-    return np.asarray(matrix_of(axis / sine * np.arctan2(sine, cosine)) @ mean)
+    if length > 0.0:
+        axis = np.cross(along, now / length)
+        sine = float(np.linalg.norm(axis))
+        if sine > 0.0:
+            turn = np.arctan2(sine, float(along @ (now / length)))
+            mean = matrix_of(axis / sine * turn) @ mean
+    return np.asarray(mean)
 
 
 #: More coordinates than these are not followed: it would take seconds.
 _MOST_COORDINATES = 300
 
 
-@dataclass(frozen=True, eq=False)
-class Path(Frozen):
-    """Poses along a motion.
-
-    Attributes:
-        poses: One a share.
-        deviation: The largest deformation in them that the motion holds, as a part of the
-            drawing's size.
-    """
-
-    poses: tuple[Pose, ...]
-    deviation: float
-
-
-def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
+def follow(motion: Velocities, shares: FloatArray, size: float) -> tuple[list[Pose], float] | None:
     """The poses at shares of a motion that grow from the reference on.
 
     Args:
@@ -100,7 +81,8 @@ def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
         size: Of the drawing [m].
 
     Returns:
-        The path, or None where there is none near.
+        The poses, one a share, and the largest deformation in them that the motion holds, as a
+        part of the drawing's size; None where there is no path near.
     """
     held = Held(motion.data, size)
     direction = held.direction(motion)
@@ -117,7 +99,7 @@ def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
         deviation = max(deviation, here.residual)
         poses.append(pose_in(held, here.configuration))
         direction = onward(here, direction)
-    return Path(tuple(poses), deviation)
+    return poses, deviation
 
 
 def pose_in(held: Held, here: Configuration) -> Pose:
@@ -133,46 +115,51 @@ def moved_by_screws(motion: Velocities, shares: Iterable[float]) -> tuple[Pose, 
     Every node of a rigid body moves on the body's screw, so that the body keeps its shape. A
     node of no body moves straight and turns about its own axis.
     """
-    reference, moves = reference_pose(motion.data.arrays), BodyMoves(motion.data.arrays)
+    reference, handles = reference_pose(motion.data.arrays), _handles_of(motion.data.arrays)
     placed, made = motion.data.arrays.node_kind <= NodeKind.POSITION, []
     for share in shares:
         moved, turned = share * motion.displacement, share * motion.rotation
         rotation = matrix_of(turned)
         rotation[placed] = np.eye(3)
-        position = moves.carried(reference.position, reference.position + moved, turned)
+        there = reference.position + moved
+        position = _carried_by_bodies(handles, reference.position, there, turned)
         made.append(Pose(position, rotation))
     return tuple(made)
 
 
-class BodyMoves:
-    """How the position nodes of rigid bodies move with them."""
+def _handles_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
+    """(nodes,) each: of position nodes of rigid bodies a position and an orientation of the body.
 
-    def __init__(self, arrays: ModelArrays) -> None:
-        """Find of each position node of a body a position node and an orientation node of it.
+    Both are -1 of nodes of no body.
+    """
+    centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
+    for body in bodies_of(arrays):
+        rows = [node for node in body.positions if centre[node] < 0]
+        centre[rows], turn[rows] = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
+    return centre, turn
 
-        Both are -1 of nodes of no body.
-        """
-        self._centre, self._turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
-        for body in bodies_of(arrays):
-            p, op = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
-            rows = [node for node in body.positions if self._centre[node] < 0]
-            self._centre[rows], self._turn[rows] = p, op
 
-    def carried(self, start: FloatArray, moved: FloatArray, turned: FloatArray) -> FloatArray:
-        """Positions (nodes, 3) after velocities that last for a time of one.
+def _carried_by_bodies(
+    handles: tuple[np.ndarray, np.ndarray],
+    start: FloatArray,
+    moved: FloatArray,
+    turned: FloatArray,
+) -> FloatArray:
+    """Positions (nodes, 3) after velocities that last for a time of one.
 
-        Args:
-            start: (nodes, 3) where they were [m].
-            moved: (nodes, 3) where they would be, had all gone straight [m].
-            turned: (nodes, 3) rotation vectors of orientations [rad].
-        """
-        made = moved.copy()
-        body = np.flatnonzero(self._centre >= 0)
-        centre, about = self._centre[body], turned[self._turn[body]]
-        gone = np.einsum("kxy,ky->kx", screw_matrix(about), (moved - start)[centre])
-        arm = np.einsum("kxy,ky->kx", matrix_of(about), start[body] - start[centre])
-        made[body] = start[centre] + gone + arm
-        return made
+    Args:
+        handles: As of `_handles_of`.
+        start: (nodes, 3) where they were [m].
+        moved: (nodes, 3) where they would be, had all gone straight [m].
+        turned: (nodes, 3) rotation vectors of orientations [rad].
+    """
+    made = moved.copy()
+    body = np.flatnonzero(handles[0] >= 0)
+    centre, about = handles[0][body], turned[handles[1][body]]
+    gone = np.einsum("kxy,ky->kx", screw_matrix(about), (moved - start)[centre])
+    arm = np.einsum("kxy,ky->kx", matrix_of(about), start[body] - start[centre])
+    made[body] = start[centre] + gone + arm
+    return made
 
 
 #: More motions that nothing determines are not looked at together.
@@ -211,11 +198,12 @@ def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
     motions = getattr(outcome, "motions", ())
     if not 0 < len(motions) <= _MOST:
         return motion
-    data, length = motion.analysed.data, outcome.characteristic_length
-    given = motion.analysed
-    free = np.array([_both(each.analysed) for each in motions])
-    start = _both(given)
-    weight = np.where(_placed(data)[:, None], 1.0, length)
+    data = motion.analysed.data
+    placed = (data.arrays.node_kind <= NodeKind.POSITION)[:, None]
+    *free_motions, start = (
+        each.analysed.displacement + each.analysed.rotation for each in (*motions, motion)
+    )
+    free, weight = np.array(free_motions), np.where(placed, 1.0, outcome.characteristic_length)
     # Orthonormal in lengths, so that what stores nothing is told apart from what does.
     basis = np.linalg.qr((free * weight).reshape(len(free), -1).T)[0].T.reshape(free.shape) / weight
     rates = np.array([_rates(outcome, each) for each in (*basis, start)])
@@ -229,17 +217,8 @@ def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
     if np.linalg.norm(shares) <= _NOTHING * np.linalg.norm(start * weight):
         return motion
     made = start + np.einsum("k,knx->nx", shares, basis)
-    placed = _placed(data)[:, None]
     velocities = Velocities(data, np.where(placed, made, 0.0), np.where(placed, 0.0, made))
     return Natural(**{**vars(replace(motion)), "analysed": velocities})
-
-
-def _placed(data: ModelData) -> np.ndarray:
-    return np.asarray(data.arrays.node_kind <= NodeKind.POSITION)
-
-
-def _both(velocities: Velocities) -> FloatArray:
-    return velocities.displacement + velocities.rotation
 
 
 def _rates(outcome: Decomposition, velocity: FloatArray) -> FloatArray:
@@ -315,8 +294,8 @@ class Movement(Frozen):
         deviation: The largest deformation in the poses that the motion holds, as a part of the
             drawing's size; infinite where there is no such path near, NaN where the model is too
             large to look for it. Then rigid bodies move on the screws of the motion.
-        phases: (17,) from -1 to 1, fewer of a shape that is elastic; 0 is the reference.
-        poses: One a phase.
+        poses: 17, at even phases from -1 to 1, fewer of a shape that is elastic; at 0 is the
+            reference.
         about: What is to be said of them where that is no path; may be empty.
         part: Size of what moves, as a part of the drawing's, where it is drawn to that; else 1.
         natural: Whether what nothing determines has the shape in which it bends least.
@@ -324,36 +303,26 @@ class Movement(Frozen):
 
     scale: float
     deviation: float
-    phases: FloatArray
     poses: tuple[Pose, ...]
     about: str = ""
     part: float = 1.0
     natural: bool = False
 
     @property
-    def true_path(self) -> bool:
-        """Whether the mechanism can move so far: the held deformations stay zero."""
-        return self.deviation <= _TRUE
-
-    @property
     def remark(self) -> str:
         """What is to be said of the poses, sentences."""
-        told = [self.about or self._path]
-        if self.part < 1.0:
-            told.append("Drawn to the size of the part that moves.")
-        if self.natural:
-            told.append("What nothing determines is drawn where it bends least.")
-        return " ".join(told)
-
-    @property
-    def _path(self) -> str:
+        told = f"Held deformations stay below {self.deviation:.1e} of the model's size."
         if self.deviation <= _TRUE:
-            return "On its path: no held deformation changes."
-        if np.isnan(self.deviation):
-            return "A large model: drawn along its velocities, rigid bodies on screws."
-        if np.isinf(self.deviation):
-            return "Infinitesimal: drawn along its velocities, rigid bodies on screws."
-        return f"Held deformations stay below {self.deviation:.1e} of the model's size."
+            told = "On its path: no held deformation changes."
+        elif not np.isfinite(self.deviation):
+            what = "A large model" if np.isnan(self.deviation) else "Infinitesimal"
+            told = f"{what}: drawn along its velocities, rigid bodies on screws."
+        told = self.about or told
+        if self.part < 1.0:
+            told += " Drawn to the size of the part that moves."
+        if self.natural:
+            told += " What nothing determines is drawn where it bends least."
+        return told
 
     def pose(self, phase: float) -> Pose:
         """The pose at a phase from -1 to 1, between the two nearest ones."""
@@ -390,9 +359,8 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
             break
         sides, deviation = fitted, there
     poses = (*sides[0][::-1], reference_pose(drawing.data.arrays), *sides[1])
-    phases = np.linspace(-1.0, 1.0, len(poses))
     natural = isinstance(motion, Natural)
-    return Movement(scale, deviation, phases, poses, part=part, natural=natural)
+    return Movement(scale, deviation, poses, part=part, natural=natural)
 
 
 def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
@@ -402,10 +370,10 @@ def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, 
     followed = is_followed(analysed.data, _MOST_COORDINATES)
     if followed:
         sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
-        found = [side for side in sides if side is not None and side.deviation <= _UNSEEN]
+        found = [side for side in sides if side is not None and side[1] <= _UNSEEN]
         if len(found) == len(sides):
-            poses = [poses_with_inner_nodes(motion.condensed, side.poses) for side in found]
-            return poses, max(side.deviation for side in found)
+            paths = [poses_with_inner_nodes(motion.condensed, poses) for poses, _ in found]
+            return paths, max(deviation for _, deviation in found)
     swings = [moved_by_screws(analysed, (sign * shares).tolist()) for sign in (-1.0, 1.0)]
     whole = [poses_with_inner_nodes(motion.condensed, swing) for swing in swings]
     return whole, np.inf if followed else np.nan
@@ -442,8 +410,8 @@ def scale_of(
     if far is None:
         far, _ = amplitude_of(drawing, displacement, rotation)
     along = field_along(drawing.members, displacement, rotation)
-    ways = [float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along]
-    largest = max([*ways, float(np.linalg.norm(displacement, axis=1).max(initial=0.0))])
+    ways = [np.linalg.norm(each, axis=-1).max(initial=0.0) for _, each, _ in along]
+    largest = float(max([*ways, np.linalg.norm(displacement, axis=1).max(initial=0.0)]))
     turned = float(np.linalg.norm(rotation, axis=1).max(initial=0.0))
     return _least(far, largest, angle, turned)
 
@@ -463,8 +431,8 @@ def amplitude_of(
     """
     members = drawing.members
     reach = np.zeros(len(members))
-    for each in field_along(members, displacement, rotation):
-        reach[each.member] = np.linalg.norm(each.displacement, axis=-1).max(axis=1)
+    for member, way, _ in field_along(members, displacement, rotation):
+        reach[member] = np.linalg.norm(way, axis=-1).max(axis=1)
     largest = float(reach.max(initial=0.0))
     nodes = np.unique(members.nodes[reach > _MOVES * largest][:, [0, 2]])
     far = AMPLITUDE * drawing.size
@@ -507,13 +475,13 @@ def swing(
     moved, turned = np.where(placed, displacement, 0.0), np.where(placed, 0.0, displacement)
     amplitude, part = amplitude_of(drawing, moved, turned)
     scale = scale_of(drawing, moved, turned, amplitude, _SWING_LARGEST_ROTATION)
-    start, bodies = pose_of(arrays, state), BodyMoves(arrays)
-    phases = np.linspace(-1.0, 1.0, _POSES)
+    start, handles = pose_of(arrays, state), _handles_of(arrays)
 
     def pose(share: float) -> Pose:
         there = pose_of(arrays, state.moved(share * (moved + turned)))
-        position = bodies.carried(start.position, there.position, share * turned)
+        way = start.position, there.position, share * turned
+        position = _carried_by_bodies(handles, *way)
         return Pose(np.where(placed, position, 0.0), there.rotation)
 
-    poses = tuple(pose(scale * phase) for phase in phases.tolist())
-    return Movement(scale, np.nan, phases, poses, about, part)
+    poses = tuple(pose(scale * phase) for phase in np.linspace(-1.0, 1.0, _POSES).tolist())
+    return Movement(scale, np.nan, poses, about, part)

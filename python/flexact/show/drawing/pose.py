@@ -13,18 +13,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
-from ...analysis.body_motions import Velocities
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import NodeKind
 from ...model.configuration import Configuration
-from ...model.parts.condensing import Condensed
 from ...util.records import Frozen
 from ...util.rotations import aligned, between, matrix_of, matrix_of_euler, unit
-from .members import Hinges, Members
+from .members import HINGE_SIZE, Elements, Members
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,26 +35,6 @@ class Pose(Frozen):
 
     position: FloatArray
     rotation: FloatArray
-
-
-class Moving(Protocol):
-    """A motion at the nodes: of an analysis, or of a declared degree of freedom."""
-
-    @property
-    def condensed(self) -> Condensed:
-        """The model at whose nodes it is a motion, and the one that was analysed."""
-
-    @property
-    def analysed(self) -> Velocities:
-        """The velocities of the latter's nodes; nothing determines them in its model."""
-
-    @property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) of the model as given [m]."""
-
-    @property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) likewise [rad]."""
 
 
 def reference_pose(arrays: ModelArrays) -> Pose:
@@ -168,21 +145,9 @@ def _straight(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) 
     return Strip(chosen, at, centre, np.repeat(frame[:, None], at.size, axis=1))
 
 
-@dataclass(frozen=True, eq=False)
-class Field(Frozen):
-    """A motion at the stations of members.
-
-    Attributes:
-        member: (k,) which of the drawing's members.
-        at: (s,) stations, from 0 at p to 1 at q.
-        displacement: (k, s, 3) of the axis, in the unit of the motion [m].
-        rotation: (k, s, 3) of the cross-sections [rad].
-    """
-
-    member: np.ndarray
-    at: FloatArray
-    displacement: FloatArray
-    rotation: FloatArray
+#: A motion at the stations of members: (k,) which of the drawing's members, (k, s, 3) of their
+#: axes in the unit of the motion [m], (k, s, 3) of their cross-sections [rad].
+Field = tuple[np.ndarray, FloatArray, FloatArray]
 
 
 def field_along(
@@ -222,7 +187,7 @@ def _bent_field(
     # To the last bit what the nodes have.
     displacement[:, 0], displacement[:, -1] = moved[p], moved[q]
     rotation[:, 0], rotation[:, -1] = turned[op], turned[oq]
-    return Field(chosen, at, displacement, rotation)
+    return chosen, displacement, rotation
 
 
 def _straight_field(
@@ -236,7 +201,7 @@ def _straight_field(
     swing = np.cross(members.frame[chosen, :, 0], last - first) / length[:, None]
     start = np.where((op >= 0)[:, None], turned[op], swing)
     end = np.where((oq >= 0)[:, None], turned[oq], start)
-    return Field(chosen, at, displacement, np.stack((start, end), axis=1))
+    return chosen, displacement, np.stack((start, end), axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,7 +211,6 @@ class Solid(Frozen):
     Attributes:
         member: (k,) which of the drawing's members, or of its hinges.
         strip: (k,) which row of the strip.
-        at: (s,) stations, from 0 at p to 1 at q.
         offset: (k, c, 2) corners of the sections along ey and ez [m].
         points: (k, s, c, 3) corners along the member [m].
         closed: Whether the corners go round; in the plane they are two edges.
@@ -254,7 +218,6 @@ class Solid(Frozen):
 
     member: np.ndarray
     strip: np.ndarray
-    at: FloatArray
     offset: FloatArray
     points: FloatArray
     closed: bool
@@ -267,7 +230,16 @@ class Solid(Frozen):
         go round anticlockwise.
         """
         k, s, c, _ = self.points.shape
-        faces = _faces(s, c, self.closed)
+        station = np.arange(s - 1)[:, None] * c
+        corner = np.arange(c if self.closed else c - 1)
+        follower = (corner + 1) % c
+        around = (station + corner, station + follower, station + c + follower)
+        side = np.stack(np.broadcast_arrays(*around, station + c + corner), axis=-1).reshape(-1, 4)
+        # What is not closed is seen from the side to which ez points.
+        faces = side[:, ::-1]
+        if self.closed:
+            fan = np.array([[0, i, i + 1, i + 2] for i in range(1, c - 1, 2)])
+            faces = np.concatenate((side, fan[:, ::-1], fan + (s - 1) * c))
         return np.asarray(np.arange(k)[:, None, None] * (s * c) + faces)
 
 
@@ -289,11 +261,11 @@ def solid(strip: Strip, members: Members, planar: bool = False, corners: int = 8
         offset = members.section[member][:, None, :] * _corners(count, planar)
         across = strip.frame[rows][..., 1:]
         points = strip.centre[rows][:, :, None] + np.einsum("ksxd,kcd->kscx", across, offset)
-        made.append(Solid(member, rows, strip.at, offset, points, not planar))
+        made.append(Solid(member, rows, offset, points, not planar))
     return made
 
 
-def axes_of(hinges: Hinges, pose: Pose, chosen: np.ndarray | slice = slice(None)) -> Strip:
+def axes_of(hinges: Elements, pose: Pose, chosen: np.ndarray | slice = slice(None)) -> Strip:
     """Hinges, or some of them, with one station each; those that stand nowhere at the origin."""
     place, turn, _ = hinges.nodes[chosen].T
     centre = np.where((place >= 0)[:, None], pose.position[place], 0.0)
@@ -302,16 +274,23 @@ def axes_of(hinges: Hinges, pose: Pose, chosen: np.ndarray | slice = slice(None)
     return Strip(member, np.array([0.5]), centre[:, None], frame[:, None])
 
 
-def cylinders(strip: Strip, hinges: Hinges, planar: bool = False, corners: int = 8) -> list[Solid]:
-    """The surfaces of hinges, cylinders about their axes; in the plane they have no length."""
-    length, diameter = hinges.size[strip.member].T
+def cylinders(strip: Strip, size: float, planar: bool = False, corners: int = 8) -> list[Solid]:
+    """The surfaces of hinges, cylinders about their axes; in the plane they have no length.
+
+    Args:
+        strip: The hinges.
+        size: Of the drawing [m].
+        planar: Whether it is.
+        corners: Of each.
+    """
+    length, diameter = np.tile(np.array(HINGE_SIZE) * size, (strip.member.size, 1)).T
     offset = diameter[:, None, None] * _corners(corners)
     ends = np.array([0.0]) if planar else np.array([-0.5, 0.5])
     shift = (length[:, None] * ends)[:, :, None] * strip.frame[..., 0]
     across = np.einsum("kxd,kcd->kcx", strip.frame[:, 0, :, 1:], offset)
     points = strip.centre[:, :, None] + shift[:, :, None] + across[:, None]
     rows = np.arange(strip.member.size)
-    return [Solid(strip.member, rows, ends, offset, points, True)] if rows.size else []
+    return [Solid(strip.member, rows, offset, points, True)] if rows.size else []
 
 
 def _corners(count: int, planar: bool = False) -> FloatArray:
@@ -322,21 +301,3 @@ def _corners(count: int, planar: bool = False) -> FloatArray:
         return np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
     angle = 2 * np.pi * np.arange(count) / count
     return np.column_stack((np.cos(angle), np.sin(angle))) / 2
-
-
-def _faces(s: int, c: int, closed: bool) -> np.ndarray:
-    """(f, 4) faces of one member; its ends are cut into quads."""
-    station = np.arange(s - 1)[:, None] * c
-    corner = np.arange(c if closed else c - 1)
-    follower = (corner + 1) % c
-    side = np.stack(
-        np.broadcast_arrays(
-            station + corner, station + follower, station + c + follower, station + c + corner
-        ),
-        axis=-1,
-    ).reshape(-1, 4)
-    if not closed:
-        # Seen from the side to which ez points.
-        return np.asarray(side[:, ::-1])
-    fan = np.array([[0, i, i + 1, i + 2] for i in range(1, c - 1, 2)])
-    return np.concatenate((side, fan[:, ::-1], fan + (s - 1) * c))

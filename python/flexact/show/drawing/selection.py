@@ -16,8 +16,7 @@ from ...deck.rendering import ModelError
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import attempted
 from ...util.records import Frozen
-from .movement import natural_shape
-from .pose import Moving
+from .movement import Moving, natural_shape
 
 
 def way_of(freedom: Freedom) -> Moving | None:
@@ -37,16 +36,13 @@ def way_of(freedom: Freedom) -> Moving | None:
     if freedom.is_coordinate:
         return motion
     outcome, length = freedom.analysis, freedom.analysis.characteristic_length
-    data, moved, turned = (
-        motion.analysed.data,
-        motion.analysed.displacement,
-        motion.analysed.rotation,
-    )
-    both = moved + length * turned
+    given = motion.analysed
+    both = given.displacement + length * given.rotation
     node, axis = (each.tolist() for each in np.nonzero(both))
     (first,) = ranked(both[node, axis], 1, lambda i: coordinate_key(outcome, node[i], axis[i]))
     sense = np.sign(both[node[first], axis[first]])
-    return replace(motion, analysed=Velocities(data, sense * moved, sense * turned))
+    analysed = Velocities(given.data, sense * given.displacement, sense * given.rotation)
+    return replace(motion, analysed=analysed)
 
 
 #: How many degrees of freedom are tried, whether they can move, where none was asked for.
@@ -92,12 +88,12 @@ def select_motion(
         NotThereError: There is none of that number, or the degree of freedom cannot move.
         AnalysisError: The motion of that degree of freedom cannot be found.
     """
-    if motion is not None:
-        return _of_motion(analysis, motion)
-    if freedom is not None:
+    if freedom is not None and motion is None:
         return _of_freedom(analysis, freedom)
-    if len(analysis.motions):
-        return _of_motion(analysis, 1)
+    if motion is not None or len(analysis.motions):
+        number = 1 if motion is None else motion
+        require_there(number, len(analysis.motions), "motion", "motions")
+        return Selection(analysis.motions[number - 1], number)
     for number, each in enumerate(analysis.freedoms[:_MOST_TRIED], start=1):
         # Nobody asked for it, so that it is none where it cannot be found.
         with contextlib.suppress(FlexactError):
@@ -115,12 +111,6 @@ def require_there(number: int, count: int, what: str, plural: str) -> None:
     if not 1 <= number <= count:
         there = f"{count or 'no'} {what if count == 1 else plural}"
         raise NotThereError(f"there is no {what} {number}: the analysis gives {there}")
-
-
-def _of_motion(analysis: Result, number: int) -> Selection:
-    count = len(analysis.motions)
-    require_there(number, count, "motion", "motions")
-    return Selection(analysis.motions[number - 1], number)
 
 
 def _of_freedom(analysis: Result, given: int | str) -> Selection:

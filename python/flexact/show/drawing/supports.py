@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clamps as blocks of ground: what is clamped at one point, or within one block, has one."""
+"""Symbols of fixed and of independent coordinates.
+
+Clamps are blocks of ground: what is clamped at one point, or within one block, has one.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from itertools import combinations, product
+from typing import NamedTuple
 
 import numpy as np
 
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Class, NodeKind
 from ...util.groups import groups_of
-from ...util.records import Frozen
 from ...util.rotations import frames_along, unit
 from .members import Members, turned_at
+from .pose import Pose
 
 #: How much a block stands out beside a member, and how thick it is: parts of the symbol's size.
 BESIDE, THICK = 0.55, 0.6
@@ -26,185 +29,6 @@ _SAME, _SPREAD = 1.0e-9, 0.2
 #: Of more clamps it is not looked for blocks that overlap, only for those at one point.
 _MOST = 400
 _CORNERS = np.array(list(product((-1.0, 0.0), (-1.0, 1.0), (-1.0, 1.0))))
-
-
-@dataclass(frozen=True, eq=False)
-class Block(Frozen):
-    """A block of ground.
-
-    Attributes:
-        nodes: Position nodes that it clamps, ascending.
-        middle: (3,) of its face [m].
-        frame: (3, 3) columns: from the ground towards what is held, and two along its face.
-        extent: (2,) half sizes along these two [m].
-        depth: Its thickness [m].
-        size: Of the symbol [m].
-    """
-
-    nodes: tuple[int, ...]
-    middle: FloatArray
-    frame: FloatArray
-    extent: FloatArray
-    depth: float
-    size: float
-
-    def holds(self, points: FloatArray) -> bool:
-        """Whether one of some points (n, 3) lies within it."""
-        local = (points - self.middle) @ self.frame
-        low, high = np.array((-self.depth, *-self.extent)), np.array((0.0, *self.extent))
-        return bool(np.any(np.all((local >= low) & (local <= high), axis=1)))
-
-    @property
-    def corners(self) -> FloatArray:
-        """(8, 3) [m]."""
-        sizes = np.array((self.depth, *self.extent))
-        made: FloatArray = self.middle + (_CORNERS * sizes) @ self.frame.T
-        return made
-
-    def meets(self, other: Block) -> bool:
-        """Whether it overlaps with another one: corners or faces of one lie in the other."""
-        return self.holds(other._looked_at) or other.holds(self._looked_at)
-
-    @property
-    def _looked_at(self) -> FloatArray:
-        inner = self.middle - self.depth / 2 * self.frame[:, 0]
-        return np.concatenate((self.corners, (self.corners + self.middle) / 2, inner[None]))
-
-
-@dataclass(frozen=True, eq=False)
-class _Ends(Frozen):
-    """Ends of members at clamps: which node and member, and away from the clamp (e, 3)."""
-
-    node: np.ndarray
-    member: np.ndarray
-    away: FloatArray
-
-
-def blocks_of(
-    members: Members,
-    position: FloatArray,
-    nodes: np.ndarray,
-    sizes: FloatArray,
-    otherwise: FloatArray,
-) -> list[Block]:
-    """The blocks of some clamped nodes.
-
-    Args:
-        members: The members of the drawing.
-        position: (nodes of the model, 3) [m].
-        nodes: (c,) the clamped position nodes.
-        sizes: (c,) of their symbols [m].
-        otherwise: (3,) the direction of a block whose members go all ways.
-    """
-    ends = _ends_at(members, nodes)
-    size = float(np.ptp(position, axis=0).max(initial=0.0)) or 1.0
-    size_of = dict(zip(nodes.tolist(), sizes.tolist(), strict=True))
-    places = np.round(position[nodes] / (_SAME * size) / 2)
-    _, first = np.unique(places, axis=0, return_inverse=True)
-
-    def made(group: list[int]) -> Block:
-        return _block(
-            members, position, ends, group, max(map(size_of.__getitem__, group)), otherwise
-        )
-
-    groups: dict[int, list[int]] = {}
-    for node, key in zip(nodes.tolist(), first.ravel().tolist(), strict=True):
-        groups.setdefault(key, []).append(node)
-    blocks = [made(group) for group in groups.values()]
-    while 1 < len(blocks) <= _MOST:
-        pairs = [(i, j) for i, j in _near(blocks) if blocks[i].meets(blocks[j])]
-        if not pairs:
-            break
-        owner = groups_of(len(blocks), pairs).tolist()
-        joined = [
-            sorted(n for k, one in zip(owner, blocks, strict=True) if k == each for n in one.nodes)
-            for each in dict.fromkeys(owner)
-        ]
-        blocks = [made(group) for group in joined]
-    return sorted(blocks, key=lambda block: block.nodes)
-
-
-def _near(blocks: list[Block]) -> list[tuple[int, int]]:
-    """Pairs of blocks whose corners are not too far apart for them to meet."""
-    middle = np.array([block.corners.mean(axis=0) for block in blocks])
-    radius = np.array([np.linalg.norm(b.corners[0] - b.corners.mean(axis=0)) for b in blocks])
-    near = np.linalg.norm(middle[:, None] - middle, axis=-1) < radius[:, None] + radius
-    return [(i, j) for i, j in combinations(range(len(blocks)), 2) if near[i, j]]
-
-
-def _ends_at(members: Members, nodes: np.ndarray) -> _Ends:
-    node, member, away = [], [], []
-    for slot, sign in ((0, 1.0), (2, -1.0)):
-        rows = np.flatnonzero(np.isin(members.nodes[:, slot], nodes))
-        node.append(members.nodes[rows, slot])
-        member.append(rows)
-        away.append(sign * members.frame[rows, :, 0])
-    return _Ends(np.concatenate(node), np.concatenate(member), np.concatenate(away))
-
-
-def _block(
-    members: Members,
-    position: FloatArray,
-    ends: _Ends,
-    group: list[int],
-    size: float,
-    otherwise: FloatArray,
-) -> Block:
-    """The block of some nodes."""
-    rows = np.flatnonzero(np.isin(ends.node, group))
-    place, away, member = position[ends.node[rows]], ends.away[rows], ends.member[rows]
-    points = position[group]
-    mean = away.sum(axis=0)
-    direction = unit(mean) if np.linalg.norm(mean) > 1.0e-6 else otherwise
-    frame = frames_along(direction[None])[0]
-    half = np.zeros((0, 3))
-    if rows.size:
-        widest = int(np.argmax(np.round(members.section[member].max(axis=1) / size, 9)))
-        frame = _lying(direction, members.frame[member[widest]], away[widest], points, size)
-        sides = members.section[member][:, :, None] / 2
-        corner = np.array(list(product((-1.0, 1.0), repeat=2)))
-        arms = np.einsum("kxd,kd,cd->kcx", members.frame[member][..., 1:], sides[..., 0], corner)
-        half = (place[:, None] + arms).reshape(-1, 3)
-    local = np.concatenate((points, half)) @ frame
-    along = points @ frame[:, 0]
-    low, high = local[:, 1:].min(axis=0), local[:, 1:].max(axis=0)
-    middle = frame @ np.array((along.max(), *((low + high) / 2)))
-    return Block(
-        tuple(sorted(group)),
-        middle,
-        frame,
-        (high - low) / 2 + BESIDE * size,
-        float(np.ptp(along)) + THICK * size,
-        size,
-    )
-
-
-def _lying(
-    direction: FloatArray, own: FloatArray, away: FloatArray, points: FloatArray, size: float
-) -> FloatArray:
-    """(3, 3) the frame of a block: along the section of the widest member, or along its points.
-
-    Args:
-        direction: (3,) of what it holds.
-        own: (3, 3) frame of the widest member.
-        away: (3,) along that member, from the ground.
-        points: (n, 3) that it clamps [m].
-        size: Of the symbol [m].
-    """
-    upright = bool(away @ direction > _UPRIGHT)
-    if upright:
-        side = 1.0 if own[:, 0] @ away > 0.0 else -1.0
-        return np.asarray(own * np.array((side, 1.0, side)))
-    flat = points - points.mean(axis=0)
-    flat = flat - (flat @ direction)[:, None] * direction
-    far = flat[int(np.argmax(np.round(np.linalg.norm(flat, axis=1) / size, 9)))]
-    axis = far if np.linalg.norm(far) > _SPREAD * size else own[:, 1]
-    axis = unit(axis - (axis @ direction) * direction)
-    if not axis.any():
-        return np.asarray(frames_along(direction[None])[0])
-    return np.stack((direction, axis, np.cross(direction, axis)), axis=1)
-
-
 #: Parts of the drawing's size, and of the shortest member at the node.
 _PART, _SMALLEST = 0.045, 0.012
 _LIMIT = 0.4
@@ -223,59 +47,64 @@ class Support(IntEnum):
     """One rotation is fixed: a double cone about it."""
 
 
-@dataclass(frozen=True, eq=False)
-class Supports(Frozen):
-    """Symbols of fixed coordinates.
+class Symbol(NamedTuple):
+    """A symbol of fixed coordinates in the reference configuration.
 
     Attributes:
-        node: (s,) position node; the first of those that a block clamps.
-        kind: (s,) `Support`.
-        frame: (s, 3, 3) columns: the unit vector from the ground towards what is held, and two
+        kind: What is fixed.
+        held: All the position nodes that it holds, ascending: of a block several. It goes with
+            the first.
+        middle: (3,) where it stands, of a block the middle of its face [m].
+        frame: (3, 3) columns: the unit vector from the ground towards what is held, and two
             across it, of a clamp along the section of the widest member that it holds or along
             the points that it clamps.
-        extent: (s, 2) half sizes along these two [m].
-        size: (s,) [m].
-        offset: (s, 3) from the node to where the symbol stands, of a block to the middle of its
-            face [m].
-        depth: (s,) thickness of a block [m].
-        held: All the position nodes that each holds: of a block several.
+        extent: (2,) half sizes along these two [m].
+        depth: Thickness of a block [m].
+        size: [m].
     """
 
-    node: np.ndarray
-    kind: np.ndarray
+    kind: Support
+    held: tuple[int, ...]
+    middle: FloatArray
     frame: FloatArray
     extent: FloatArray
-    size: FloatArray
-    offset: FloatArray
-    depth: FloatArray
-    held: tuple[tuple[int, ...], ...]
+    depth: float
+    size: float
+
+    def at(self, reference: Pose, pose: Pose) -> FloatArray:
+        """(3,) where it stands in a pose [m]."""
+        node = self.held[0]
+        return np.asarray(pose.position[node] + (self.middle - reference.position[node]))
 
     @property
-    def direction(self) -> FloatArray:
-        """(s, 3) unit vectors from the ground towards what is held."""
-        return self.frame[..., 0]
+    def corners(self) -> FloatArray:
+        """(8, 3) of a block [m]."""
+        sizes = np.array((self.depth, *self.extent))
+        return np.asarray(self.middle + (_CORNERS * sizes) @ self.frame.T)
 
-    def __len__(self) -> int:
-        """How many there are."""
-        return int(self.node.size)
+    def reaches(self, other: Symbol) -> bool:
+        """Whether corners, the middle or points of the face of another block lie within it."""
+        inner = other.middle - other.depth / 2 * other.frame[:, 0]
+        corners = other.corners
+        points = np.concatenate((corners, (corners + other.middle) / 2, inner[None]))
+        local = (points - self.middle) @ self.frame
+        low, high = np.array((-self.depth, *-self.extent)), np.array((0.0, *self.extent))
+        return bool(np.any(np.all((local >= low) & (local <= high), axis=1)))
 
     def solids(
-        self, row: int, node: FloatArray, corners: int, tip: float = 0.0
+        self, place: FloatArray, corners: int, tip: float = 0.0
     ) -> list[tuple[FloatArray, float]]:
-        """The solids of a symbol: rings (r, c, 3) [m], and of a block of ground how thick it is.
+        """The solids that it is: rings (r, c, 3) [m], and of a block of ground how thick it is.
 
         Args:
-            row: Which symbol.
-            node: (3,) where its node is [m].
+            place: (3,) where it stands [m].
             corners: Of round rings.
             tip: Radius of a tip, a part of the symbol's size.
         """
-        place, frame, size = node + self.offset[row], self.frame[row], float(self.size[row])
-        kind = self.kind[row]
-        if kind == Support.CLAMP:
-            thick = float(self.depth[row])
-            return [(_block_rings(place, frame, self.extent[row], thick), thick)]
-        if kind == Support.PIN:
+        frame, size = self.frame, self.size
+        if self.kind == Support.CLAMP:
+            return [(_block_rings(place, frame, self.extent, self.depth), self.depth)]
+        if self.kind == Support.PIN:
             thick, half = 0.28 * size, np.full(2, 0.85 * size)
             ground = _block_rings(place - size * frame[:, 0], frame, half, thick)
             return [
@@ -283,7 +112,7 @@ class Supports(Frozen):
                 (ground, thick),
             ]
         rings: tuple[tuple[float, float], ...] = ((-0.7, 0.4), (0.0, tip), (0.7, 0.4))
-        if kind == Support.SLIDE:
+        if self.kind == Support.SLIDE:
             rings = ((-1.1, 0.45), (0.0, tip))
         return [(rings_about(place, frame, rings, size, corners), 0.0)]
 
@@ -310,91 +139,152 @@ def _block_rings(
     return np.stack((upper - thick * frame[:, 0], upper))
 
 
-@dataclass(frozen=True, eq=False)
-class Arrows(Frozen):
-    """Symbols of independent coordinates: declared degrees of freedom.
-
-    Attributes:
-        node: (a,) position node.
-        direction: (a, 3) unit vectors along or about which it moves.
-        turning: (a,) whether it is a rotation.
-    """
-
-    node: np.ndarray
-    direction: FloatArray
-    turning: np.ndarray
-
-    def __len__(self) -> int:
-        """How many there are."""
-        return int(self.node.size)
-
-
-def supports_of(arrays: ModelArrays, members: Members, size: float) -> Supports:
+def supports_of(arrays: ModelArrays, members: Members, size: float) -> tuple[Symbol, ...]:
     """The supports of a model whose drawing has this size [m]."""
     moved, turned, whole = _fixed(arrays)
     positions = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
     held = moved[positions].all(axis=1)
     clamped = held & whole[positions]
-    partly = positions[~clamped]
-    rows: list[tuple[np.ndarray, Support, int | None]] = [
-        (positions[clamped], Support.CLAMP, None),
-        (positions[held & ~clamped], Support.PIN, None),
-    ]
-    spatial = arrays.node_kind == NodeKind.POSITION
+    partly, pinned = positions[~clamped], positions[held & ~clamped]
+    spatial, place = arrays.node_kind == NodeKind.POSITION, arrays.node_value[:3].T
+    upwards = np.array((0.0, 0.0, 1.0) if spatial.any() else (0.0, 1.0, 0.0))
+    outward, room = _outward(arrays.node_kind.size, members)
+    outward[~np.any(outward != 0.0, axis=1)] = upwards
+    sizes = np.minimum(_PART * size, np.maximum(_LIMIT * room, _SMALLEST * size))
+    made = _blocks(members, place, positions[clamped], sizes, upwards)
+    # A pyramid stands straight.
+    rows = [(pinned, Support.PIN, _upright(outward[pinned]))]
     for axis in range(3):
         slides = partly[moved[partly, axis] & ~moved[partly].all(axis=1)]
-        # In the plane, z is not a coordinate that could be fixed or free.
-        rows.append((slides if axis < 2 else slides[spatial[slides]], Support.SLIDE, axis))
         turns = partly[turned[partly, axis]]
-        rows.append((turns if axis == 2 else turns[spatial[turns]], Support.TURN, axis))
-    outward, room = _outward(arrays.node_kind.size, members)
-    outward[~np.any(outward != 0.0, axis=1)] = (0.0, 0.0, 1.0) if spatial.any() else (0.0, 1.0, 0.0)
-    node = np.concatenate([each for each, _, _ in rows])
-    kind = np.concatenate([np.full(each.size, support) for each, support, _ in rows])
-    direction = np.concatenate(
-        [outward[each] if axis is None else _along(axis, outward[each]) for each, _, axis in rows]
-    )
-    # A pyramid stands straight.
-    pinned = kind == Support.PIN
-    direction[pinned] = _upright(direction[pinned])
-    sizes = np.minimum(_PART * size, np.maximum(_LIMIT * room[node], _SMALLEST * size))
-    others = np.flatnonzero(kind != Support.CLAMP)
-    place = arrays.node_value[:3].T
-    clamps = node[kind == Support.CLAMP]
-    upwards = np.array((0.0, 0.0, 1.0) if spatial.any() else (0.0, 1.0, 0.0))
-    blocks = blocks_of(members, place, clamps, sizes[kind == Support.CLAMP], upwards)
-    first = np.array([block.nodes[0] for block in blocks], np.int64)
-    middle = np.array([block.middle for block in blocks]).reshape(-1, 3)
-    return Supports(
-        np.concatenate((first, node[others])),
-        np.concatenate((np.full(len(blocks), Support.CLAMP), kind[others])),
-        np.concatenate((_stacked(blocks, "frame", (3, 3)), frames_along(direction[others]))),
-        np.concatenate((_stacked(blocks, "extent", (2,)), BESIDE * sizes[others, None] * [1, 1])),
-        np.concatenate((_stacked(blocks, "size", ()), sizes[others])),
-        np.concatenate((middle - place[first], np.zeros((others.size, 3)))),
-        np.concatenate((_stacked(blocks, "depth", ()), np.zeros(others.size))),
-        (*(block.nodes for block in blocks), *((each,) for each in node[others].tolist())),
-    )
+        # In the plane, z is not a coordinate that could be fixed or free.
+        slides = slides if axis < 2 else slides[spatial[slides]]
+        turns = turns if axis == 2 else turns[spatial[turns]]
+        for nodes, kind in ((slides, Support.SLIDE), (turns, Support.TURN)):
+            # To the side on which the members are.
+            side = np.where(outward[nodes, axis] < 0.0, -1.0, 1.0)
+            rows.append((nodes, kind, side[:, None] * np.eye(3)[axis]))
+    for nodes, kind, direction in rows:
+        for node, frame in zip(nodes.tolist(), frames_along(direction), strict=True):
+            own = float(sizes[node])
+            extent = np.full(2, BESIDE * own)
+            made.append(Symbol(kind, (node,), place[node], frame, extent, 0.0, own))
+    return tuple(made)
 
 
-def _stacked(blocks: list[Block], name: str, shape: tuple[int, ...]) -> FloatArray:
-    return np.array([getattr(block, name) for block in blocks], float).reshape(-1, *shape)
+def _blocks(
+    members: Members,
+    position: FloatArray,
+    nodes: np.ndarray,
+    sizes: FloatArray,
+    upwards: FloatArray,
+) -> list[Symbol]:
+    """The blocks of some clamped nodes.
 
-
-def arrows_of(arrays: ModelArrays) -> Arrows:
-    """The independent coordinates of a model, those of positions first.
-
-    A rotation has one arrow, at the first position that turns with it.
+    Args:
+        members: The members of the drawing.
+        position: (nodes of the model, 3) [m].
+        nodes: (c,) the clamped position nodes.
+        sizes: (nodes of the model,) of their symbols [m].
+        upwards: (3,) the direction of a block whose members go all ways.
     """
-    node, axis = np.argwhere((arrays.coordinate_class == Class.INDEPENDENT).T).T
-    pairs = turned_at(arrays)
-    place = np.full(arrays.node_kind.size, -1)
-    place[pairs[::-1, 1]] = pairs[::-1, 0]
-    turning = arrays.node_kind[node] > NodeKind.POSITION
-    node = np.where(turning, place[node], node)
-    rows = np.argsort(turning, kind="stable")
-    rows = rows[node[rows] >= 0]
-    return Arrows(node[rows], np.eye(3)[axis[rows]], turning[rows])
+    # Ends of members there: node, member, and away from the clamp.
+    slots = [np.flatnonzero(np.isin(members.nodes[:, slot], nodes)) for slot in (0, 2)]
+    ends = (
+        np.concatenate(
+            [members.nodes[rows, slot] for rows, slot in zip(slots, (0, 2), strict=True)]
+        ),
+        np.concatenate(slots),
+        np.concatenate([members.frame[slots[0], :, 0], -members.frame[slots[1], :, 0]]),
+    )
+    size = float(np.ptp(position, axis=0).max(initial=0.0)) or 1.0
+    _, first = np.unique(
+        np.round(position[nodes] / (_SAME * size) / 2), axis=0, return_inverse=True
+    )
+
+    def made(group: list[int]) -> Symbol:
+        return _block(members, position, ends, group, float(sizes[group].max()), upwards)
+
+    groups: dict[int, list[int]] = {}
+    for node, key in zip(nodes.tolist(), first.ravel().tolist(), strict=True):
+        groups.setdefault(key, []).append(node)
+    blocks = [made(group) for group in groups.values()]
+    while 1 < len(blocks) <= _MOST:
+        # Corners of some are too far apart for them to meet.
+        middle = np.array([block.corners.mean(axis=0) for block in blocks])
+        arm = np.array([block.corners[0] for block in blocks]) - middle
+        radius = np.linalg.norm(arm, axis=1)
+        near = np.linalg.norm(middle[:, None] - middle, axis=-1) < radius[:, None] + radius
+        pairs = [
+            (i, j)
+            for i, j in combinations(range(len(blocks)), 2)
+            if near[i, j] and (blocks[i].reaches(blocks[j]) or blocks[j].reaches(blocks[i]))
+        ]
+        if not pairs:
+            break
+        owner = groups_of(len(blocks), pairs).tolist()
+        joined = [
+            sorted(n for k, one in zip(owner, blocks, strict=True) if k == each for n in one.held)
+            for each in dict.fromkeys(owner)
+        ]
+        blocks = [made(group) for group in joined]
+    return sorted(blocks, key=lambda block: block.held)
+
+
+def _block(
+    members: Members,
+    position: FloatArray,
+    ends: tuple[np.ndarray, np.ndarray, FloatArray],
+    group: list[int],
+    size: float,
+    upwards: FloatArray,
+) -> Symbol:
+    """The block of some nodes."""
+    rows = np.flatnonzero(np.isin(ends[0], group))
+    node, member, away = (each[rows] for each in ends)
+    points = position[group]
+    mean = away.sum(axis=0)
+    direction = unit(mean) if np.linalg.norm(mean) > 1.0e-6 else upwards
+    frame = frames_along(direction[None])[0]
+    half = np.zeros((0, 3))
+    if rows.size:
+        widest = int(np.argmax(np.round(members.section[member].max(axis=1) / size, 9)))
+        frame = _lying(direction, members.frame[member[widest]], away[widest], points, size)
+        sides = members.section[member][:, :, None] / 2
+        corner = np.array(list(product((-1.0, 1.0), repeat=2)))
+        arms = np.einsum("kxd,kd,cd->kcx", members.frame[member][..., 1:], sides[..., 0], corner)
+        half = (position[node][:, None] + arms).reshape(-1, 3)
+    local = np.concatenate((points, half)) @ frame
+    along = points @ frame[:, 0]
+    low, high = local[:, 1:].min(axis=0), local[:, 1:].max(axis=0)
+    middle = frame @ np.array((along.max(), *((low + high) / 2)))
+    extent, depth = (high - low) / 2 + BESIDE * size, float(np.ptp(along)) + THICK * size
+    return Symbol(Support.CLAMP, tuple(sorted(group)), middle, frame, extent, depth, size)
+
+
+def _lying(
+    direction: FloatArray, own: FloatArray, away: FloatArray, points: FloatArray, size: float
+) -> FloatArray:
+    """(3, 3) the frame of a block: along the section of the widest member, or along its points.
+
+    Args:
+        direction: (3,) of what it holds.
+        own: (3, 3) frame of the widest member.
+        away: (3,) along that member, from the ground.
+        points: (n, 3) that it clamps [m].
+        size: Of the symbol [m].
+    """
+    if away @ direction > _UPRIGHT:
+        side = 1.0 if own[:, 0] @ away > 0.0 else -1.0
+        return np.asarray(own * np.array((side, 1.0, side)))
+    flat = points - points.mean(axis=0)
+    flat = flat - (flat @ direction)[:, None] * direction
+    far = flat[int(np.argmax(np.round(np.linalg.norm(flat, axis=1) / size, 9)))]
+    axis = far if np.linalg.norm(far) > _SPREAD * size else own[:, 1]
+    axis = unit(axis - (axis @ direction) * direction)
+    if not axis.any():
+        return np.asarray(frames_along(direction[None])[0])
+    return np.stack((direction, axis, np.cross(direction, axis)), axis=1)
 
 
 def _fixed(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -433,7 +323,21 @@ def _upright(direction: FloatArray) -> FloatArray:
     return made
 
 
-def _along(axis: int, outward: FloatArray) -> FloatArray:
-    """(k, 3) the axis, to the side on which the members are."""
-    side = np.where(outward[:, axis] < 0.0, -1.0, 1.0)
-    return np.asarray(side[:, None] * np.eye(3)[axis])
+def arrows_of(arrays: ModelArrays) -> tuple[np.ndarray, FloatArray, np.ndarray]:
+    """The independent coordinates of a model, those of positions first.
+
+    A rotation has one arrow, at the first position that turns with it.
+
+    Returns:
+        (a,) position nodes, (a, 3) unit vectors along or about which each moves, and (a,) whether
+        it is a rotation.
+    """
+    node, axis = np.argwhere((arrays.coordinate_class == Class.INDEPENDENT).T).T
+    pairs = turned_at(arrays)
+    place = np.full(arrays.node_kind.size, -1)
+    place[pairs[::-1, 1]] = pairs[::-1, 0]
+    turning = arrays.node_kind[node] > NodeKind.POSITION
+    node = np.where(turning, place[node], node)
+    rows = np.argsort(turning, kind="stable")
+    rows = rows[node[rows] >= 0]
+    return node[rows], np.eye(3)[axis[rows]], turning[rows]

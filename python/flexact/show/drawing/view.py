@@ -66,10 +66,6 @@ class View(Frozen):
         """Points (..., 3) to the right, up, and towards the eye."""
         return np.asarray(points @ self.axes.T)
 
-    def turned(self, degrees: float) -> View:
-        """The view from farther round."""
-        return View(self.azimuth + degrees, self.elevation)
-
 
 #: The plane x right, y up.
 FLAT = View(-90.0, 90.0)
@@ -84,7 +80,19 @@ def view_of(text: str | None, drawing: Drawing) -> View:
     asked = check_view(ISO if text is None else text)
     if drawing.planar:
         return FLAT
-    return asked or _iso(drawing)
+    if asked is not None:
+        return asked
+    # From above and the side from which members hide each other least and sheets are seen.
+    views = [View(azimuth, _ISO_ELEVATION) for azimuth in _ISO_AZIMUTHS]
+    best = views[0]
+    if not len(drawing.members):
+        return best
+    points, most = _sample(drawing), 0.0
+    for view in views:
+        seen = _seen(points, view, drawing.size) * _facing(drawing, view)
+        if view is best or seen > most * (1.0 + _BETTER):
+            best, most = view, seen
+    return best
 
 
 def check_view(text: str) -> View | None:
@@ -105,20 +113,6 @@ def check_view(text: str) -> View | None:
             "of the eye in degrees, such as -60,25"
         )
     return View(azimuth, elevation)
-
-
-def _iso(drawing: Drawing) -> View:
-    """From above and the side from which members hide each other least and sheets are seen."""
-    if not len(drawing.members):
-        return View(_ISO_AZIMUTHS[0], _ISO_ELEVATION)
-    points = _sample(drawing)
-    views = [View(azimuth, _ISO_ELEVATION) for azimuth in _ISO_AZIMUTHS]
-    seen = [_seen(points, view, drawing.size) * _facing(drawing, view) for view in views]
-    best = 0
-    for number in range(len(views)):
-        if seen[number] > seen[best] * (1.0 + _BETTER):
-            best = number
-    return views[best]
 
 
 def _facing(drawing: Drawing, view: View) -> float:

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ...analysis.result import Result, SelfStress
 from ...analysis.verdict_words import certainty_word, verdict_word
 from ...core.arrays import BoolArray, FloatArray
-from ...model.data import ModelData
 from ...model.parts.forms import forms_of
 from ...util.partial import attempted
 from ...util.records import Frozen, cached_property
@@ -124,32 +123,30 @@ _CIRCLE, _ANGLES = 0.055, (0.0, 3.9, 4.7)
 _BENDS = 20
 
 
-@dataclass(frozen=True, eq=False)
-class Symbols(Frozen):
-    """Symbols of what is declared of nodes.
+class Surface(NamedTuple):
+    """Quads.
 
     Attributes:
-        points: (n, 3) in the reference configuration [m].
-        node: (n,) index of the position node that a point goes with.
+        points: (n, 3) [m].
+        of: (n,) the point of an axis, or the position node, that each goes with.
         quads: (k, 4) points.
-        owner: (k,) number of the symbol of each quad.
-        form: (k,) what it is: see `SUPPORT`, `TRANSLATION` and `ROTATION`.
-        node_of: (symbols,) index of the position node of each symbol.
+        owner: (k,) the element, or the number of the symbol, of each quad.
     """
 
     points: FloatArray
-    node: Integers
+    of: Integers
     quads: Integers
     owner: Integers
-    form: Integers
-    node_of: Integers
 
-    def in_words(self, node_names: Sequence[str]) -> list[str]:
-        """What each symbol is called."""
-        forms = np.zeros(len(self.node_of), np.int64)
-        forms[self.owner] = self.form
-        pairs = zip(forms.tolist(), self.node_of.tolist(), strict=True)
-        return [f"{_WORDS[form]} {node_names[node]}" for form, node in pairs]
+
+def _joined(surfaces: Iterable[Surface]) -> Surface:
+    """Surfaces as one."""
+    none = np.zeros(0, np.int64)
+    made, behind = [Surface(np.zeros((0, 3)), none, np.zeros((0, 4), np.int64), none)], 0
+    for each in surfaces:
+        made.append(each._replace(quads=behind + each.quads))
+        behind += len(each.points)
+    return Surface(*(np.concatenate(part) for part in zip(*made, strict=True)))
 
 
 _WORDS = {
@@ -176,47 +173,19 @@ def _tube_quads(rings: FloatArray) -> Integers:
     return np.concatenate((sides, end[:, ::-1], end + c * (r - 1)))
 
 
-def symbols_of(drawing: Drawing) -> Symbols:
-    """The symbols of a drawing."""
-    supports, position = drawing.supports, drawing.reference.position
-    made = [
-        (node, SUPPORT + kind, rings)
-        for row, (node, kind) in enumerate(
-            zip(supports.node.tolist(), supports.kind.tolist(), strict=True)
-        )
-        for rings, _ in supports.solids(row, position[node], _ROUND, _TIP)
-    ]
-    made += _arrows(drawing)
-    points, quads, behind = [np.zeros((0, 3))], [np.zeros((0, 4), np.int64)], 0
-    nodes, owners, forms = [], [], []
-    for number, (node, form, rings) in enumerate(made):
-        corners, faces = rings.reshape(-1, 3), _tube_quads(rings)
-        points.append(corners)
-        quads.append(behind + faces)
-        behind += len(corners)
-        nodes += [node] * len(corners)
-        owners += [number] * len(faces)
-        forms += [form] * len(faces)
-    return Symbols(
-        np.concatenate(points),
-        np.array(nodes, np.int64),
-        np.concatenate(quads),
-        np.array(owners, np.int64),
-        np.array(forms, np.int64),
-        np.array([node for node, _, _ in made], np.int64),
-    )
-
-
-def _arrows(drawing: Drawing) -> Iterator[tuple[int, int, FloatArray]]:
-    arrows = drawing.arrows
-    frames = frames_along(arrows.direction)
-    for row in range(len(arrows)):
-        node = int(arrows.node[row])
-        place = drawing.reference.position[node]
-        if arrows.turning[row]:
-            yield node, ROTATION, _bent(place, frames[row], drawing.size)
+def symbols_of(drawing: Drawing) -> Iterator[tuple[int, int, FloatArray]]:
+    """The symbols of a drawing: position node, form, and rings (r, c, 3) [m]."""
+    reference = drawing.reference
+    for each in drawing.supports:
+        for rings, _ in each.solids(each.at(reference, reference), _ROUND, _TIP):
+            yield each.held[0], SUPPORT + each.kind, rings
+    nodes, direction, turning = drawing.arrows
+    for node, frame, turns in zip(nodes.tolist(), frames_along(direction), turning, strict=True):
+        place = reference.position[node]
+        if turns:
+            yield node, ROTATION, _bent(place, frame, drawing.size)
         else:
-            yield node, TRANSLATION, rings_about(place, frames[row], _ARROW, drawing.size, _ROUND)
+            yield node, TRANSLATION, rings_about(place, frame, _ARROW, drawing.size, _ROUND)
 
 
 def _bent(place: FloatArray, frame: FloatArray, size: float) -> FloatArray:
@@ -231,14 +200,6 @@ def _bent(place: FloatArray, frame: FloatArray, size: float) -> FloatArray:
     across = np.cos(corner)[:, None] * outwards[:, None] - np.sin(corner)[:, None] * frame[:, 0]
     middle = place + _CIRCLE * size * outwards
     return np.asarray(middle[:, None] + radius[:, None, None] * across)
-
-
-NO_SYMBOLS = Symbols(
-    np.zeros((0, 3)),
-    np.zeros(0, np.int64),
-    np.zeros((0, 4), np.int64),
-    *(np.zeros(0, np.int64) for _ in range(3)),
-)
 
 
 #: Lines along a member that bends.
@@ -289,9 +250,9 @@ class Layout(Frozen):
         place, turn, _ = self.drawing.hinges.nodes.T
         moved = [np.where((place >= 0)[:, None], displacement[place], 0.0)]
         turned = [rotation[turn]]
-        for field in field_along(self.drawing.members, displacement, rotation, SEGMENTS):
-            moved.append(field.displacement.reshape(-1, 3))
-            turned.append(field.rotation.reshape(-1, 3))
+        for _, way, turns in field_along(self.drawing.members, displacement, rotation, SEGMENTS):
+            moved.append(way.reshape(-1, 3))
+            turned.append(turns.reshape(-1, 3))
         about = np.concatenate(turned)[self.axis_point]
         made = np.concatenate(moved)[self.axis_point]
         skin = slice(len(self.frame), None)
@@ -321,30 +282,27 @@ def layout_of(drawing: Drawing, pose: Pose, skinned: BoolArray) -> Layout:
     hinges = axes_of(drawing.hinges, pose)
     moved = pose is not drawing.reference
     members = tuple(stations(drawing.members, pose, SEGMENTS) if moved else _straight(drawing))
-    axes = np.concatenate([each.centre.reshape(-1, 3) for each in (hinges, *members)])
-    frame = np.concatenate([each.frame.reshape(-1, 3, 3) for each in (hinges, *members)])
-    lines, of_lines, nodes = _lines(drawing, hinges.member.size, members)
+    strips = (hinges, *members)
+    axes = np.concatenate([each.centre.reshape(-1, 3) for each in strips])
+    frame = np.concatenate([each.frame.reshape(-1, 3, 3) for each in strips])
+    # The first point of each strip.
+    starts = np.cumsum([0, *(each.member.size * each.at.size for each in strips)]).tolist()
+    lines, of_lines, nodes = _lines(drawing, starts[1:], members)
     itself = skinned.copy()
     itself[drawing.members.index[drawing.in_solid]] = False
-    skin = list(_skins(drawing, (hinges, *members), itself))
-    skin += _bodies(drawing, pose, (hinges, *members), skinned)
-    quads, behind = [np.zeros((0, 4), np.int64)], len(axes)
-    for each in skin:
-        quads.append(behind + each.quads.reshape(-1, 4))
-        behind += len(each.points)
-    owners = [np.repeat(each.element, each.quads.shape[1]) for each in skin]
+    own = _joined(_skins(drawing, starts, strips, itself))
+    skin = _joined((own, *_bodies(drawing, pose, starts[1:], members, skinned)))
+    points = np.concatenate((axes, skin.points))
     return Layout(
         drawing,
-        np.concatenate((axes, *(each.points for each in skin))),
+        points,
         frame,
         nodes,
-        np.concatenate((np.arange(len(axes)), *(each.axis_point for each in skin))),
-        np.concatenate(
-            (np.ones(len(axes), bool), *(np.full(len(each.points), each.stressed) for each in skin))
-        ),
+        np.concatenate((np.arange(len(axes)), skin.of)),
+        np.arange(len(points)) < len(axes) + len(own.points),
         tuple((each.member, each.at) for each in members),
-        (np.arange(hinges.member.size)[:, None], lines, np.concatenate(quads)),
-        np.concatenate((drawing.hinges.index, of_lines, *owners)),
+        (np.arange(hinges.member.size)[:, None], lines, len(axes) + skin.quads),
+        np.concatenate((drawing.hinges.index, of_lines, skin.owner)),
     )
 
 
@@ -360,12 +318,12 @@ def _straight(drawing: Drawing) -> Iterator[Strip]:
 
 
 def _lines(
-    drawing: Drawing, behind: int, strips: tuple[Strip, ...]
+    drawing: Drawing, starts: list[int], strips: tuple[Strip, ...]
 ) -> tuple[Integers, Integers, Integers]:
     """Points of the lines, their elements, and the nodes of the points of all axes."""
     lines, owners = [np.zeros((0, 2), np.int64)], [np.zeros(0, np.int64)]
     nodes = [drawing.hinges.nodes[:, 0]]
-    for strip in strips:
+    for behind, strip in zip(starts, strips, strict=False):
         count = strip.at.size
         first = behind + np.arange(strip.member.size)[:, None] * count + np.arange(count - 1)
         lines.append(np.stack((first, first + 1), axis=-1).reshape(-1, 2))
@@ -373,70 +331,56 @@ def _lines(
         at_ends = np.full((strip.member.size, count), -1)
         at_ends[:, [0, -1]] = drawing.members.nodes[strip.member][:, [0, 2]]
         nodes.append(at_ends.ravel())
-        behind += strip.member.size * count
     return np.concatenate(lines), np.concatenate(owners), np.concatenate(nodes)
 
 
-@dataclass(frozen=True, eq=False)
-class _Skin:
-    """Surfaces: points (m, 3), their points of axes (m,), faces (k, f, 4), elements (k,).
-
-    And whether they have the stress of their elements.
-    """
-
-    points: FloatArray
-    axis_point: Integers
-    quads: Integers
-    element: Integers
-    stressed: bool = True
-
-
-def _skins(drawing: Drawing, strips: tuple[Strip, ...], skinned: BoolArray) -> Iterator[_Skin]:
+def _skins(
+    drawing: Drawing, starts: list[int], strips: tuple[Strip, ...], skinned: BoolArray
+) -> Iterator[Surface]:
     """The surfaces of the hinges, which are the first strip, and of the members."""
-    behind = 0
-    for number, strip in enumerate(strips):
+    for number, (behind, strip) in enumerate(zip(starts, strips, strict=False)):
         index = (drawing.members if number else drawing.hinges).index[strip.member]
         rows = np.flatnonzero(skinned[index])
         part = Strip(strip.member[rows], strip.at, strip.centre[rows], strip.frame[rows])
         for each in (
             solid(part, drawing.members, drawing.planar)
             if number
-            else cylinders(part, drawing.hinges, drawing.planar, _CORNERS)
+            else cylinders(part, drawing.size, drawing.planar, _CORNERS)
         ):
             k, s, c, _ = each.points.shape
             # A disc is seen from the side to which z points.
             quads = each.quads[:, -_DISC:] if s == 1 else each.quads
             station = np.minimum(np.arange(s), strip.at.size - 1)[None, :, None]
             owner = behind + rows[each.strip][:, None, None] * strip.at.size + station
-            yield _Skin(
+            yield Surface(
                 each.points.reshape(-1, 3),
                 np.broadcast_to(owner, (k, s, c)).ravel(),
-                quads,
-                index[rows][each.strip],
+                quads.reshape(-1, 4),
+                np.repeat(index[rows][each.strip], quads.shape[1]),
             )
-        behind += strip.member.size * strip.at.size
 
 
 def _bodies(
-    drawing: Drawing, pose: Pose, strips: tuple[Strip, ...], skinned: BoolArray
-) -> Iterator[_Skin]:
+    drawing: Drawing,
+    pose: Pose,
+    starts: list[int],
+    strips: tuple[Strip, ...],
+    skinned: BoolArray,
+) -> Iterator[Surface]:
     """The surfaces of bodies that are solids, as those of their first elements."""
     first: dict[int, int] = {}
-    behind = strips[0].member.size
-    for strip in strips[1:]:
-        starts = behind + np.arange(strip.member.size) * strip.at.size
-        first.update(zip(strip.member.tolist(), starts.tolist(), strict=True))
-        behind += strip.member.size * strip.at.size
+    for behind, strip in zip(starts, strips, strict=False):
+        points = behind + np.arange(strip.member.size) * strip.at.size
+        first.update(zip(strip.member.tolist(), points.tolist(), strict=True))
     for body in drawing.solids:
         row = int(body.rows[0])
         index = drawing.members.index[row]
         if not skinned[index]:
             continue
-        corners = body.placed(drawing.members, drawing.reference, pose).corners
-        points = body.quads(corners).reshape(-1, 3)
-        quads = np.arange(len(points)).reshape(1, -1, 4)
-        owner = np.full(len(points), first[row])
-        yield _Skin(points, owner, quads, np.array([index]), stressed=False)
+        corners, _ = body.placed(drawing.members, drawing.reference, pose)
+        place = body.quads(corners).reshape(-1, 3)
+        quads = np.arange(len(place)).reshape(-1, 4)
+        yield Surface(place, np.full(len(place), first[row]), quads, np.full(len(quads), index))
 
 
 #: With more elements than these there are no surfaces, and no motion is looked for that the
@@ -523,7 +467,19 @@ class Meshes:
         drawn = analysis.given.appearance.drawn
         self.skinned = drawn if self.small else np.zeros_like(drawn)
         self.reference = layout_of(self.drawing, self.drawing.reference, self.skinned)
-        self.symbols = symbols_of(self.drawn) if self.small else NO_SYMBOLS
+        made = list(symbols_of(self.drawn)) if self.small else []
+        surfaces = []
+        for number, (node, _, rings) in enumerate(made):
+            points, quads = rings.reshape(-1, 3), _tube_quads(rings)
+            owner = np.full(len(quads), number)
+            surfaces.append(Surface(points, np.full(len(points), node), quads, owner))
+        self.symbols = _joined(surfaces)
+        self.forms = np.array([form for _, form, _ in made], np.int64)
+        given = analysis.given
+        nodes = zip(given.node_names, given.arrays.node_number.tolist(), strict=True)
+        places = [name or f"node {number}" for name, number in nodes]
+        told = [f"{_WORDS[form]} {places[node]}" for node, form, _ in made]
+        self.names = [*given.element_names, *told]
 
     @cached_property
     def drawn(self) -> Drawing:
@@ -534,7 +490,11 @@ class Meshes:
     def drawing(self) -> Drawing:
         """The drawing with what is not drawn, too."""
         data = self.analysis.given
-        return self.drawn if data.appearance.drawn.all() else drawing_of(_all_drawn(data))
+        if data.appearance.drawn.all():
+            return self.drawn
+        drawn = np.ones_like(data.appearance.drawn)
+        appearance = replace(data.appearance, drawn=drawn)
+        return drawing_of(replace(data, given_appearance=appearance))
 
     @property
     def most_modes(self) -> int:
@@ -562,7 +522,7 @@ class Meshes:
         here, start = layout_of(self.drawing, pose, self.skinned), self.reference
         turned = vector_of(here.frame @ np.swapaxes(start.frame, -1, -2))[start.axis_point]
         # Symbols go with their nodes.
-        node, start_of = self.symbols.node, self.drawing.reference.position
+        node, start_of = self.symbols.of, self.drawing.reference.position
         symbols = self.symbols.points + (pose.position[node] - start_of[node])
         points = np.concatenate((here.points, symbols))
         away = points - np.concatenate((start.points, self.symbols.points))
@@ -573,37 +533,30 @@ class Meshes:
     ) -> tuple[FloatArray, FloatArray]:
         """(n, 3) displacements and rotations of all points, to first order: symbols go along."""
         moved, turned = self.reference.motion(displacement, rotation)
-        along = displacement[self.symbols.node]
+        along = displacement[self.symbols.of]
         return np.concatenate((moved, along)), np.concatenate((turned, np.zeros_like(along)))
 
     def _made(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
         """The mesh with these points, displacements and rotations, (n, 3) each."""
         values = {"displacement": moved, "rotation": turned, **self._of_analysis}
-        symbols, given = self.symbols, self.analysis.given
         vertices, lines, quads = self.reference.corners
-        behind = len(self.reference.points)
+        behind, symbols = len(self.reference.points), self.symbols
         corners = (vertices, lines, np.concatenate((quads, behind + symbols.quads)))
-        nodes = zip(given.node_names, given.arrays.node_number.tolist(), strict=True)
-        places = [name or f"node {number}" for name, number in nodes]
-        names = [*given.element_names, *symbols.in_words(places)]
-        element = np.concatenate((self.reference.element, len(given.element_names) + symbols.owner))
-        return Mesh(points, corners, values, self._of_cells, self._of_all, names, element)
+        number = len(self.analysis.given.element_names) + symbols.owner
+        element = np.concatenate((self.reference.element, number))
+        data = values, self._of_cells, field_data_of(self.analysis)
+        return Mesh(points, corners, *data, self.names, element)
 
     @cached_property
     def _of_cells(self) -> dict[str, NDArray[np.generic]]:
         """Cell data: a symbol has a form alone."""
         arrays, element = self.analysis.given.arrays, self.reference.element
         nothing = np.zeros(len(self.symbols.quads), np.int64)
-        made: dict[str, NDArray[np.generic]] = {
+        return {
             "element": np.append(arrays.element_number.astype(np.int64)[element], nothing),
             "kind": np.append(arrays.element_kind.astype(np.int64)[element], nothing),
-            "form": np.append(forms_of(arrays)[0][element], self.symbols.form),
+            "form": np.append(forms_of(arrays)[0][element], self.forms[self.symbols.owner]),
         }
-        return made
-
-    @cached_property
-    def _of_all(self) -> dict[str, NDArray[np.generic]]:
-        return field_data_of(self.analysis)
 
     @cached_property
     def _of_analysis(self) -> dict[str, NDArray[np.generic]]:
@@ -622,8 +575,3 @@ class Meshes:
                 name = quantity.replace("-", "_").replace(" ", "_")
                 values[f"selfstress_{k}_{name}"] = np.append(of_points, symbols)
         return values
-
-
-def _all_drawn(data: ModelData) -> ModelData:
-    drawn = np.ones_like(data.appearance.drawn)
-    return replace(data, given_appearance=replace(data.appearance, drawn=drawn))

@@ -12,7 +12,7 @@ import shutil
 import sys
 import tempfile
 import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -53,7 +53,7 @@ def find_format(name: str) -> str:
     known = name.lower().removeprefix(".")
     if known not in FORMATS:
         raise unknown_format(name)
-    _meshio()
+    _module("meshio")
     return known
 
 
@@ -66,12 +66,15 @@ def unknown_format(name: str) -> MeshFormatError:
     )
 
 
-def _meshio() -> ModuleType:
+def _module(name: str) -> ModuleType:
     try:
-        return import_module("meshio")
+        return import_module(name)
     except ImportError as error:
+        what, package = "mesh files need", name
+        if name != "meshio":
+            what, package = "mesh format vtp needs", "vtk"
         raise MeshFormatError(
-            f"mesh files need the package meshio: pip install meshio ({error})"
+            f"{what} the package {package}: pip install {package} ({error})"
         ) from error
 
 
@@ -85,7 +88,7 @@ def mesh_bytes(mesh: Mesh, form: str) -> bytes:
     try:
         with _temporary_folder() as folder, _placeholder_for_h5py(form):
             path = folder / f"mesh.{form}"
-            _meshio().write(path, mesh.to_meshio(), file_format=form, **FORMATS[form])
+            _module("meshio").write(path, mesh.to_meshio(), file_format=form, **FORMATS[form])
             content = path.read_bytes()
     except MemoryError as error:
         raise OutputError("there is not enough memory for the mesh") from error
@@ -101,32 +104,21 @@ def _completed(content: bytes, data: Mapping[str, NDArray[np.generic]]) -> bytes
     ParaView warps by `displacement` unless told otherwise.
     """
     components = component_names(data)
-    arrays = b"".join(
-        _array(name, values, components.get(name, [])) for name, values in data.items()
-    )
+    arrays = b""
+    for name, values in data.items():
+        told = "".join(
+            f" ComponentName{k}={quoteattr(harmless(words))}"
+            for k, words in enumerate(components.get(name, []))
+        )
+        if values.ndim > 1:
+            told = f' NumberOfComponents="{values.shape[1]}"{told}'
+        head = (
+            f'<DataArray type="{_TYPES[values.dtype.name]}" Name={quoteattr(name)}{told} '
+            f'NumberOfTuples="{len(values)}" format="binary">\n'
+        )
+        arrays += head.encode() + _encoded(values.tobytes()) + b"\n</DataArray>\n"
     content = content.replace(_GRID, _GRID + b"<FieldData>\n" + arrays + b"</FieldData>\n", 1)
     return content.replace(_POINTS, b'<PointData Vectors="displacement">\n', 1)
-
-
-def _array(name: str, values: NDArray[np.generic], components: Sequence[str]) -> bytes:
-    """An array of field data."""
-    many = values.shape[1] if values.ndim > 1 else 1
-    told = "".join(
-        f" ComponentName{k}={quoteattr(harmless(words))}" for k, words in enumerate(components)
-    )
-    if many > 1 or values.ndim > 1:
-        told = f' NumberOfComponents="{many}"{told}'
-    head = (
-        f'<DataArray type="{_TYPES[values.dtype.name]}" Name={quoteattr(name)}{told} '
-        f'NumberOfTuples="{len(values)}" format="binary">\n'
-    )
-    return head.encode() + _encoded(values.tobytes()) + b"\n</DataArray>\n"
-
-
-def cell_names(mesh: Mesh) -> list[str]:
-    """The name of each cell's element or symbol as VTK can keep it."""
-    names = list(map(spelt, mesh.names))
-    return [names[i] for i in mesh.element.tolist()]
 
 
 def _encoded(raw: bytes) -> bytes:
@@ -171,7 +163,7 @@ def polydata_bytes(mesh: Mesh) -> bytes:
     Raises:
         MeshFormatError: The package vtk is not installed, or fails.
     """
-    writer = _module("vtkIOXML").vtkXMLPolyDataWriter()
+    writer = _module("vtkmodules.vtkIOXML").vtkXMLPolyDataWriter()
     writer.SetInputData(_polydata(mesh))
     writer.SetWriteToOutputString(True)
     # Text alone: a string of Python's holds no raw bytes.
@@ -188,28 +180,23 @@ def require_polydata(_suffix: str = "") -> None:
     Raises:
         MeshFormatError: The package vtk is not installed.
     """
-    _module("vtkIOXML")
-
-
-def _module(name: str) -> ModuleType:
-    try:
-        return import_module(f"vtkmodules.{name}")
-    except ImportError as error:
-        raise MeshFormatError(
-            f"mesh format vtp needs the package vtk: pip install vtk ({error})"
-        ) from error
+    _module("vtkmodules.vtkIOXML")
 
 
 def _polydata(mesh: Mesh) -> Any:
-    to_vtk: Callable[..., Any] = _module("util.numpy_support").numpy_to_vtk
-    made = _module("vtkCommonDataModel").vtkPolyData()
-    points = _module("vtkCommonCore").vtkPoints()
+    to_vtk: Callable[..., Any] = _module("vtkmodules.util.numpy_support").numpy_to_vtk
+    made = _module("vtkmodules.vtkCommonDataModel").vtkPolyData()
+    points = _module("vtkmodules.vtkCommonCore").vtkPoints()
     points.SetData(to_vtk(np.ascontiguousarray(mesh.points), deep=True))
     made.SetPoints(points)
+    to_cells = _module("vtkmodules.util.numpy_support").numpy_to_vtkIdTypeArray
     for take, corners in zip(
         (made.SetVerts, made.SetLines, made.SetPolys), mesh.corners, strict=True
     ):
-        take(_cells(corners))
+        cells = _module("vtkmodules.vtkCommonDataModel").vtkCellArray()
+        offsets = np.arange(len(corners) + 1) * corners.shape[1]
+        cells.SetData(to_cells(offsets, deep=True), to_cells(corners.ravel().copy(), deep=True))
+        take(cells)
     for place, data in (
         (made.GetPointData(), mesh.point_data),
         (made.GetCellData(), mesh.cell_data),
@@ -220,27 +207,15 @@ def _polydata(mesh: Mesh) -> Any:
             array.SetName(name)
             place.AddArray(array)
     made.GetPointData().SetActiveVectors("displacement")
-    made.GetCellData().AddArray(_names(mesh))
+    names = _module("vtkmodules.vtkCommonCore").vtkStringArray()
+    names.SetName("name")
+    names.SetNumberOfValues(len(mesh.element))
+    known = list(map(spelt, mesh.names))
+    for i, element in enumerate(mesh.element.tolist()):
+        names.SetValue(i, known[element])
+    made.GetCellData().AddArray(names)
     for name, words in component_names(mesh.field_data).items():
         # Names of elements are strings here.
         if len(words) == 1 and name != "element_number":
             made.GetFieldData().GetArray(name).SetComponentName(0, words[0])
-    return made
-
-
-def _cells(corners: np.ndarray) -> Any:
-    to_vtk = _module("util.numpy_support").numpy_to_vtkIdTypeArray
-    made = _module("vtkCommonDataModel").vtkCellArray()
-    offsets = np.arange(len(corners) + 1) * corners.shape[1]
-    made.SetData(to_vtk(offsets, deep=True), to_vtk(corners.ravel().copy(), deep=True))
-    return made
-
-
-def _names(mesh: Mesh) -> Any:
-    made = _module("vtkCommonCore").vtkStringArray()
-    made.SetName("name")
-    names = cell_names(mesh)
-    made.SetNumberOfValues(len(names))
-    for i, name in enumerate(names):
-        made.SetValue(i, name)
     return made

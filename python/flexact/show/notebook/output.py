@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The viewer as one script for all results of a notebook, and the name of their element."""
+"""What notebooks show: a result, a row of results, their parts, and a model in the making.
+
+The viewer is one script for all results of a notebook, and defines their element.
+"""
 
 from __future__ import annotations
 
@@ -10,27 +13,46 @@ import hashlib
 import json
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterable, Sequence
-from functools import cache
+from functools import cache, partial
 from html import escape
 from importlib import resources
-from typing import Any
+from typing import Any, overload
+
+import numpy as np
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
-from ...analysis.result import Result
-from ...analysis.verdict_words import margin_in_short
-from ...util.partial import attempted
+from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
+from ...analysis.naming import Pieces, counted, plain
+from ...analysis.places import listed
+from ...analysis.result import Modes, Motion, Result, SelfStress
+from ...analysis.verdict_words import margin_in_short, verdict_word
+from ...core.elements import Class, NodeKind
+from ...deck.rendering import ProblemsError
+from ...model.data import ModelData
+from ...model.parts.parts import PartKind, Parts
+from ...util.errors import require_kind
+from ...util.partial import attempted, why
+from ...util.text import file_name, harmless
 from ..page.assets import SCRIPTS, asset, image, text
-from ..page.content import content_of
-from ..picture import still_of
+from ..page.content import content_of, kind_of
+from ..picture import has_packages, model_bytes, still_of
 from ..picture.files import fewer_colours
 from ..writers import as_bytes
 
 #: What starts a page from disk is left out.
 _START = "start.js"
+#: What of the page's styles becomes what, of a tree of its own.
+_RULES = (
+    (re.escape(':root[data-theme="dark"]'), ':host([data-theme="dark"])'),
+    (re.escape(':root:not([data-theme="light"])'), ":host(:not([data-theme]))"),
+    (r":root\b", ":host"),
+    (r"(?m)^(\s*)body \{", r"\1.page {"),
+    (r"@media \((m(?:in|ax)-width: [^)]*)\)", r"@container (\1)"),
+    (r"(?<![\w.])(\d*\.?\d+)vw\b", r"\1cqw"),
+)
 _REM = re.compile(r"(?<![\w.])(\d*\.?\d+)rem\b")
-_VW = re.compile(r"(?<![\w.])(\d*\.?\d+)vw\b")
-_WIDTHS = re.compile(r"@media \((m(?:in|ax)-width: [^)]*)\)")
 
 
 @cache
@@ -77,13 +99,9 @@ def style() -> str:
     a notebook has; light and dark stand on the host.
     """
     made = asset("style.css")
-    made = made.replace(':root[data-theme="dark"]', ':host([data-theme="dark"])')
-    made = made.replace(':root:not([data-theme="light"])', ":host(:not([data-theme]))")
-    made = re.sub(r":root\b", ":host", made)
-    made = re.sub(r"(?m)^(\s*)body \{", r"\1.page {", made)
     made += resources.files(__package__).joinpath("notebook.css").read_text("utf-8")
-    made = _WIDTHS.sub(r"@container (\1)", made)
-    made = _VW.sub(r"\1cqw", made)
+    for pattern, instead in _RULES:
+        made = re.sub(pattern, instead, made)
     return _REM.sub(lambda found: f"{16 * float(found[1]):g}px", made)
 
 
@@ -178,33 +196,22 @@ def shown(content: bytes, size: tuple[int, int], words: str) -> str:
 _CELL = "text-align:left;vertical-align:top;padding:6px 10px;white-space:normal"
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]], title: str = "") -> str:
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table.
 
     Args:
         heads: Of the columns, as text.
         rows: Cells, as HTML.
-        title: Above it, as HTML.
     """
     head = "".join(f"<th style='{_CELL}'>{text(each)}</th>" for each in heads)
     body = "".join(
         "<tr>" + "".join(f"<td style='{_CELL}'>{cell}</td>" for cell in row) + "</tr>"
         for row in rows
     )
-    told = f"<p>{title}</p>" if title else ""
     return (
-        f"<div style='overflow-x:auto'>{told}<table><thead><tr>{head}</tr></thead>"
+        f"<div style='overflow-x:auto'><table><thead><tr>{head}</tr></thead>"
         f"<tbody>{body}</tbody></table></div>"
     )
-
-
-def verdict(colour: str, sign: str, words: str) -> str:
-    """A verdict with its colour and its sign."""
-    mark = (
-        f"<span style='display:inline-block;min-width:1.4em;padding:0 .4em;border-radius:1em;"
-        f"background:{colour};color:#fff;text-align:center'>{sign}</span>"
-    )
-    return f"{mark} {text(words)}"
 
 
 _HOW = (
@@ -258,3 +265,171 @@ def viewer() -> Viewer:
     cleared, and in a copy of some cells.
     """
     return Viewer()
+
+
+#: How many parts a row tells.
+_PARTS = 6
+
+
+def html_of_part(analysis: Result, what: object) -> str | None:
+    """A motion, a self-stress, or a row of them as a table; None of anything else."""
+    if isinstance(what, Modes):
+        return _table(analysis, what.kind is Motion, tuple(what[:MOST_MODES]), len(what))
+    if isinstance(what, (Motion, SelfStress)):
+        return _table(analysis, isinstance(what, Motion), (what,), 1)
+    return None
+
+
+def _table(analysis: Result, moves: bool, modes: Sequence[Motion | SelfStress], count: int) -> str:
+    what = "motion" if moves else "self-stress"
+    if not count:
+        return f"<p>No {what}{'s' if moves else 'es'}.</p>"
+    missing: list[str] = []
+    rows = [
+        row
+        for k, mode in enumerate(modes, start=1)
+        if (row := attempted(f"Row {k}", partial(_row, analysis, mode), None, missing))
+    ]
+    heads = ("", "", "what moves, and how" if moves else "what is stressed, and with what")
+    note = "Relative values: only their ratios matter."
+    if count > len(rows):
+        note += f" Of {count} the first {len(rows)} are shown."
+    note += "".join(f" {each}" for each in missing)
+    if len(modes) > 1:
+        note += " They are one basis of many: any combination of them is also one."
+    return f"{table(heads, rows)}<p><small>{text(note)}</small></p>"
+
+
+def _row(analysis: Result, mode: Motion | SelfStress) -> tuple[str, str, str]:
+    number = mode.index + 1
+    if isinstance(mode, Motion):
+        title, parts = f"Motion {number}", motion_in_parts(mode, _PARTS)
+        lead: Pieces = ()
+        picture = still(analysis, SMALL, title, motion=number)
+    else:
+        title, lead = f"Self-stress {number}", conflict_in_words(mode)
+        parts = stress_in_parts(mode, _PARTS)
+        picture = still(analysis, SMALL, title, stress=number)
+    items = "".join(f"<li>{text(plain(each))}</li>" for each in parts[:_PARTS])
+    more = "<li>\N{HORIZONTAL ELLIPSIS}</li>" if len(parts) > _PARTS else ""
+    start = f"{text(plain(lead))}:" if lead else ""
+    told = f"{start}<ul style='margin:0;padding-left:1.2em'>{items}{more}</ul>"
+    return f"<b>{title}</b>", picture, told
+
+
+_PLURALS = {PartKind.BODY: "bodies"}
+
+
+def html_of_model(data: ModelData) -> str:
+    """What a model is made of so far, a picture of it, and what is wrong with it."""
+    name = f"<b>{text(data.name)}</b><br>" if data.name else ""
+    told = ""
+    try:
+        data.require_sound()
+    except ProblemsError as error:
+        first = error.diagnostics[0]
+        problems = f"It cannot be analysed yet: {first.message}.", first.help or ""
+        told = "".join(f"<br>{text(each)}" for each in problems if each)
+    return f"<div><p>{name}{text(_made_of(data))}{told}</p>{_picture(data)}</div>"
+
+
+def _made_of(data: ModelData) -> str:
+    """Such as "2 sheets and 1 body; 8 nodes, 4 of them fixed; 1 degree of freedom declared."."""
+    arrays = data.arrays
+    elements, nodes = arrays.element_number.size, arrays.node_number.size
+    if not elements:
+        return "A model without elements so far."
+    kinds = Counter(part.kind for part in Parts(data).all)
+    parts = listed(
+        [
+            f"{count} {kind.value if count == 1 else _PLURALS.get(kind, f'{kind.value}s')}"
+            for kind, count in kinds.items()
+        ]
+    )
+    classes = arrays.coordinate_class
+    held = np.any(classes == Class.FIXED, axis=0) & (arrays.node_kind <= NodeKind.POSITION)
+    supports = int(np.count_nonzero(held))
+    free = int(np.count_nonzero(classes == Class.INDEPENDENT))
+    free += int(np.count_nonzero(arrays.deformation_class == Class.INDEPENDENT))
+    return (
+        f"{parts} ({elements} elements, {nodes} nodes); "
+        f"{counted(supports, 'point', '', 's')} held; "
+        f"{counted(free, 'degree', '', 's')} of freedom declared. Not analysed yet."
+    )
+
+
+def _picture(data: ModelData) -> str:
+    if not has_packages() or not data.arrays.element_number.size:
+        return ""
+    try:
+        content = model_bytes(data, WHOLE)
+    except Exception as error:
+        # A model that is not sound may have no drawing.
+        if not data.problems.errors:
+            why(error)
+        return ""
+    return shown(content, WHOLE, "the model in its reference shape")
+
+
+#: How many rows have a picture: each takes some tenths of a second.
+MOST_PICTURES = 40
+_HEADS = ("", "mechanism", "verdict", "motions", "self-stresses", "margin")
+
+
+class Results(Sequence[Result]):
+    """Results in a row, which a notebook shows as a table with pictures.
+
+    Args:
+        results: Results of `analyse`, such as those of some designs.
+
+    Raises:
+        TypeError: One of them is no result.
+    """
+
+    def __init__(self, results: Iterable[Result]) -> None:
+        """Keep them in their order."""
+        self._all = tuple(results)
+        for each in self._all:
+            require_kind(each, Result, "a table of results holds results of analyse()")
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self._all)
+
+    @overload
+    def __getitem__(self, index: int) -> Result: ...
+    @overload
+    def __getitem__(self, index: slice) -> Results: ...
+    def __getitem__(self, index: int | slice) -> Result | Results:
+        """One of them, or several."""
+        return Results(self._all[index]) if isinstance(index, slice) else self._all[index]
+
+    def __repr__(self) -> str:
+        """A line each."""
+        rows = [_words(each) for each in self._all]
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = (
+            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+            for row in rows
+        )
+        return "\n".join(lines) or "no results"
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for k, each in enumerate(self._all):
+            name, word, *others = _words(each)
+            words = str(verdict_in_words(each))
+            picture = still(each, SMALL, words) if k < MOST_PICTURES else ""
+            sign = (
+                "<span style='display:inline-block;min-width:1.4em;padding:0 .4em;"
+                f"border-radius:1em;background:{each.colour};color:#fff;text-align:center'>"
+                f"{kind_of(each)[1]}</span> {text(word)}"
+            )
+            rows.append((picture, f"<b>{text(name)}</b>", sign, *map(text, others)))
+        return table(_HEADS, rows) if rows else "<p>No results.</p>"
+
+
+def _words(result: Result) -> tuple[str, ...]:
+    name = harmless(file_name(result.name)) or "model"
+    counts = str(result.under_constrained), str(result.over_constrained)
+    return name, verdict_word(result), *counts, margin_in_short(result)

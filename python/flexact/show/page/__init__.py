@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A result as one HTML file that opens offline."""
 
-from .compare import Pair, before_and_after, changes_part, compare_page
+from .compare import Side, before_and_after, designs_page
 from .content import Content, broken_content, broken_page, content_of, page, reason_in_words
-from .designs import Side, designs_page
 from .index import (
     Entry,
+    Pair,
     broken_entry,
+    changes_part,
+    compare_page,
     entry_of,
     index_page,
     index_pieces,

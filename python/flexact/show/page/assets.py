@@ -162,12 +162,11 @@ def link(kind: str, number: int, words: str) -> str:
     return f'<button type="button" class="link" data-{kind}="{number}">{text(words)}</button>'
 
 
-def table(heads: Sequence[str], rows: Iterable[str], caption: str = "", kind: str = "") -> str:
+def table(heads: Sequence[str], rows: Iterable[str], kind: str) -> str:
     """A table of rows that are HTML already."""
-    told = f"<caption>{text(caption)}</caption>" if caption else ""
     cells = "".join(f'<th scope="col">{text(head)}</th>' for head in heads)
     head = f"<thead><tr>{cells}</tr></thead>" if any(heads) else ""
-    return f'<table class="{kind}">{told}{head}<tbody>{"".join(rows)}</tbody></table>'
+    return f'<table class="{kind}">{head}<tbody>{"".join(rows)}</tbody></table>'
 
 
 def row(head: str, *cells: str, about: str = "") -> str:

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ..charts import STYLES, Bar, BarChart, Chart, Curve, Mark, Row, Scale, apart, mark_side, told
+from ..charts import STYLES, Bar, BarChart, Chart, Curve, Mark, Row, Scale, apart, mark_side
+from ..charts import told as in_unit
 from .assets import text
 
 #: Width of a chart and size of its letters; its height, and margins above and below.
@@ -35,7 +36,13 @@ def chart_svg(chart: Chart) -> str:
         *_names(place, chart),
         words((left + right) / 2, _HEIGHT - 8.0, chart.along, "soft middle"),
     )
-    return svg(chart.name, _HEIGHT, _told(chart), body)
+    ends = ", ".join(
+        f"{curve.label} from {chart.y.unit.told(float(np.nanmin(curve.y)))} "
+        f"to {chart.y.unit.told(float(np.nanmax(curve.y)))}"
+        for curve in chart.curves
+    )
+    marks = "".join(f"; {mark.words}" for mark in chart.marks)
+    return svg(chart.name, _HEIGHT, f"{chart.title} over {chart.x_title}: {ends}{marks}", body)
 
 
 class Places:
@@ -149,17 +156,6 @@ def _names(place: Places, chart: Chart) -> Iterator[str]:
         yield words(right + _BESIDE, height + 4.5, curve.label, f"{kind} named{bold}")
 
 
-def _told(chart: Chart) -> str:
-    """The chart in words."""
-    ends = ", ".join(
-        f"{curve.label} from {chart.y.unit.told(float(np.nanmin(curve.y)))} "
-        f"to {chart.y.unit.told(float(np.nanmax(curve.y)))}"
-        for curve in chart.curves
-    )
-    marks = "".join(f"; {mark.words}" for mark in chart.marks)
-    return f"{chart.title} over {chart.x_title}: {ends}{marks}"
-
-
 #: Heights: of what stands above and below, of a row, and between groups.
 _BARS_TOP, _BARS_BOTTOM, _ROW, _BETWEEN = 28.0, 26.0, 17.0, 9.0
 #: Where a row's own label ends before the axis; room at the right; letters of a group's label.
@@ -171,7 +167,7 @@ def bars_svg(chart: BarChart) -> str:
     longest = max(min(len(group.label), _LETTERS) for group in chart.groups)
     left, right = _GROUPS + longest * LETTER * LETTERS + 8.0, WIDTH - _RIGHT
     bottom = _BARS_TOP + chart.height(_ROW, _BETWEEN)
-    grounds, marks = [], []
+    grounds, marks, told = [], [], []
     for number, (group, top, high, rows) in enumerate(chart.layout(_BARS_TOP, _ROW, _BETWEEN)):
         if number % 2:
             grounds.append(
@@ -182,6 +178,13 @@ def bars_svg(chart: BarChart) -> str:
         if len(label) > _LETTERS:
             label = f"{label[: _LETTERS - 1]}\N{HORIZONTAL ELLIPSIS}"
         marks.append(words(left - _GROUPS, top + high / 2 + 4.5, label, "end"))
+        # Of the first design.
+        first = [(row.label, row.bars[0].value) for row in group.rows if row.bars]
+        each = (
+            f"{name} {in_unit(value, chart.x.si, 2) if math.isfinite(value) else 'any'}"
+            for name, value in first
+        )
+        told.append(f"{group.label}: {', '.join(each)}")
         for row, place in rows:
             marks.append(words(left - 6.0, place + _ROW / 2 + 4.5, row.label, "soft end"))
             marks.extend(_row(chart, row, place, (left, right)))
@@ -195,7 +198,7 @@ def bars_svg(chart: BarChart) -> str:
     note = words(left, bottom + _BARS_BOTTOM + 12.0, chart.note, "soft") if chart.note else ""
     whole = bottom + _BARS_BOTTOM + (16.0 if chart.note else 0.0)
     body = (words(0.0, 14.0, chart.heading, "chart-title"), *grounds, *axis, *marks, note)
-    return svg(chart.name, whole, _bars_in_words(chart), body)
+    return svg(chart.name, whole, f"{chart.title}. As built: {'; '.join(told)}", body)
 
 
 def _row(chart: BarChart, bars: Row, top: float, across: tuple[float, float]) -> Iterator[str]:
@@ -205,7 +208,7 @@ def _row(chart: BarChart, bars: Row, top: float, across: tuple[float, float]) ->
         middle, kind = top + _ROW * share, f"s{bar.series}"
         yield from _bar(chart, bar, (middle, _ROW * thick), across)
         if bar.series == 0 and math.isfinite(bar.value):
-            size, end = told(bar.value, chart.x.si, 2), _end(chart, bar.value, across)
+            size, end = in_unit(bar.value, chart.x.si, 2), _end(chart, bar.value, across)
             said = words(end + 5.0, middle + 4.0, size, f"{kind} named small")
     yield said
 
@@ -237,16 +240,3 @@ def _bar(
     if bar.spread > 0.0:
         low, high = (_end(chart, bar.value + way * bar.spread, across) for way in (-1.0, 1.0))
         yield line((low, middle), (high, middle), "whisker")
-
-
-def _bars_in_words(chart: BarChart) -> str:
-    """The bars of the first design in words."""
-    made = []
-    for group in chart.groups:
-        each = [
-            f"{row.label} {told(bar.value, chart.x.si, 2) if math.isfinite(bar.value) else 'any'}"
-            for row in group.rows
-            for bar in row.bars[:1]
-        ]
-        made.append(f"{group.label}: {', '.join(each)}")
-    return f"{chart.title}. As built: {'; '.join(made)}"

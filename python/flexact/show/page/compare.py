@@ -1,30 +1,36 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two runs of many decks: what changed in each, with pictures side by side."""
+"""Drawings side by side: a mechanism before and after a change, and designs with their charts."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from html import escape
-from typing import Any
-from urllib.parse import quote
+from typing import Any, NamedTuple
 
 from ...advice.describe import verdict_in_words
 from ...advice.spaces.spaces import Spaces
-from ...analysis.differences import Change, Gravity, Side
 from ...analysis.naming import Line, Pieces
 from ...analysis.result import Result
-from ...analysis.verdict import Verdict
 from ...util.errors import require_kind
 from ...util.text import file_name
+from ..charts import Key
 from ..drawing import drawing_of
-from .assets import SCRIPTS, breakable, filled, image, linked, paragraphs, section, text
-from .content import BROKEN, KINDS, MARGINAL, SWITCH, verdict_of_side
-from .controls import choices_part, finder, keys, layers, toolbar
+from .assets import (
+    PLAIN_SCRIPTS,
+    SCRIPTS,
+    breakable,
+    filled,
+    linked,
+    paragraphs,
+    row,
+    section,
+    table,
+    text,
+)
+from .charts import series_css
+from .content import SWITCH, verdict_of_side
+from .controls import choices_part, keys, layers, toolbar
 from .drawing import drawing_part, frames_of
-from .index import SCRIPTS as INDEX_SCRIPTS
-from .viewer import left_out, stuck_in, viewer_data
+from .viewer import Shaped, left_out, shapes_data, stuck_in, viewer_data
 
 
 def before_and_after(
@@ -33,7 +39,6 @@ def before_and_after(
     changed: Pieces,
     told: Iterable[Line] = (),
     stills: tuple[bytes | None, bytes | None] = (None, None),
-    first: tuple[tuple[str, int], ...] = (),
     spaces: tuple[Spaces | None, Spaces | None] = (None, None),
     runs: tuple[str, str] | None = None,
     changes: str = "",
@@ -48,8 +53,6 @@ def before_and_after(
         changed: What was changed, in words that may name elements and nodes of the changed one.
         told: Further advice, which stands below; it may name elements and nodes of the first.
         stills: Pictures of both as PNG, for browsers without scripts or WebGL.
-        first: What of the mechanism as it is is shown at first, such as ("motion", 2) and
-            ("self-stress", 1); else what its verdict says, both where it is both.
         spaces: Freedom and constraint spaces of a body of each, to be switched on.
         runs: What both are called, where they are two decks.
         changes: What changed, as HTML.
@@ -59,10 +62,8 @@ def before_and_after(
     results = (before, after)
     frames = frames_of(*(drawing_of(each.given) for each in results))
     one, two = (viewer_data(*each) for each in zip(results, frames, spaces, strict=True))
-    if first:
-        kinds = {"motion": "movement", "self-stress": "stress"}
-        one["first"] = [(kinds[kind], str(number - 1)) for kind, number in first]
-    elif one["first"] == [("movement", "0")] and one["stresses"]:
+    # What the verdict says, both where it is both.
+    if one["first"] == [("movement", "0")] and one["stresses"]:
         one["first"] = [*one["first"], ("stress", "0")]
     name = file_name(before.name)
     title = f"{name or 'model'}: before and after"
@@ -75,8 +76,8 @@ def before_and_after(
         '<main class="pair">',
         f'<section class="shared" aria-label="Both drawings" hidden>{toolbar(one, two)}</section>',
         section("changes", "What changed", changes),
-        _side(before, one, "before", heads[0], stills[0]),
-        _side(after, two, "after", heads[1], stills[1]),
+        _result_side(before, one, "before-", heads[0], stills[0]),
+        _result_side(after, two, "after-", heads[1], stills[1]),
         f'<section class="shared" aria-label="In both drawings" hidden>{layers(one, two)}'
         f"{keys(one)}</section>",
         section("advice", "What can be done", paragraphs(told)),
@@ -86,11 +87,10 @@ def before_and_after(
     return filled(title, "\n".join(body), SCRIPTS, styles)
 
 
-def _side(
+def _result_side(
     analysis: Result, data: dict[str, Any], mark: str, which: str, still: bytes | None
 ) -> str:
     words = str(verdict_in_words(analysis))
-    mark += "-"
     return (
         f'<div class="viewer half">{verdict_of_side(analysis, which)}'
         f"{drawing_part(data, still, words, left_out=left_out(analysis, data), mark=mark)}"
@@ -98,181 +98,97 @@ def _side(
     )
 
 
-STYLES = ("style.css", "index.css", "compare.css")
-_ORDERS = (
-    ("place", "what changed, the gravest first"),
-    ("folder", "folder"),
-    ("name", "name"),
-    ("verdict", "verdict behind, the worst first"),
-)
-_GRAVITY = ("broken", "both", "over", "under", "marginal", "exact")
-#: Statements that are shown.
-_MOST_STATEMENTS = 200
-_WORDS = {Verdict(verdict).value: sign for verdict, sign in KINDS.items()}
-_ARROW = '<span class="to" aria-label="then">\N{RIGHTWARDS ARROW}</span>'
-
-
-@dataclass(frozen=True)
-class Pair:
-    """A deck in two runs.
+class Side(NamedTuple):
+    """A design that is drawn.
 
     Attributes:
-        name: What it is called.
-        before: In the first run, if it is there.
-        after: In the second one, if it is there.
-        change: What changed, where it is in both.
-        pictures: Of both as PNG, if there are any; the second alone where nothing changed.
-        page: Path of a page beside this one with both drawings; empty where there is none.
+        series: Its number, by which it is coloured.
+        title: Such as "As built".
+        words: What is to be known of it, a sentence.
+        shaped: Its shapes.
+        still: A picture as PNG, for browsers without scripts or WebGL.
     """
 
-    name: str
-    before: Side | None
-    after: Side | None
-    change: Change | None
-    pictures: tuple[bytes | None, bytes | None] = (None, None)
-    page: str = ""
-
-    @property
-    def kind(self) -> str:
-        """Class of the card."""
-        if self.change is None:
-            return "gone" if self.after is None else "new"
-        return "same" if self.change.is_none else "changed"
+    series: int
+    title: str
+    words: str
+    shaped: Shaped
+    still: bytes | None
 
 
-def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
-    """The page of two runs.
+def designs_page(
+    name: str,
+    headline: str,
+    about: Sequence[str],
+    key: Key,
+    charts: Sequence[Sequence[str]],
+    sides: Sequence[Side],
+    notes: Sequence[str],
+) -> str:
+    """The page as text.
 
     Args:
-        pairs: The decks in their order.
-        runs: What both runs are called.
+        name: Of the mechanism.
+        headline: The sentence that counts.
+        about: How it was found, in parts.
+        key: The table of the designs.
+        charts: Charts as SVG, in groups that begin on a new line.
+        sides: One or two designs that are drawn.
+        notes: Sentences below.
     """
-    counts = Counter(pair.kind for pair in pairs)
-    words = {
-        "changed": "changed",
-        "same": "as before",
-        "gone": f"only in {runs[0]}",
-        "new": f"only in {runs[1]}",
-    }
-    kinds = [(kind, f"{counts[kind]} {words[kind]}") for kind in words if counts[kind]]
-    summary = "".join(f'<span class="fact">{text(each)}</span> ' for _, each in kinds)
-    title = f"{runs[0]} \N{RIGHTWARDS ARROW} {runs[1]}"
-
-    def gravity(place: int) -> int:
-        """A deck that is in one run only changed more than any in both."""
-        change = pairs[place].change
-        return max(Gravity) + 1 if change is None else int(change.gravity)
-
-    order = sorted(range(len(pairs)), key=lambda place: -gravity(place))
-    cards = "".join(_card(number, k, pairs[k], runs) for number, k in enumerate(order))
-    body = (
-        f'<header class="verdict index"><h1><span><b>{breakable(title)}</b></span></h1>'
-        f'<p class="about">{summary}</p>'
-        '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
-        f'<main class="plain">{finder(kinds, _ORDERS)}'
-        f'<ul class="cards pairs">{cards}</ul></main>'
+    facts = " ".join(
+        f'<span class="{"name" if k == 0 and name else "fact"}">{text(each)}</span>'
+        for k, each in enumerate(about)
     )
-    return filled(title, body, INDEX_SCRIPTS, STYLES)
-
-
-def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
-    """What changed as HTML: sentences, what came and went, and statements of the deck.
-
-    Args:
-        change: What changed.
-        below_verdicts: Whether both verdicts stand above, so that they need not be said again.
-    """
-    is_said = below_verdicts and change.gravity is Gravity.VERDICT
-    told = "".join(
-        f"<li>{text(each[:1].upper() + each[1:])}</li>" for each in change.told[is_said:]
-    )
-    modes = "".join(
-        f'<li class="{kind}"><span class="mark">{word}</span> {text(each)}</li>'
-        for kind, word, each in (
-            *(("went", "gone", each) for each in change.went),
-            *(("came", "new", each) for each in change.came),
+    rows = (
+        row(
+            f'<span class="s{each.series} swatch" aria-hidden="true"></span>'
+            f'<span class="s{each.series} named says">{text(each.label)}</span> '
+            + (text(each.words) if each.words != each.label else ""),
+            *(
+                f'<span class="head" aria-hidden="true">{text(head)}</span>{text(cell)}'
+                for head, cell in zip(key.heads, each.cells, strict=True)
+            ),
         )
+        for each in key.rows
     )
-    nothing = '<p class="note">Nothing changed.</p>' if change.is_none else ""
-    if change.gravity is Gravity.STATEMENTS:
-        nothing = '<p class="note">The result is as before.</p>'
-    told = f'<ul class="told-changes">{told}{modes}</ul>' if told or modes else nothing
-    return told + _statements(change)
+    groups = (f'<div class="charts">{"".join(each)}</div>' for each in charts if each)
+    body = (
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(headline)}</span></h1>"
+        f'<p class="about">{facts}</p>{SWITCH}</header>',
+        f'<main class="{"pair" if sides else "plain"} designs">',
+        section("designs", "The designs", table(("design", *key.heads), rows, kind="designs")),
+        section("charts", "What each bears and keeps", "".join(groups)),
+        _drawn(sides),
+        section("notes", "To be known", *(f"<p>{text(each)}</p>" for each in notes)),
+        "</main>",
+    )
+    title = f"{name or 'model'}: what over-constraint costs"
+    scripts = SCRIPTS if sides else PLAIN_SCRIPTS
+    # Those of charts come behind those of all pages.
+    styles = ("style.css", "charts.css")
+    return filled(title, "\n".join(body), scripts, styles, series_css())
 
 
-def _statements(change: Change) -> str:
-    many = len(change.statements)
-    if not many:
+def _drawn(sides: Sequence[Side]) -> str:
+    if not sides:
         return ""
-    lines = "".join(
-        f'<span class="{"came" if each.added else "went"}">{"+" if each.added else "-"}'
-        f'<span class="no">{each.line}</span> {text(each.written)}\n</span>'
-        for each in change.statements[:_MOST_STATEMENTS]
+    frames = frames_of(*(drawing_of(each.shaped.data) for each in sides))
+    every = [shapes_data(each.shaped, frame) for each, frame in zip(sides, frames, strict=True)]
+    marks = [f"design-{k}-" for k in range(len(sides))]
+    halves = (
+        f'<div class="viewer half"><header class="verdict s{side.series} design">'
+        f'<h2 class="headline"><span class="says">{text(side.title)}</span></h2>'
+        f'<p class="about">{text(side.words)}</p></header>'
+        f"{drawing_part(data, side.still, f'{side.title}. {side.words}', mark=mark)}"
+        f"{choices_part(data, (), mark=mark)}</div>"
+        for side, data, mark in zip(sides, every, marks, strict=True)
     )
-    more = many - _MOST_STATEMENTS
-    rest = f'<p class="note">and {more} more</p>' if more > 0 else ""
-    words = f"{many} statement{'s' * (many != 1)} of the deck differ{'s' * (many == 1)}"
+    # A divided sheet has so many nodes that arrows of them all hide it.
     return (
-        f'<details class="statements"><summary>{words}</summary>'
-        f'<pre class="excerpt"><code>{lines}</code></pre>{rest}</details>'
+        '<section class="shared" aria-label="The drawings" hidden>'
+        f"{toolbar(*every)}</section>{''.join(halves)}"
+        '<section class="shared" aria-label="In the drawings" hidden>'
+        f"{layers(*every, off=('arrows',))}{keys(every[0])}</section>"
     )
-
-
-def _card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> str:
-    last = pair.after or pair.before
-    assert last is not None
-    behind = _kind(last)[0]
-    data = {
-        "kind": pair.kind,
-        "place": number,
-        "folder": folder,
-        "name": pair.name.rpartition("/")[2].lower(),
-        "verdict": _GRAVITY.index(behind),
-    }
-    told = "".join(f' data-{name}="{escape(str(value))}"' for name, value in data.items())
-    name = breakable(pair.name)
-    if pair.page:
-        name = f'<a href="{escape(quote(pair.page))}">{name}</a>'
-    captions = ("before", "after") if pair.kind == "changed" else ("", "")
-    pictures = "".join(
-        f"<figure>{image(picture, '', late=True)}<figcaption>{words}</figcaption></figure>"
-        for picture, words in zip(pair.pictures, captions, strict=True)
-        if picture is not None
-    )
-    pictures = f'<div class="two">{pictures}</div>' if pictures else ""
-    if pair.change is None:
-        changes = f'<p class="note">Only in {text(runs[pair.after is not None])}.</p>'
-    else:
-        changes = changes_part(pair.change, below_verdicts=True)
-    return (
-        f'<li class="card pair {pair.kind}"{told}>{pictures}<div class="said">'
-        f'<p class="name">{name}</p>{_verdicts(pair)}{changes}</div></li>\n'
-    )
-
-
-def _verdicts(pair: Pair) -> str:
-    if pair.kind in ("same", "gone", "new") or pair.before is None:
-        side = pair.after or pair.before
-        return f'<p class="verdicts">{_verdict(side)}</p>' if side is not None else ""
-    if pair.after is not None and pair.before.words == pair.after.words:
-        return f'<p class="verdicts">{_verdict(pair.after)}</p>'
-    return f'<p class="verdicts">{_verdict(pair.before)} {_ARROW} {_verdict(pair.after)}</p>'
-
-
-def _verdict(side: Side | None) -> str:
-    if side is None:
-        return ""
-    kind, sign = _kind(side)
-    doubt = "?" * (side.certainty == "doubtful")
-    words = side.words[:1].upper() + side.words[1:]
-    return (
-        f'<span class="one {kind}"><span class="sign" aria-hidden="true">{sign}{doubt}</span>'
-        f"{text(words)}</span>"
-    )
-
-
-def _kind(side: Side) -> tuple[str, str]:
-    """Class and sign of a side."""
-    if side.is_broken:
-        return BROKEN
-    return _WORDS.get(side.verdict, MARGINAL)

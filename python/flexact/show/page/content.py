@@ -7,7 +7,7 @@ import hashlib
 import platform
 import shlex
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,7 +32,6 @@ from ...analysis.verdict_words import (
 )
 from ...deck.diagnostics import Diagnostic, decode
 from ...deck.rendering import ProblemsError
-from ...model.data import ModelData
 from ...model.writing import deck_of
 from ...util.errors import require_kind
 from ...util.loading import VERSION
@@ -105,13 +104,6 @@ def deck_part(raw: bytes, diagnostics: Sequence[Diagnostic], is_written: bool = 
         f"<details{opened}><summary>{summary}</summary>"
         f'<div class="deck" role="group" aria-label="deck" tabindex="0">{shown}</div></details>',
     )
-
-
-def deck_of_model(data: ModelData) -> tuple[bytes, bool]:
-    """The deck of a model, and whether it was written just now."""
-    if data.source is not None:
-        return data.source.text, False
-    return as_bytes(deck_of(data)), True
 
 
 def _line(number: int, line: str, diagnostics: Sequence[Diagnostic]) -> str:
@@ -310,27 +302,33 @@ def _headline(level: str, sign: str, verdict: VerdictInWords) -> str:
 
 def verdict(analysis: Result, name: str, advice: Advised) -> str:
     """The head of the page of a result: what is wrong, by how much, how sure, and what helps."""
-    kind, sign, margin = _judged(analysis)
-    about = " ".join(_about(analysis, name))
+    kind, sign, margin, about = _judged(analysis)
+    if name:
+        about = f'<span class="name">{text(name)}</span> {about}'
     return head(kind, sign, verdict_in_words(analysis), about, margin, _todo(advice))
 
 
 def verdict_of_side(analysis: Result, which: str) -> str:
     """The head of one of several results of a page; `which` is HTML."""
-    kind, sign, margin = _judged(analysis)
+    kind, sign, margin, about = _judged(analysis)
     return (
         f'<header class="verdict {kind}"><p class="which">{which}</p>'
         f"{_headline('h2', sign, verdict_in_words(analysis))}{margin}"
-        f'<p class="about">{" ".join(_about(analysis, ""))}</p></header>'
+        f'<p class="about">{about}</p></header>'
     )
 
 
-def _judged(analysis: Result) -> tuple[str, str, str]:
-    """Class and sign of a verdict, and how far another one is."""
+def _judged(analysis: Result) -> tuple[str, str, str, str]:
+    """Class and sign of a verdict, how far another one is, and what else is to be known."""
     kind, sign = kind_of(analysis)
     if analysis.certainty is not Certainty.CERTAIN:
         sign += "?"
-    return kind, sign, f'<p class="margin">{flowing(margin_line(analysis))}</p>'
+    about = (
+        f'<span class="fact">D(c) {analysis.rows} \N{MULTIPLICATION SIGN} {analysis.columns}, '
+        f"rank {analysis.rank}</span> {_certainty(analysis)} "
+        f'<span class="fact">{text(declared_in_words(analysis))}</span>'
+    )
+    return kind, sign, f'<p class="margin">{flowing(margin_line(analysis))}</p>', about
 
 
 def _certainty(analysis: Result) -> str:
@@ -350,14 +348,10 @@ def _certainty(analysis: Result) -> str:
 
 def _todo(advice: Advised) -> str:
     """The first ways to fix it, and where the others are."""
-    told = [
-        (f"<b>{kind}:</b> ", sentences[0])
-        for kind, sentences in zip(("Motion", "Self-stress"), advice, strict=True)
-        if sentences
-    ]
     shown = "".join(
-        f"<li>{kind if len(told) > 1 else ''}{flowing(first.shortened(_WAYS))}</li>"
-        for kind, first in told
+        f"<li>{kind if all(advice) else ''}{flowing(sentences[0].shortened(_WAYS))}</li>"
+        for kind, sentences in zip(("<b>Motion:</b> ", "<b>Self-stress:</b> "), advice, strict=True)
+        if sentences
     )
     return f'<ul class="todo">{shown}</ul>' if shown else ""
 
@@ -372,24 +366,10 @@ def advice_part(advice: Advised) -> str:
     return section("remedies", "What can be done", *parts)
 
 
-def _about(analysis: Result, name: str) -> Iterator[str]:
-    if name:
-        yield f'<span class="name">{text(name)}</span>'
-    yield (
-        f'<span class="fact">D(c) {analysis.rows} \N{MULTIPLICATION SIGN} {analysis.columns}, '
-        f"rank {analysis.rank}</span>"
-    )
-    yield _certainty(analysis)
-    yield f'<span class="fact">{text(declared_in_words(analysis))}</span>'
-
-
 def decision_part(analysis: Result) -> str:
     """Counts by class, rank, gap, certainty and condition."""
     heads = ("", *analysis.counts.coordinates._fields)
-    rows = (
-        row(name, *(str(value) for value in part))
-        for name, part in analysis.counts._asdict().items()
-    )
+    rows = (row(name, *map(str, part)) for name, part in analysis.counts._asdict().items())
     counts = table(heads, rows, kind="counts")
     return section("decision", "Counts and decision", counts, paragraphs(decision(analysis)))
 
@@ -403,12 +383,10 @@ class Content(NamedTuple):
     Attributes:
         title: Of the page, as text.
         body: HTML, with the data of its drawing.
-        kind: "result", or "broken" where the deck cannot be analysed.
     """
 
     title: str
     body: str
-    kind: str
 
 
 def content_of(
@@ -441,17 +419,19 @@ def content_of(
         return viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
 
     data = attempted("The drawing", drawn, None, told)
-    every = warnings_of(analysis)
+    every, words = warnings_of(analysis), str(verdict_in_words(analysis))
     name = file_name(analysis.name)
-    raw, is_written = deck_of_model(analysis.given)
+    source = analysis.given.source
+    raw, is_written = (
+        (as_bytes(deck_of(analysis.given)), True) if source is None else (source.text, False)
+    )
     warnings = [item for item in every if item.line == 0]
     in_deck = [item for item in every if item.line > 0]
-    words = str(verdict_in_words(analysis))
     advice = attempted("What can be done", lambda: advised(analysis), ((), ()), told)
     moving = sum(each["kind"] == "motion" for each in ([] if data is None else data["movements"]))
     tables: tuple[str, ...] = (
         advice_part(advice),
-        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
+        section("notes", "Notes", *map(_note, warnings)),
         made("The table of motions", lambda: motions_part(analysis, moving)),
         made("The table of self-stresses", lambda: stresses_part(analysis)),
         decision_part(analysis),
@@ -463,14 +443,13 @@ def content_of(
     if is_short:
         tables = (folded("What can be done, tables, decision", *tables),)
         origin = (folded("Deck and versions", *origin),)
+    drawing = "".join(f'<p class="note">{text(each)}</p>' for each in told)
     choices = ""
     if data is not None:
         below = toolbar(data) + keys(data) + f'<p class="keys">{_SCROLLS}</p>' * is_short
         others = left_out(analysis, data)
         drawing = drawing_part(data, still, words, below, " ".join([*told, others]).strip())
         choices = choices_part(data, stuck_in(analysis), layers(data))
-    else:
-        drawing = "".join(f'<p class="note">{text(each)}</p>' for each in told)
     body = (
         verdict(analysis, name, advice),
         '<main class="viewer">',
@@ -484,7 +463,7 @@ def content_of(
         "</div></main>",
     )
     title = f"{name or 'model'}: {verdict_word(analysis)}"
-    return Content(title, "\n".join(body), "result")
+    return Content(title, "\n".join(body))
 
 
 def broken_content(error: Exception, name: str) -> Content:
@@ -511,7 +490,7 @@ def broken_content(error: Exception, name: str) -> Content:
         origin_part(raw, name, None, False) if raw else "",
         "</main>",
     )
-    return Content(f"{name}: cannot be analysed", "\n".join(body), "broken")
+    return Content(f"{name}: cannot be analysed", "\n".join(body))
 
 
 def reason_in_words(error: Exception) -> str:
@@ -522,9 +501,9 @@ def reason_in_words(error: Exception) -> str:
     return why(error)
 
 
-def _note(item: Any) -> str:
+def _note(item: Diagnostic) -> str:
     hint = f" {text(item.help)}" if item.help else ""
-    return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
+    return f"<p><b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}</p>"
 
 
 def page(

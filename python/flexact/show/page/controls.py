@@ -73,18 +73,26 @@ def choices_part(
         below: HTML of further choices.
         mark: What tells its names from those of other drawings of the page.
     """
-    stresses = [_choice(k, stress) for k, stress in enumerate(data["stresses"])]
+    stresses, spaces = (
+        [_choice(k, each) for k, each in enumerate(data[what])] for what in ("stresses", "spaces")
+    )
     found = {each for stress in data["stresses"] for each in stress["largest"]}
     quantities = [
         (each, data["names"][each], data["meaning"][each]) for each in QUANTITIES if each in found
     ]
+    immovable = ""
+    if stuck:
+        line = Line(
+            ("Declared, but a self-stress stops it: ",), tuple(map(freedom_in_words, stuck))
+        )
+        immovable = f'<p class="note stuck">{flowing(line)}.</p>'
     return (
         f'<section class="choices" aria-label="{text(f"What is shown {mark}".strip())}" hidden>'
         + _movements(data["movements"], mark)
-        + _immovable(stuck)
-        + (_radios(mark, "stress", "Self-stress", stresses, "None") if stresses else "")
-        + (_radios(mark, "quantity", "Coloured by", quantities) if quantities else "")
-        + _spaces(data["spaces"], mark)
+        + immovable
+        + _radios(mark, "stress", "Self-stress", stresses, "None")
+        + _radios(mark, "quantity", "Coloured by", quantities)
+        + _radios(mark, "space", "Freedom and constraint", spaces, "None")
         + below
         + "</section>"
     )
@@ -105,42 +113,27 @@ def _movements(movements: Sequence[dict[str, Any]], mark: str) -> str:
     return made
 
 
-def _spaces(spaces: Sequence[dict[str, Any]], mark: str) -> str:
-    """Freedom space, constraint space, or none."""
-    chosen = [_choice(k, space) for k, space in enumerate(spaces)]
-    return _radios(mark, "space", "Freedom and constraint", chosen, "None") if chosen else ""
-
-
 def _choice(index: int, mode: dict[str, Any]) -> tuple[str, str, str]:
     """Value, words, and what tells more."""
     label = mode.get("label", mode["title"])
     return str(index), label, mode["title"] if mode["title"] != label else ""
 
 
-def _immovable(stuck: Sequence[Freedom]) -> str:
-    if not stuck:
-        return ""
-    items = tuple(map(freedom_in_words, stuck))
-    line = Line(("Declared, but a self-stress stops it: ",), items)
-    return f'<p class="note stuck">{flowing(line)}.</p>'
-
-
 def _radios(
-    mark: str, name: str, legend: str, choices: Iterable[tuple[str, str, str]], none: str = ""
+    mark: str, name: str, legend: str, choices: list[tuple[str, str, str]], none: str = ""
 ) -> str:
-    every = ([("", none, "")] if none else []) + list(choices)
-    about = f'name="{mark}{name}" data-choice="{name}"'
-    made = "".join(_chip(about, *choice, checked=not choice[0]) for choice in every)
+    """One of some choices, each with a value, words, and what tells more; "" without any."""
+    if not choices:
+        return ""
+    made = ""
+    for value, words, more in ([("", none, "")] if none else []) + choices:
+        told = f' title="{text(more)}"' if more else ""
+        state = "" if value else " checked"
+        made += (
+            f'<label class="chip"><input type="radio" name="{mark}{name}" data-choice="{name}" '
+            f'value="{value}"{told}{state}><span>{text(words)}</span></label>'
+        )
     return f"<fieldset><legend>{legend}</legend>{made}</fieldset>"
-
-
-def _chip(about: str, value: str, words: str, more: str, checked: bool) -> str:
-    told = f' title="{text(more)}"' if more else ""
-    state = " checked" if checked else ""
-    return (
-        f'<label class="chip"><input type="radio" {about} value="{value}"{told}{state}>'
-        f"<span>{text(words)}</span></label>"
-    )
 
 
 def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:

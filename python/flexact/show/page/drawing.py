@@ -67,10 +67,6 @@ class Frame:
         """Positions (..., 3) [m] as places in the page."""
         return np.asarray((position - self.centre) / self.size)
 
-    def nodes(self, index: np.ndarray) -> np.ndarray:
-        """Node indices in the page; -1 stays."""
-        return np.asarray(self.new[index])
-
 
 def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
     """Of drawings that are seen side by side: one scale, one middle, one view, the first's."""
@@ -79,24 +75,24 @@ def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
     size = float(np.linalg.norm(high - low)) or 1.0
     planar = all(each.planar for each in drawings)
     towards = view_of(ISO, drawings[0]).axes[2]
-    common = (low / 2 + high / 2, size, planar, towards)
-    return tuple(Frame(each, *common, *_kept(each)) for each in drawings)
-
-
-def _kept(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
-    """All nodes, or, where members are left out, those of the ones that are drawn."""
-    count = drawing.data.arrays.node_kind.size
-    used = np.zeros(count + 1, bool)
-    used[:count] = len(drawing.members) <= MOST_MEMBERS
-    used[drawing.members.nodes[:MOST_MEMBERS]] = True
-    used[-1] = False
-    new = np.where(used, np.cumsum(used) - 1, -1)
-    return np.flatnonzero(used), new
+    made = []
+    for each in drawings:
+        # All nodes, or, where members are left out, those of the ones that are drawn.
+        used = np.zeros(each.data.arrays.node_kind.size + 1, bool)
+        used[:-1] = len(each.members) <= MOST_MEMBERS
+        used[each.members.nodes[:MOST_MEMBERS]] = True
+        used[-1] = False
+        new = np.where(used, np.cumsum(used) - 1, -1)
+        common = low / 2 + high / 2, size, planar, towards
+        made.append(Frame(each, *common, np.flatnonzero(used), new))
+    return tuple(made)
 
 
 def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
     """All that does not depend on motions and self-stresses."""
     drawing = frame.drawing
+    node, radius = joints_of(drawing)
+    joined = frame.new[node] >= 0
     return {
         "planar": frame.planar,
         "size": frame.size,
@@ -124,7 +120,10 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
         "supports": _supports(parts, frame),
-        "joints": _joints(frame),
+        "joints": {
+            "node": integers(frame.new[node[joined]]),
+            "radius": floats(radius[joined] / frame.size),
+        },
         "arrows": _arrows(frame),
     }
 
@@ -138,7 +137,7 @@ def _nodes(parts: Parts, frame: Frame) -> dict[str, Any]:
     return {
         "number": integers(arrays.node_number[kept]),
         "placed": integers(np.flatnonzero(placed[kept])),
-        "place": integers(frame.nodes(place[kept])),
+        "place": integers(frame.new[place[kept]]),
         "held": _held(frame, pairs),
         "names": {
             row: name
@@ -202,9 +201,9 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
         row = solid.rows[0]
         arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
         corners.append(arm @ members.frame[row] / frame.size)
-        triangles.append(behind + solid.triangles)
-        owner.append(np.full(len(solid.triangles), number))
-        edges.append(behind + solid.edges)
+        triangles.append(behind + solid.hull.triangles)
+        owner.append(np.full(len(solid.hull.triangles), number))
+        edges.append(behind + solid.hull.edges)
         behind += len(arm)
     own = np.array([solid.colour for solid in solids]).reshape(-1, 3).clip(0.0, 1.0)
     edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
@@ -225,67 +224,54 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
 
 def _hinges(frame: Frame) -> dict[str, Any]:
     hinges = frame.drawing.hinges
-    rows = hinges_in(frame)
+    rows, size = hinges_in(frame), np.array(colours.HINGE_SIZE) * frame.drawing.size
     return {
         "number": integers(hinges.number[rows]),
         "names": [harmless(hinges.names[row]) for row in rows.tolist()],
         "keyword": [hinges.keyword[row] for row in rows.tolist()],
-        "node": integers(frame.nodes(hinges.nodes[rows, 0])),
-        "size": floats(hinges.size[rows] / frame.size),
+        "node": integers(frame.new[hinges.nodes[rows, 0]]),
+        "size": floats(np.tile(size / frame.size, (len(rows), 1))),
         "colour": flags(_bytes(hinges.colour[rows])),
     }
 
 
 def hinges_in(frame: Frame) -> np.ndarray:
     """Rows of the drawing's hinges that are in the page."""
-    nodes = frame.nodes(frame.drawing.hinges.nodes)
+    nodes = frame.new[frame.drawing.hinges.nodes]
     return np.flatnonzero((nodes[:, 1:] >= 0).all(axis=1))
 
 
 def _supports(parts: Parts, frame: Frame) -> dict[str, Any]:
     """Symbols in frames whose ex points from the ground to what is held, and their sizes."""
-    supports = frame.drawing.supports
-    node = frame.nodes(supports.node)
-    rows = np.flatnonzero(node >= 0)
-    sizes = np.repeat(supports.size[rows, None], 3, axis=1)
-    kind = supports.kind[rows]
-    block = kind == Support.CLAMP
-    held = rows[block]
-    sizes[block] = np.column_stack((supports.depth[held], 2 * supports.extent[held]))
+    reference = frame.drawing.reference
+    chosen = [each for each in frame.drawing.supports if frame.new[each.held[0]] >= 0]
+    offset = [each.middle - reference.position[each.held[0]] for each in chosen]
+    sizes = [
+        (each.depth, *2 * each.extent) if each.kind == Support.CLAMP else [each.size] * 3
+        for each in chosen
+    ]
+    held = (
+        # Points and parts.
+        (*map(parts.name_of_point, each.held), *(p.name for n in each.held for p in parts.at(n)))
+        for each in chosen
+    )
     return {
-        "node": integers(node[rows]),
-        "kind": flags(kind),
-        "offset": floats(supports.offset[rows] / frame.size),
-        "names": [_held_by(parts, supports.held[row]) for row in rows.tolist()],
-        "frame": floats(euler_of(supports.frame[rows])),
-        "size": floats(sizes / frame.size),
-    }
-
-
-def _held_by(parts: Parts, nodes: tuple[int, ...]) -> list[str]:
-    """The names of points and parts that a support holds, each once."""
-    points = [parts.name_of_point(node) for node in nodes]
-    there = [part.name for node in nodes for part in parts.at(node)]
-    return list(dict.fromkeys(harmless(name) for name in (*points, *there) if name))
-
-
-def _joints(frame: Frame) -> dict[str, Any]:
-    node, radius = joints_of(frame.drawing)
-    rows = frame.nodes(node) >= 0
-    return {
-        "node": integers(frame.nodes(node[rows])),
-        "radius": floats(radius[rows] / frame.size),
+        "node": integers([frame.new[each.held[0]] for each in chosen]),
+        "kind": flags([each.kind for each in chosen]),
+        "offset": floats(np.array(offset) / frame.size),
+        "names": [list(dict.fromkeys(map(harmless, filter(None, each)))) for each in held],
+        "frame": floats(euler_of(np.array([each.frame for each in chosen]).reshape(-1, 3, 3))),
+        "size": floats(np.array(sizes) / frame.size),
     }
 
 
 def _arrows(frame: Frame) -> dict[str, Any]:
-    arrows = frame.drawing.arrows
-    node = frame.nodes(arrows.node)
-    rows = node >= 0
+    node, direction, turning = frame.drawing.arrows
+    rows = frame.new[node] >= 0
     return {
-        "node": integers(node[rows]),
-        "direction": floats(arrows.direction[rows]),
-        "turning": flags(arrows.turning[rows]),
+        "node": integers(frame.new[node[rows]]),
+        "direction": floats(direction[rows]),
+        "turning": flags(turning[rows]),
     }
 
 
@@ -312,11 +298,12 @@ def drawing_part(
         mark: What tells its names from those of other drawings of the page.
     """
     keys = PLANAR_KEYS if data["planar"] else KEYS
+    picture, about = ("", f"{text(words)} ") if still is None else (image(still, words), "")
     note = f'<p class="note">{text(left_out)}</p>' if left_out else ""
     return (
         f'<section class="drawing" aria-label="{text(f"Drawing {mark}".strip())}">'
         f'<script type="application/json" class="drawing-data">{json_for_script(data)}</script>\n'
-        f'<div class="still">{_still(still, words)}</div>'
+        f'<div class="still">{picture}<p class="note">{about}{text(_WITHOUT)}</p></div>'
         '<div class="interactive" hidden>'
         '<div class="stage"><canvas class="canvas" tabindex="0" role="application" '
         f'aria-label="Drawing. {text(keys)}" aria-describedby="{mark}shown"></canvas>'
@@ -333,12 +320,6 @@ _LEGEND = (
     '<span class="ticks"><span class="legend-low"></span><span>0</span>'
     '<span class="legend-high"></span></span><span class="legend-note"></span></div>'
 )
-
-
-def _still(still: bytes | None, words: str) -> str:
-    if still is None:
-        return f'<p class="note">{text(words)} {text(_WITHOUT)}</p>'
-    return f'{image(still, words)}<p class="note">{text(_WITHOUT)}</p>'
 
 
 _WITHOUT = (

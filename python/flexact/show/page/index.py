@@ -1,23 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The index of several pages: a picture and the verdict of each, to be found and sorted."""
+"""Cards to be found and sorted: the index of several pages, and two runs of many decks.
+
+A card of the index has a picture and the verdict; one of two runs what changed, side by side.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any
 from urllib.parse import quote
 
 from ...advice.describe import verdict_in_words
+from ...analysis.differences import Change, Gravity, Side
 from ...analysis.result import Result
+from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import certainty_word, margin_in_short, verdict_word
 from ...deck.diagnostics import decode
 from ...deck.rendering import ProblemsError
 from ...util.text import file_name, harmless
 from .assets import PLAIN_SCRIPTS, breakable, filled, image, text
-from .content import BROKEN, kind_of, reason_in_words
+from .content import BROKEN, KINDS, MARGINAL, SWITCH, kind_of, reason_in_words
 from .controls import finder
 
 #: What is counted of decks without a verdict.
@@ -146,22 +151,46 @@ def index_pieces(entries: Collection[Entry]) -> Iterator[str]:
         entries: They are gone through twice.
     """
     total = len(entries)
-    title = f"{total} deck{'s' * (total != 1)}"
     counts = Counter((entry.kind[0], entry.verdict) for entry in entries)
     many = sorted(counts.items(), key=lambda each: (-each[1], _GRAVITY.index(each[0][0])))
     kinds = [(kind, f"{count} {word}") for (kind, word), count in many]
-    summary = "".join(f'<span class="fact">{text(words)}</span> ' for _, words in kinds)
-    body = (
-        f'<header class="verdict index"><h1><span><b>{title}</b></span></h1>'
-        f'<p class="about">{summary}</p>'
-        '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
-        f'<main class="plain">{finder(kinds, _ORDERS)}<ul class="cards">{_CARDS}</ul></main>'
-    )
-    before, behind = filled(title, body, SCRIPTS, STYLES).split(_CARDS)
+    page = _page(f"{total} deck{'s' * (total != 1)}", kinds, _ORDERS, _CARDS, "", STYLES)
+    before, behind = page.split(_CARDS)
     yield before
     for number, entry in enumerate(entries):
         yield _card(number, entry)
     yield behind
+
+
+def _page(
+    title: str,
+    kinds: Sequence[tuple[str, str]],
+    orders: tuple[tuple[str, str], ...],
+    cards: str,
+    more: str,
+    styles: tuple[str, ...],
+) -> str:
+    """A page of cards of some kinds, to be found and sorted; `more` is their class besides."""
+    summary = "".join(f'<span class="fact">{text(words)}</span> ' for _, words in kinds)
+    body = (
+        f'<header class="verdict index"><h1><span><b>{breakable(title)}</b></span></h1>'
+        f'<p class="about">{summary}</p>{SWITCH}</header>'
+        f'<main class="plain">{finder(kinds, orders)}<ul class="cards{more}">{cards}</ul></main>'
+    )
+    return filled(title, body, SCRIPTS, styles)
+
+
+def _name(name: str, page: str) -> str:
+    """What a card is called, with the way to its page, if it has one."""
+    told = breakable(name)
+    if page:
+        told = f'<a href="{escape(quote(page))}">{told}</a>'
+    return f'<p class="name">{told}</p>'
+
+
+def _data_of(data: dict[str, Any]) -> str:
+    """What a card is chosen and sorted by: larger numbers come later."""
+    return "".join(f' data-{name}="{text(str(value))}"' for name, value in data.items())
 
 
 def with_way_back(page: str, place: str) -> str:
@@ -174,43 +203,32 @@ def with_way_back(page: str, place: str) -> str:
 def _card(number: int, entry: Entry) -> str:
     kind, sign = entry.kind
     picture = "" if entry.picture is None else image(entry.picture, "", late=True)
-    name = breakable(entry.name)
-    if entry.page:
-        name = f'<a href="{escape(quote(entry.page))}">{name}</a>'
     doubt = "?" * (entry.certainty == "doubtful")
-    parts = (
-        f'<p class="name">{name}</p>',
-        f'<p><span class="sign" aria-hidden="true">{sign}{doubt}</span>{text(entry.words)}</p>',
-        # Words that say so already need not say it again.
-        ""
-        if not entry.margin or entry.words.endswith(entry.margin)
-        else f'<p class="margin">{text(entry.margin)}</p>',
-        _counted(entry),
-        _error(entry),
-    )
-    return (
-        f'<li class="card {kind}"{_data(number, entry)}>{picture}'
-        f'<div class="said">{"".join(parts)}</div></li>\n'
-    )
-
-
-def _data(number: int, entry: Entry) -> str:
-    """What a card is chosen and sorted by: larger numbers come later."""
     under, over, _, size = entry.counts or (-1, -1, -1, -1)
-    margin = entry.margin_length
-    if not entry.counts:
-        margin = -1.0
+    margin = entry.margin_length if entry.counts else -1.0
     data = {
-        "kind": entry.kind[0],
+        "kind": kind,
         "place": number,
         "name": entry.name.rpartition("/")[2].lower(),
-        "verdict": _GRAVITY.index(entry.kind[0]),
+        "verdict": _GRAVITY.index(kind),
         "margin": "Infinity" if margin is None else repr(margin),
         "over": -over,
         "under": -under,
         "size": -size,
     }
-    return "".join(f' data-{name}="{text(str(value))}"' for name, value in data.items())
+    # Words that say so already need not say it again.
+    told = entry.margin and not entry.words.endswith(entry.margin)
+    parts = (
+        _name(entry.name, entry.page),
+        f'<p><span class="sign" aria-hidden="true">{sign}{doubt}</span>{text(entry.words)}</p>',
+        f'<p class="margin">{text(entry.margin)}</p>' if told else "",
+        _counted(entry),
+        _error(entry),
+    )
+    return (
+        f'<li class="card {kind}"{_data_of(data)}>{picture}'
+        f'<div class="said">{"".join(parts)}</div></li>\n'
+    )
 
 
 def _counted(entry: Entry) -> str:
@@ -222,8 +240,7 @@ def _counted(entry: Entry) -> str:
         f"{count} {word}{ending * (count != 1)}"
         for count, (word, ending) in zip(entry.counts, words, strict=True)
     ]
-    if entry.certainty:
-        told.append(f"rank {entry.certainty}")
+    told += [f"rank {entry.certainty}"] * bool(entry.certainty)
     return f'<p class="counted">{text(_BETWEEN.join(told))}</p>'
 
 
@@ -243,3 +260,157 @@ def _error(entry: Entry) -> str:
     )
     marked = f"{escape(before)}<mark>{escape(wrong)}</mark>{escape(behind)}"
     return f'{told}<pre class="excerpt"><code>{marked}</code></pre>'
+
+
+#: Statements that are shown.
+_MOST_STATEMENTS = 200
+_WORDS = {Verdict(verdict).value: sign for verdict, sign in KINDS.items()}
+_ARROW = '<span class="to" aria-label="then">\N{RIGHTWARDS ARROW}</span>'
+_PAIR_ORDERS = (
+    ("place", "what changed, the gravest first"),
+    ("folder", "folder"),
+    ("name", "name"),
+    ("verdict", "verdict behind, the worst first"),
+)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A deck in two runs.
+
+    Attributes:
+        name: What it is called.
+        before: In the first run, if it is there.
+        after: In the second one, if it is there.
+        change: What changed, where it is in both.
+        pictures: Of both as PNG, if there are any; the second alone where nothing changed.
+        page: Path of a page beside this one with both drawings; empty where there is none.
+    """
+
+    name: str
+    before: Side | None
+    after: Side | None
+    change: Change | None
+    pictures: tuple[bytes | None, bytes | None] = (None, None)
+    page: str = ""
+
+    @property
+    def kind(self) -> str:
+        """Class of the card."""
+        if self.change is None:
+            return "gone" if self.after is None else "new"
+        return "same" if self.change.is_none else "changed"
+
+
+def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
+    """The page of two runs.
+
+    Args:
+        pairs: The decks in their order.
+        runs: What both runs are called.
+    """
+    counts = Counter(pair.kind for pair in pairs)
+    words = {
+        "changed": "changed",
+        "same": "as before",
+        "gone": f"only in {runs[0]}",
+        "new": f"only in {runs[1]}",
+    }
+    kinds = [(kind, f"{counts[kind]} {words[kind]}") for kind in words if counts[kind]]
+
+    def gravity(place: int) -> int:
+        """A deck that is in one run only changed more than any in both."""
+        change = pairs[place].change
+        return max(Gravity) + 1 if change is None else int(change.gravity)
+
+    order = sorted(range(len(pairs)), key=lambda place: -gravity(place))
+    cards = "".join(_pair_card(number, k, pairs[k], runs) for number, k in enumerate(order))
+    title = f"{runs[0]} \N{RIGHTWARDS ARROW} {runs[1]}"
+    return _page(title, kinds, _PAIR_ORDERS, cards, " pairs", (*STYLES, "compare.css"))
+
+
+def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
+    """What changed as HTML: sentences, what came and went, and statements of the deck.
+
+    Args:
+        change: What changed.
+        below_verdicts: Whether both verdicts stand above, so that they need not be said again.
+    """
+    is_said = below_verdicts and change.gravity is Gravity.VERDICT
+    told = "".join(
+        f"<li>{text(each[:1].upper() + each[1:])}</li>" for each in change.told[is_said:]
+    )
+    modes = "".join(
+        f'<li class="{kind}"><span class="mark">{word}</span> {text(each)}</li>'
+        for kind, word, each in (
+            *(("went", "gone", each) for each in change.went),
+            *(("came", "new", each) for each in change.came),
+        )
+    )
+    nothing = '<p class="note">Nothing changed.</p>' if change.is_none else ""
+    if change.gravity is Gravity.STATEMENTS:
+        nothing = '<p class="note">The result is as before.</p>'
+    told = f'<ul class="told-changes">{told}{modes}</ul>' if told or modes else nothing
+    many = len(change.statements)
+    if not many:
+        return told
+    lines = "".join(
+        f'<span class="{"came" if each.added else "went"}">{"+" if each.added else "-"}'
+        f'<span class="no">{each.line}</span> {text(each.written)}\n</span>'
+        for each in change.statements[:_MOST_STATEMENTS]
+    )
+    more = many - _MOST_STATEMENTS
+    rest = f'<p class="note">and {more} more</p>' if more > 0 else ""
+    words = f"{many} statement{'s' * (many != 1)} of the deck differ{'s' * (many == 1)}"
+    return (
+        f'{told}<details class="statements"><summary>{words}</summary>'
+        f'<pre class="excerpt"><code>{lines}</code></pre>{rest}</details>'
+    )
+
+
+def _pair_card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> str:
+    last = pair.after or pair.before
+    assert last is not None
+    data = {
+        "kind": pair.kind,
+        "place": number,
+        "folder": folder,
+        "name": pair.name.rpartition("/")[2].lower(),
+        "verdict": _GRAVITY.index(_kind(last)[0]),
+    }
+    captions = ("before", "after") if pair.kind == "changed" else ("", "")
+    pictures = "".join(
+        f"<figure>{image(picture, '', late=True)}<figcaption>{words}</figcaption></figure>"
+        for picture, words in zip(pair.pictures, captions, strict=True)
+        if picture is not None
+    )
+    pictures = f'<div class="two">{pictures}</div>' if pictures else ""
+    verdicts = _verdict(last)
+    if pair.kind == "changed" and pair.before is not None and pair.before.words != last.words:
+        verdicts = f"{_verdict(pair.before)} {_ARROW} {verdicts}"
+    verdicts = f'<p class="verdicts">{verdicts}</p>'
+    if pair.change is None:
+        changes = f'<p class="note">Only in {text(runs[pair.after is not None])}.</p>'
+    else:
+        changes = changes_part(pair.change, below_verdicts=True)
+    return (
+        f'<li class="card pair {pair.kind}"{_data_of(data)}>{pictures}<div class="said">'
+        f"{_name(pair.name, pair.page)}{verdicts}{changes}</div></li>\n"
+    )
+
+
+def _verdict(side: Side) -> str:
+    kind, sign = _kind(side)
+    doubt = "?" * (side.certainty == "doubtful")
+    words = side.words[:1].upper() + side.words[1:]
+    return (
+        f'<span class="one {kind}"><span class="sign" aria-hidden="true">{sign}{doubt}</span>'
+        f"{text(words)}</span>"
+    )
+
+
+def _kind(side: Side) -> tuple[str, str]:
+    """Class and sign of a side."""
+    if side.is_broken:
+        return BROKEN
+    return _WORDS.get(side.verdict, MARGINAL)

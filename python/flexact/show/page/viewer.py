@@ -1,65 +1,259 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Freedom and constraint spaces of a body, and what flexures hold, as data of a page."""
+"""What a page's viewer shows of a result, as data.
+
+Movements and self-stresses, freedom and constraint spaces of a body, and what flexures hold.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...advice.spaces.spaces import Spaces
 from ...analysis.freedoms import Freedom
+from ...analysis.naming import freedom_in_words, plain
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
+from ...core.elements import NodeKind
 from ...model.configuration import Configuration
 from ...model.data import ModelData
 from ...model.parts.parts import Parts
 from ...util.partial import attempted
+from ...util.rotations import euler_of
 from ...util.text import harmless
-from ..drawing import Drawing, SpaceShape, dashes, reach_of, swing
-from ..spaces import holds_shown, spaces_shown
-from .assets import MOST_MEMBERS, MOST_MODES, MOST_POSES, MOST_SHAPES, floats, integers
-from .drawing import Frame, static_data
-from .modes import Tracks, looked_at, movements, stresses
+from ..drawing import (
+    QUANTITIES,
+    UNITS,
+    Movement,
+    Moving,
+    Pose,
+    axes_of,
+    move,
+    reach_of,
+    resultants,
+    stations,
+    swing,
+)
+from ..drawing.selection import way_of
+from ..spaces import SpaceShown, dashes, holds_shown, spaces_shown
+from .assets import (
+    FEW_MODES,
+    MANY_ELEMENTS,
+    MOST_ELEMENTS,
+    MOST_MEMBERS,
+    MOST_MODES,
+    MOST_POSES,
+    MOST_SHAPES,
+    floats,
+    integers,
+    shorts,
+)
+from .drawing import Frame, hinges_in, static_data
+
+#: Pieces of bent members, where there are up to so many of them.
+_SEGMENTS = ((400, 16), (2000, 8), (MOST_MEMBERS, 4))
+#: What differs by no more than this part of the drawing's size, or of a turn, stays.
+_STILL = 1.0e-9
+#: The largest number of 16 bits.
+_LARGEST = 32767
+
+#: Of nodes, of stations, of their cross-sections (Euler parameters), and of axes of hinges.
+State = dict[str, FloatArray]
+
+
+class Tracks:
+    """The shapes of a drawing in its poses."""
+
+    def __init__(self, frame: Frame, most: int = 16, room: int = MOST_SHAPES) -> None:
+        """The shapes in the reference.
+
+        Bent members are in at most so many pieces; a movement takes so many bytes, if it can.
+        """
+        self.frame, self.room = frame, room
+        self.members = frame.drawing.members
+        self.chosen = np.arange(len(self.members)) < MOST_MEMBERS
+        bends = self.members.bends[:MOST_MEMBERS]
+        count = int(np.count_nonzero(bends))
+        self.segments = min(most, next(pieces for up_to, pieces in _SEGMENTS if count <= up_to))
+        #: Of each member the first station, and the first cross-section: straight ones have one.
+        counts = np.where(bends[:, None], self.segments + 1, (2, 1))
+        self.station, self.section = (np.cumsum(counts, axis=0) - counts).T
+        self.owner = [np.repeat(np.arange(len(bends)), each) for each in counts.T]
+        stations, sections = counts.sum(axis=0).tolist()
+        empty = {"centre": np.zeros((stations, 3)), "section": np.zeros((sections, 4))}
+        self.reference = self._state(frame.drawing.reference, empty, self.chosen)
+
+    def data(self) -> dict[str, Any]:
+        """The reference."""
+        return {name: floats(values) for name, values in self.reference.items()}
+
+    def movement(self, movement: Movement) -> tuple[dict[str, Any], int]:
+        """A movement, and the bytes that it takes.
+
+        At all its phases, or, if that takes much room, at fewer.
+        """
+        poses = movement.poses
+        ends = [self._state(poses[k], self.reference, self.chosen) for k in (0, -1)]
+        rows = {
+            name: np.flatnonzero(
+                np.abs([end[name] - still for end in ends]).max(axis=(0, 2), initial=0.0) > _STILL
+            )
+            for name, still in self.reference.items()
+        }
+        numbers = sum(rows[name].size * still.shape[1] for name, still in self.reference.items())
+        steps = [2**k for k in range(4) if 2 * numbers * (len(poses) // 2**k) <= self.room]
+        moving = np.zeros_like(self.chosen)
+        for owner, name in zip(self.owner, ("centre", "section"), strict=True):
+            moving[owner[rows[name]]] = True
+        inner = poses[:: min(steps, default=8)][1:-1]
+        states = [ends[0], *(self._state(pose, self.reference, moving) for pose in inner), ends[1]]
+        made = {}
+        for name, still in self.reference.items():
+            there = rows[name]
+            change = np.stack([state[name][there] for state in states]) - still[there]
+            largest = float(np.abs(change).max(initial=0.0))
+            whole = np.rint(change * (_LARGEST / (largest or 1.0)))
+            unit = largest / _LARGEST
+            made[name] = {"rows": integers(there), "unit": unit, "change": shorts(whole)}
+        size = 2 * numbers * len(states)
+        return {"phases": len(states), "tracks": made}, size
+
+    def _state(self, pose: Pose, still: State, moving: np.ndarray) -> State:
+        """The shapes in a pose; members that are not `moving` are as in `still`."""
+        frame, drawing = self.frame, self.frame.drawing
+        placed = drawing.data.arrays.node_kind[frame.kept] <= NodeKind.POSITION
+        position = frame.places(pose.position[frame.kept])
+        centre, section = still["centre"].copy(), still["section"].copy()
+        for strip in stations(self.members, pose, self.segments, moving):
+            every = np.arange(strip.at.size)
+            centre[self.station[strip.member][:, None] + every] = frame.places(strip.centre)
+            every = every if every.size > 2 else every[:1]
+            there = self.section[strip.member][:, None] + every
+            turns = euler_of(strip.frame[:, every])
+            # Of the two that mean the same, the one that is nearer.
+            turns[np.sum(turns * still["section"][there], axis=-1) < 0.0] *= -1.0
+            section[there] = turns
+        turned = axes_of(drawing.hinges, pose, hinges_in(frame)).frame[:, 0]
+        return {
+            "position": np.where(placed[:, None], position, 0.0),
+            "centre": centre,
+            "section": section,
+            "axis": turned[..., 0],
+        }
+
+
+#: Below this part of the largest resultant a quantity is rounding.
+_NOTHING = 1.0e-9
+#: Displacements (parts of the drawing's size) and rotations [rad] that nobody sees.
+_UNSEEN = 1.0e-5
+
+
+def _fitting(every: Iterable[tuple[dict[str, Any], int]]) -> list[dict[str, Any]]:
+    """As many movements as fit, of which each has so many bytes; at least one."""
+    made: list[dict[str, Any]] = []
+    size = 0
+    for movement, added in every:
+        size += added
+        if made and size > MOST_POSES:
+            break
+        made.append(movement)
+    return made
+
+
+def movements(
+    analysis: Result, tracks: Tracks, missing: list[str]
+) -> Iterator[tuple[dict[str, Any], int]]:
+    """The motions, then the declared degrees of freedom, those that can be drawn; their bytes.
+
+    What cannot be drawn is told in `missing`; of motions none is drawn behind it, as their
+    places are their numbers.
+    """
+    drawing = tracks.frame.drawing
+
+    def drawn(shown: Moving | Freedom) -> tuple[dict[str, Any], int] | None:
+        found = way_of(shown) if isinstance(shown, Freedom) else shown
+        if found is None:
+            return None
+        movement = move(drawing, found)
+        largest, angle = reach_of(drawing, (movement.poses[0], movement.poses[-1]))
+        share = largest / drawing.size
+        far = "no displacements"
+        if share > _UNSEEN:
+            far = f"displacements up to {100 * share:.2g}\N{NO-BREAK SPACE}% of the model's size"
+        turned = f" and rotations up to {angle:.2g}\N{NO-BREAK SPACE}rad" * (angle > _UNSEEN)
+        data, added = tracks.movement(movement)
+        return {"note": f"{movement.remark} Drawn with {far}{turned}.", **data}, added
+
+    is_large = analysis.given.arrays.element_number.size > MANY_ELEMENTS
+    motions = analysis.motions[: FEW_MODES if is_large else MOST_MODES]
+    chosen: list[tuple[str, str, str, Moving | Freedom]] = [
+        ("motion", f"Motion {k}", f"Motion {k}", each) for k, each in enumerate(motions, start=1)
+    ]
+    for freedom in looked_at(analysis):
+        words = plain(freedom_in_words(freedom))
+        chosen.append(("freedom", words, f"Degree of freedom: {words}", freedom))
+    without = None
+    for kind, label, title, motion in chosen:
+        if kind == "motion" and kind == without:
+            continue
+        before = len(missing)
+        data = attempted(f"The drawing of {title}", partial(drawn, motion), None, missing)
+        if len(missing) > before:
+            without = kind
+        if data is not None:
+            yield {"kind": kind, "label": label, "title": title, **data[0]}, data[1]
+
+
+def looked_at(analysis: Result) -> tuple[Freedom, ...]:
+    """The declared degrees of freedom whose motions are asked for."""
+    if analysis.given.arrays.element_number.size > MOST_ELEMENTS:
+        return ()
+    return analysis.freedoms[:MOST_MODES]
+
+
+def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[str, Any]]:
+    """The self-stresses, each with the quantities that it has, up to one that cannot be drawn."""
+    rows = hinges_in(frame)
+    made: list[dict[str, Any]] = []
+    for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
+        what = f"The drawing of self-stress {number}"
+        found = attempted(what, partial(resultants, frame.drawing, stress), None, missing)
+        if found is None:
+            break
+        weight = {each: 1.0 if UNITS[each] == "N" else 1.0 / found.length for each in QUANTITIES}
+        sizes = {each: found.largest(each) * weight[each] for each in QUANTITIES}
+        there = [each for each in QUANTITIES if sizes[each] > _NOTHING * max(sizes.values())]
+        hinges = {each: found.hinges[rows, QUANTITIES.index(each)] for each in there}
+        made.append(
+            {
+                "title": f"Self-stress {number}",
+                "dominant": found.dominant,
+                "largest": {each: found.largest(each) for each in there},
+                "members": {each: floats(found[each][:MOST_MEMBERS]) for each in there},
+                "hinges": {each: floats(values) for each, values in hinges.items()},
+            }
+        )
+    return made
+
 
 #: Of more flexures what they hold is shown together alone.
 _MOST_HOLDS = 12
 
 
-def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[dict[str, Any]]:
-    """The freedom space and the constraint space; nothing where none are to be shown."""
-    if spaces is None:
-        return []
-    return [
-        {
-            "label": harmless(each.title),
-            "title": harmless(f"{each.words}."),
-            "freedom": each.shape.is_freedom,
-            **_drawn(each.shape, frame),
-            "wires": floats(frame.places(dashes(each.wires, frame.size))),
-        }
-        for each in spaces_shown(analysis, spaces, frame.size, frame.planar)
-    ]
-
-
 def holds_data(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
     """What each flexure of an exactly constrained mechanism holds: all together, then each."""
     return [
-        {
-            "label": harmless(each.title),
-            "title": harmless(each.words),
-            "freedom": False,
-            "held": True,
-            **_drawn(each.shape, frame),
-            "wires": floats(each.wires),
-        }
+        _space(each, frame, each.words, held=True)
         for each in holds_shown(analysis, frame.size, frame.planar, _MOST_HOLDS)
     ]
 
 
-def _drawn(shape: SpaceShape, frame: Frame) -> dict[str, Any]:
+def _space(shown: SpaceShown, frame: Frame, words: str, **more: bool) -> dict[str, Any]:
     """Pieces of lines and arrows by their ends, and faces as triangles."""
+    shape = shown.shape
     pieces = [np.stack((line[:-1], line[1:]), axis=1) for line in shape.lines]
     corners, triangles, behind = [], [], 0
     for face in shape.faces:
@@ -68,11 +262,16 @@ def _drawn(shape: SpaceShape, frame: Frame) -> dict[str, Any]:
         corners.append(face)
         behind += len(face)
     return {
+        "label": harmless(shown.title),
+        "title": harmless(words),
+        "freedom": shape.is_freedom,
+        **more,
         "lines": floats(_placed(pieces, frame)),
         "bold": shape.is_bold,
         "arrows": floats(_placed([each[None] for each in shape.arrows], frame)),
         "corners": floats(_placed(corners, frame)),
         "triangles": integers(np.concatenate([np.zeros((0, 3), int), *triangles])),
+        "wires": floats(frame.places(dashes(shown.wires, frame.size))),
     }
 
 
@@ -81,8 +280,6 @@ def _placed(points: list[FloatArray], frame: Frame) -> FloatArray:
     return frame.places(np.concatenate(every))
 
 
-#: Kinds of shapes, by which the page groups them.
-KINDS = ("vibrating", "buckled")
 #: Pieces of a bent member, which mostly is a part of a divided sheet.
 _PIECES = 4
 
@@ -91,7 +288,7 @@ class Shape(NamedTuple):
     """A shape that plays.
 
     Attributes:
-        kind: One of `KINDS`.
+        kind: "vibrating" or "buckled", by which the page groups them.
         label: Short, on its button, such as "184 Hz".
         words: What it is, such as "first parasitic frequency, 184 Hz".
         state: Where the nodes are without it.
@@ -114,50 +311,38 @@ class Shaped(NamedTuple):
 
 
 def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
-    """What a viewer draws of shapes; as many of them as fit."""
-    tracks = Tracks(frame, _PIECES)
+    """What a viewer draws of shapes; as many of them as fit.
+
+    At first it is how it buckles, else the second that vibrates, as the first is meant: the lowest
+    parasitic one where a drive is free.
+    """
+    tracks, kinds = Tracks(frame, _PIECES), [each.kind for each in shaped.shapes[:MOST_MODES]]
+    first = kinds.index("buckled") if "buckled" in kinds else min(1, len(kinds) - 1)
     return {
         **static_data(Parts(shaped.data), frame),
         "reference": tracks.data(),
         "segments": tracks.segments,
-        "movements": _movements(shaped, tracks),
+        "movements": _fitting(_swings(shaped, tracks)),
         "stresses": [],
         "spaces": [],
-        "first": [("movement", str(_first(shaped.shapes)))] if shaped.shapes else [],
+        "first": [("movement", str(first))] if kinds else [],
     }
 
 
-def _first(shapes: Sequence[Shape]) -> int:
-    """What is shown at first: how it buckles, else the second that vibrates, as the first is meant.
-
-    The second is the lowest parasitic one where a drive is free.
-    """
-    kinds = [each.kind for each in shapes[:MOST_MODES]]
-    return kinds.index("buckled") if "buckled" in kinds else min(1, len(kinds) - 1)
-
-
-def _movements(shaped: Shaped, tracks: Tracks) -> list[dict[str, Any]]:
-    made: list[dict[str, Any]] = []
-    size, drawing = 0, tracks.frame.drawing
+def _swings(shaped: Shaped, tracks: Tracks) -> Iterator[tuple[dict[str, Any], int]]:
+    drawing = tracks.frame.drawing
     for each in shaped.shapes[:MOST_MODES]:
         movement = swing(drawing, each.state, each.displacement)
-        data, added = tracks.movement(movement)
-        size += added
-        if made and size > MOST_POSES:
-            break
+        reach, _ = reach_of(drawing, (movement.poses[0], movement.poses[-1]))
+        # The sizes of a shape mean nothing.
+        note = (
+            f"Drawn with displacements up to {100 * reach / drawing.size:.2g}\N{NO-BREAK SPACE}% "
+            "of the model's size; of a shape only the ratios matter."
+        )
         title = f"{each.words[:1].upper()}{each.words[1:]}"
-        note = _note(drawing, reach_of(drawing, (movement.poses[0], movement.poses[-1])))
-        made.append({"kind": each.kind, "label": each.label, "title": title, "note": note, **data})
-    return made
-
-
-def _note(drawing: Drawing, reach: tuple[float, float]) -> str:
-    """How far it is enlarged: the sizes of a shape mean nothing."""
-    share = 100 * reach[0] / drawing.size
-    return (
-        f"Drawn with displacements up to {share:.2g}\N{NO-BREAK SPACE}% of the model's size; of a "
-        "shape only the ratios matter."
-    )
+        data, added = tracks.movement(movement)
+        told = {"kind": each.kind, "label": each.label, "title": title, "note": note}
+        yield {**told, **data}, added
 
 
 def viewer_data(
@@ -170,9 +355,14 @@ def viewer_data(
     """
     tracks = Tracks(frame, room=room)
     missing: list[str] = []
-    shown: list[dict[str, Any]] = attempted(
-        "What a body may do", lambda: spaces_data(analysis, frame, spaces), [], missing
-    )
+
+    def of_body() -> list[dict[str, Any]]:
+        if spaces is None:
+            return []
+        every = spaces_shown(analysis, spaces, frame.size, frame.planar)
+        return [_space(each, frame, f"{each.words}.") for each in every]
+
+    shown: list[dict[str, Any]] = attempted("What a body may do", of_body, [], missing)
     held: list[dict[str, Any]] = attempted(
         "What each flexure holds", lambda: holds_data(analysis, frame), [], missing
     )
@@ -180,7 +370,7 @@ def viewer_data(
         **static_data(analysis.parts, frame),
         "reference": tracks.data(),
         "segments": tracks.segments,
-        "movements": movements(analysis, tracks, missing),
+        "movements": _fitting(movements(analysis, tracks, missing)),
         "stresses": stresses(analysis, frame, missing),
         "spaces": shown + held,
         **({"missing": missing} if missing else {}),

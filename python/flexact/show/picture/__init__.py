@@ -5,7 +5,7 @@ matplotlib and pillow are imported only when one is drawn.
 """
 
 from ..drawing.view import ViewError, check_view
-from .animation import VideoError
+from .files import VideoError
 from .make import (
     PictureError,
     check_packages,

@@ -7,9 +7,9 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...util.rotations import frames_along, matrix_of, unit, vector_of
-from ..drawing import Drawing, Pose, dashes, reach_of
+from ..drawing import Drawing, Pose, reach_of
 from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE
-from ..spaces import SpaceShown
+from ..spaces import SpaceShown, dashes
 from .canvas import OVER, Canvas
 
 #: Displacements below this part of the largest get no arrow, and no more than so many get one.
@@ -71,16 +71,15 @@ def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> No
 
 def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
     """Arrows of the declared degrees of freedom, straight or turning."""
-    arrows = drawing.arrows
-    if len(arrows) > _MOST_FREEDOMS:
+    node, direction, turning = drawing.arrows
+    if len(node) > _MOST_FREEDOMS:
         return
-    place = drawing.reference.position[arrows.node]
-    straight = ~arrows.turning
-    start = place[straight]
-    end = start + _LENGTH * drawing.size * arrows.direction[straight]
+    place = drawing.reference.position[node]
+    start = place[~turning]
+    end = start + _LENGTH * drawing.size * direction[~turning]
     add_straight(canvas, start, end, FREEDOM, drawing.size)
-    for row in np.flatnonzero(arrows.turning).tolist():
-        _add_turning(canvas, place[row], arrows.direction[row], drawing.size, FREEDOM)
+    for row in np.flatnonzero(turning).tolist():
+        _add_turning(canvas, place[row], direction[row], drawing.size, FREEDOM)
 
 
 def _by_size(sizes: FloatArray, unit_size: float) -> np.ndarray:
@@ -135,27 +134,22 @@ def _add_turning(
 
     It is turned to the eye so far that it is seen as an arc and not as a stroke.
     """
-    axis = _opened(axis, canvas.view.axes[2])
+    towards = canvas.view.axes[2]
+    facing = float(axis @ towards)
+    if abs(facing) < _OPEN:
+        # The nearest axis about which a circle is seen wide enough.
+        sense = -1.0 if facing < 0.0 else 1.0
+        flat = unit(axis - facing * towards)
+        axis = np.sqrt(1.0 - _OPEN**2) * flat + sense * _OPEN * towards
     frame = frames_along(axis[None])[0]
     radius = _RADIUS * size
     angle = np.linspace(0.0, 1.5 * np.pi * min(share, 1.0), 28)
     circle = place + radius * (matrix_of(angle[:, None] * axis) @ frame[:, 1])
     head = 0.8 * _HEAD[0] * size
     along = circle[-1] - circle[-2]
-    towards = canvas.view.axes[2]
     flat = unit(along - (along @ towards) * towards)
     tip = circle[-1] + 0.7 * head * flat
     _add(canvas, circle[None], tip[None], flat[None], np.array([head]), colour, size)
-
-
-def _opened(axis: FloatArray, towards: FloatArray) -> FloatArray:
-    """(3,) the unit vector nearest to an axis about which a circle is seen wide enough."""
-    facing = float(axis @ towards)
-    if abs(facing) >= _OPEN:
-        return axis
-    flat = unit(axis - facing * towards)
-    sense = -1.0 if facing < 0.0 else 1.0
-    return np.asarray(np.sqrt(1.0 - _OPEN**2) * flat + sense * _OPEN * towards)
 
 
 def _add(

@@ -27,13 +27,9 @@ _BITS = 28
 _MOST = 2_000_000
 
 
-class Facets(NamedTuple):
-    """Convex polygons with equally many corners."""
-
-    flat: FloatArray
-    """(n, c, 3) corners to the right, upwards, and towards the eye [sample]."""
-    colour: FloatArray
-    """(n, 4) red, green, blue and opacity, 0 to 1."""
+#: Convex polygons with equally many corners: (n, c, 3) corners to the right, upwards, and towards
+#: the eye [sample], and (n, 4) red, green, blue and opacity, 0 to 1.
+Facets = tuple[FloatArray, FloatArray]
 
 
 def painted(facets: list[Facets], width: int, height: int) -> np.ndarray:
@@ -44,7 +40,7 @@ def painted(facets: list[Facets], width: int, height: int) -> np.ndarray:
     shape = (height * SAMPLES, width * SAMPLES)
     lowest, nearest = _nearest(facets, shape)
     index = nearest & ((1 << _BITS) - 1)
-    palette = [np.ones((1, 3)), *(each.colour[:, :3] for each in facets)]
+    palette = [np.ones((1, 3)), *(colour[:, :3] for _, colour in facets)]
     seen, first = [], 1
     for flat, colour in facets:
         rows = np.flatnonzero((colour[:, 3] > 0.0) & (colour[:, 3] < 1.0))
@@ -53,7 +49,7 @@ def painted(facets: list[Facets], width: int, height: int) -> np.ndarray:
             seen.append((place[front], key[front]))
         first += len(colour)
     if seen:
-        every = np.concatenate([each.colour for each in facets])
+        every = np.concatenate([colour for _, colour in facets])
         _blend(index, palette, every, *map(np.concatenate, zip(*seen, strict=True)))
     table = np.rint(255 * np.clip(np.concatenate(palette), 0.0, 1.0)).astype(np.uint16)
     index = index.reshape(shape)
@@ -68,7 +64,7 @@ def painted(facets: list[Facets], width: int, height: int) -> np.ndarray:
 def visible(facets: list[Facets], width: int, height: int) -> np.ndarray:
     """(facets,) whether something is seen of each, numbered through; translucent ones are."""
     _, nearest = _nearest(facets, (height * SAMPLES, width * SAMPLES))
-    made = np.concatenate([np.zeros(1, bool), *(each.colour[:, 3] < 1.0 for each in facets)])
+    made = np.concatenate([np.zeros(1, bool), *(colour[:, 3] < 1.0 for _, colour in facets)])
     made[nearest & ((1 << _BITS) - 1)] = True
     return made[1:]
 
@@ -76,8 +72,7 @@ def visible(facets: list[Facets], width: int, height: int) -> np.ndarray:
 def _nearest(facets: list[Facets], shape: tuple[int, int]) -> tuple[float, np.ndarray]:
     """The least depth, and (samples,) depth and number, from 1, of the nearest opaque facet."""
     nearest = np.zeros(shape[0] * shape[1], np.int64)
-    depths = [each.flat[..., 2] for each in facets if each.flat.size]
-    lowest = min((float(each.min()) for each in depths), default=0.0)
+    lowest = min((float(flat[..., 2].min()) for flat, _ in facets if flat.size), default=0.0)
     first = 1
     for flat, colour in facets:
         rows = np.flatnonzero(colour[:, 3] >= 1.0)
@@ -386,7 +381,7 @@ def _facets(batches: list[_Batch], low: FloatArray, pixel: float, point: float) 
         if each.width:
             place = _strips(place, SAMPLES * each.width * point)
         colour = np.repeat(each.colour, len(place) // len(each.colour), axis=0)
-        made.append(Facets(place, colour))
+        made.append((place, colour))
     return made
 
 
@@ -435,11 +430,11 @@ def _divided(quads: FloatArray, item: np.ndarray, finest: float) -> tuple[FloatA
     """Quadrilaterals in pieces about so large from corner 0 to 1, and whose pieces they are."""
     sides = np.linalg.norm(quads[:, [1, 2]] - quads[:, [0, 3]], axis=-1).max(axis=1, initial=0.0)
     counts = np.clip(np.ceil(sides / finest), 1, 48).astype(np.int64)
-    row = np.repeat(np.arange(len(quads)), counts)
-    start = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[row]
+    row, step = _repeated(counts)
+    start = step / counts[row]
     share = np.stack((start, start + 1 / counts[row]), axis=1)[..., None]
-    first, last = (quads[row][:, [i]] for i in (0, 3))
     first, last = (
-        side + share * (quads[row][:, [i]] - side) for side, i in ((first, 1), (last, 2))
+        quads[row][:, [i]] + share * (quads[row][:, [j]] - quads[row][:, [i]])
+        for i, j in ((0, 1), (3, 2))
     )
     return np.concatenate((first, last[:, ::-1]), axis=1), item[row]

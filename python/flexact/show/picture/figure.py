@@ -15,14 +15,13 @@ from ...analysis.naming import plain as without_links
 from ...analysis.verdict_words import margin_in_short, margin_line
 from ...core.arrays import FloatArray
 from ...util.text import harmless
-from ..drawing import UNITS, Drawing, meanings_in, reach_of
+from ..drawing import BENDING, UNITS, Drawing, meanings_in, reach_of
 from ..drawing.members import diverging
 from ..drawing.movement import AMPLITUDE
 from ..drawing.view import View
 from .canvas import Box, Canvas
-from .members import detail_of
-from .panel import Panel, paint
-from .stress import Stress
+from .panel import detail_of, paint
+from .stress import Peak, Stress
 from .subject import Subject
 
 if TYPE_CHECKING:
@@ -140,11 +139,11 @@ def compose(
     panels = [paint(drawing, subject, view, phase, fineness) for subject in subjects]
     if box is None and all(subject.space is not None for subject in subjects):
         # Spaces of one body are seen in one scale.
-        low, high = zip(*(panel.canvas.box for panel in panels), strict=True)
+        low, high = zip(*(canvas.box for canvas, _ in panels), strict=True)
         box = (np.min(low, axis=0), np.max(high, axis=0))
     for number, (subject, panel) in enumerate(zip(subjects, panels, strict=True)):
         left, right = (width * n / len(subjects) for n in (number, number + 1))
-        seen = panel.canvas.box if box is None else box
+        seen = panel[0].box if box is None else box
         _add_panel(frame, drawing, subject, panel, seen, (left, right), top, plain)
     return figure
 
@@ -166,14 +165,20 @@ class _Frame:
             **others,
         )
 
+    def lines(self, x: float, y: float, lines: list[str], kind: str, **others: Any) -> float:
+        """Put lines of text below each other; where they end [px]."""
+        for line in lines:
+            self.text(x, y, line, kind, **others)
+            y += self.line(kind)
+        return y
+
     def wide(self, text: str, kind: str) -> float:
         """Width of a line of text [px], on a raster, where letters are wider."""
         from matplotlib.backends.backend_agg import RendererAgg
         from matplotlib.font_manager import FontProperties
 
         font = FontProperties(size=self._points(kind))
-        made: Any = RendererAgg
-        raster = made(1, 1, DPI)
+        raster: Any = RendererAgg(1, 1, DPI)  # type: ignore[no-untyped-call]
         return float(raster.get_text_width_height_descent(text, font, ismath=False)[0])
 
     def _points(self, kind: str) -> float:
@@ -192,30 +197,20 @@ class _Frame:
 def _add_verdict(frame: _Frame, analysis: Result) -> float:
     """The name, the verdict and the margin; where they end [px]."""
     left, y = 18 * frame.scale, 14 * frame.scale
-    name = harmless(os.path.basename(analysis.name))
-    if name:
-        frame.text(left, y, _cut(name, frame, "name"), "name", color=_FAINT)
-        y += frame.line("name")
+    if name := harmless(os.path.basename(analysis.name)):
+        y = frame.lines(left, y, [_cut(name, frame, "name")], "name", color=_FAINT)
     words = str(verdict_in_words(analysis))
-    for line in _balanced(words, _letters(frame, "title")):
-        frame.text(left, y, line, "title", color=analysis.colour, weight="bold")
-        y += frame.line("title")
+    # As few lines as can be, about equally long.
+    narrow = _letters(frame, "title")
+    lines = textwrap.wrap(words, narrow)
+    while narrow > 12 and len(textwrap.wrap(words, narrow - 1)) == len(lines):
+        narrow -= 1
+    look = {"color": analysis.colour, "weight": "bold"}
+    y = frame.lines(left, y, textwrap.wrap(words, narrow), "title", **look)
     lines = textwrap.wrap(without_links(margin_line(analysis).head), _letters(frame, "caption"))
     if len(lines) > _MOST_OF_MARGIN:
         lines = [f"{margin_in_short(analysis).capitalize()}."]
-    for line in lines:
-        frame.text(left, y, line, "caption")
-        y += frame.line("caption")
-    return y + 4 * frame.scale
-
-
-def _balanced(text: str, most: int) -> list[str]:
-    """Lines of at most so many letters, as few as can be, about equally long."""
-    lines = textwrap.wrap(text, most)
-    narrow = most
-    while narrow > 12 and len(textwrap.wrap(text, narrow - 1)) == len(lines):
-        narrow -= 1
-    return textwrap.wrap(text, narrow)
+    return frame.lines(left, y, lines, "caption") + 4 * frame.scale
 
 
 def _letters(frame: _Frame, kind: str, width: float | None = None) -> int:
@@ -239,20 +234,19 @@ def _add_panel(
     frame: _Frame,
     drawing: Drawing,
     subject: Subject,
-    panel: Panel,
+    panel: tuple[Canvas, list[Peak]],
     box: Box,
     sides: tuple[float, float],
     top: float,
     plain: bool,
 ) -> None:
-    left, right = sides
+    (left, right), (canvas, peaks) = sides, panel
     pad = 18 * frame.scale
     bottom = frame.height
     if not plain:
-        for line in textwrap.wrap(subject.title, _letters(frame, "panel", right - left)):
-            frame.text(left + pad, top, line, "panel")
-            top += frame.line("panel")
-        words = caption(drawing, subject)
+        title = textwrap.wrap(subject.title, _letters(frame, "panel", right - left))
+        top = frame.lines(left + pad, top, title, "panel")
+        words = _caption(drawing, subject)
         lines = textwrap.wrap(words, _letters(frame, "caption", right - left))
         bottom -= frame.line("caption") * len(lines) + 0.6 * pad
         for number, line in enumerate(lines):
@@ -261,31 +255,39 @@ def _add_panel(
         if subject.stress is not None:
             bottom -= frame.line("legend") * 3.6
     axes = frame.axes(left, top, right, bottom)
-    _fill(axes, panel, box, (right - left, bottom - top))
+    axes.add_artist(canvas.artist())
+    _fit(axes, box, (right - left, bottom - top))
     if not plain:
-        room = Room(axes, panel.canvas)
+        room = Room(axes, canvas)
         if not drawing.planar:
             middle = _place_for_triad(frame, room, (left, top, right, bottom))
             if middle is None:
                 # Nowhere beside the drawing: below it.
                 strip = 2 * _TRIAD * frame.scale
                 axes.set_position(_part(frame, left, top, right, bottom - strip))
-                _fill(axes, panel, box, (right - left, bottom - strip - top))
+                _fit(axes, box, (right - left, bottom - strip - top))
                 middle = left + _TRIAD * frame.scale, bottom - 0.9 * _TRIAD * frame.scale
-                room = Room(axes, panel.canvas)
-            _add_triad(frame, panel.canvas.view, *middle)
-        _add_values(frame, axes, panel, room)
+                room = Room(axes, canvas)
+            _add_triad(frame, canvas.view, *middle)
+        # Of values at peaks that coincide one is told.
+        told: list[FloatArray] = []
+        for top_of_peak, foot_of_peak, value in peaks:
+            ends = canvas.view.project(np.stack((foot_of_peak, top_of_peak)))[:, :2]
+            foot, peak = np.asarray(axes.transData.transform(ends))
+            if any(np.all(np.abs(peak - each) < _APART * frame.scale) for each in told):
+                continue
+            told.append(peak)
+            _add_label(frame, room, peak, peak - foot, f"{value:+.3g}")
         for place, words in subject.space.labels if subject.space is not None else ():
-            there = axes.transData.transform(panel.canvas.view.project(place)[:2])
+            there = axes.transData.transform(canvas.view.project(place)[:2])
             _add_label(frame, room, np.asarray(there), np.array((0.3, 1.0)), words)
         if subject.stress is not None:
-            told = meanings_in(drawing)[subject.stress.quantity]
-            _add_legend(frame, subject.stress, told, (left + pad, right - pad), bottom)
+            words = meanings_in(drawing)[subject.stress.quantity]
+            _add_legend(frame, subject.stress, words, (left + pad, right - pad), bottom)
 
 
-def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None:
-    """Put the canvas into its axes, as large as it fits."""
-    axes.add_artist(panel.canvas.artist())
+def _fit(axes: Axes, box: Box, room: tuple[float, float]) -> None:
+    """Have axes show a box as large as it fits."""
     low, high = box
     extent = np.maximum(high - low, 1.0e-9 * np.max(high - low, initial=1.0e-300))
     pixels = np.array(room) * (1 - 2 * _MARGIN)
@@ -295,31 +297,29 @@ def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None
     axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
 
 
-def caption(drawing: Drawing, subject: Subject) -> str:
+def _caption(drawing: Drawing, subject: Subject) -> str:
     """What is to be known of a panel."""
     hinges = drawing.hinges
     if len(hinges) and not len(drawing.members) and not np.any(hinges.nodes[:, 0] >= 0):
         return "Nothing can be placed: the hinges stand at no node whose position is known."
-    simply = f" {len(drawing.members)} members, drawn simply." if detail_of(drawing) is None else ""
-    return f"{_about(drawing, subject)}{simply}".strip()
-
-
-def _about(drawing: Drawing, subject: Subject) -> str:
-    movement, stress = subject.movement, subject.stress
+    simply = f" {len(drawing.members)} members, drawn simply." * (detail_of(drawing) is None)
+    movement, about = subject.movement, ""
     if subject.space is not None:
-        return subject.space.words
-    if stress is not None:
-        return "Relative values, only their ratios matter."
-    if movement is None:
-        return "Arrows: declared degrees of freedom." if len(drawing.arrows) else ""
-    largest, turned = reach_of(drawing, [movement.pose(1.0)])
-    part = largest / drawing.size
-    size = f"largest displacement {100 * part:.0f} % of the model's size"
-    if part < _UNMOVED and turned > _UNTURNED:
-        size = f"largest rotation {turned:.1f} rad"
-    elif turned > _TURNED and part < AMPLITUDE * 0.95:
-        size = f"{size}, largest rotation {turned:.1f} rad"
-    return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
+        about = subject.space.words
+    elif subject.stress is not None:
+        about = "Relative values, only their ratios matter."
+    elif movement is None:
+        about = "Arrows: declared degrees of freedom." * (len(drawing.arrows[0]) > 0)
+    else:
+        largest, turned = reach_of(drawing, [movement.pose(1.0)])
+        part = largest / drawing.size
+        size = f"largest displacement {100 * part:.0f} % of the model's size"
+        if part < _UNMOVED and turned > _UNTURNED:
+            size = f"largest rotation {turned:.1f} rad"
+        elif turned > _TURNED and part < AMPLITUDE * 0.95:
+            size = f"{size}, largest rotation {turned:.1f} rad"
+        about = f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
+    return f"{about}{simply}".strip()
 
 
 def _add_legend(
@@ -329,7 +329,7 @@ def _add_legend(
     from matplotlib.collections import PolyCollection
 
     line = frame.line("legend")
-    where = ", drawn on the stretched side" * stress.has_diagram
+    where = ", drawn on the stretched side" * (stress.quantity in BENDING)
     frame.text(sides[0], top, f"{told} [{UNITS[stress.quantity]}]{where}", "legend")
     width = min(320 * frame.scale, sides[1] - sides[0])
     axes = frame.axes(sides[0], top + 1.25 * line, sides[0] + width, top + 2.0 * line)
@@ -344,18 +344,6 @@ def _add_legend(
     for place, value, side in values if stress.largest > 0.0 else values[1:2]:
         words = f"{value * stress.largest:+.3g}" if value else "0"
         frame.text(sides[0] + place * width, top + 2.15 * line, words, "legend", ha=side)
-
-
-def _add_values(frame: _Frame, axes: Axes, panel: Panel, room: Room) -> None:
-    """The values at the peaks of diagrams; of those that coincide one."""
-    told: list[FloatArray] = []
-    for peak in panel.peaks:
-        ends = panel.canvas.view.project(np.array((peak.foot, peak.place)))[:, :2]
-        foot, top = np.asarray(axes.transData.transform(ends))
-        if any(np.all(np.abs(top - each) < _APART * frame.scale) for each in told):
-            continue
-        told.append(top)
-        _add_label(frame, room, top, top - foot, f"{peak.value:+.3g}")
 
 
 def _add_label(frame: _Frame, room: Room, place: FloatArray, away: FloatArray, words: str) -> None:

@@ -13,6 +13,8 @@ from numbers import Real
 from operator import index
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ...advice.describe import verdict_in_words
 from ...advice.spaces.spaces import Spaces
 from ...analysis.result import Result
@@ -22,12 +24,21 @@ from ...model.data import ModelData
 from ...util.errors import BatchError, require_kind
 from ...util.partial import attempted
 from ...util.text import harmless, in_short
-from ..drawing import drawing_of, swing
-from ..drawing.view import view_of
+from ..drawing import Drawing, drawing_of, swing
+from ..drawing.view import View, view_of
 from ..writers import MOVING, PICTURES, VIDEOS
-from .animation import check_encoder, moving_bytes
+from .canvas import Box
 from .figure import compose
-from .files import load_matplotlib, png_bytes, still_bytes
+from .files import (
+    check_encoder,
+    gif_bytes,
+    load_matplotlib,
+    pixels,
+    png_bytes,
+    still_bytes,
+    video_bytes,
+)
+from .panel import paint
 from .subject import Chosen, Subject, moving_subject, subjects_of
 
 if TYPE_CHECKING:
@@ -148,40 +159,29 @@ def draw(
         TypeError: What is given is of another kind than it must be.
         ValueError: The phase or the size is out of range.
     """
-    return _figure(
-        analysis, Chosen(motion, freedom, stress, quantity, spaces, held), view, phase, size, plain
-    )
-
-
-def _figure(
-    analysis: Result,
-    chosen: Chosen,
-    view: str | None,
-    phase: float,
-    size: tuple[int, int] | None,
-    plain: bool,
-) -> Figure:
     require_kind(analysis, Result, "what can be drawn is a result")
+    chosen = Chosen(motion, freedom, stress, quantity, spaces, held)
     if not isinstance(phase, Real) or not -1.0 <= phase <= 1.0:
         raise ValueError(f"a phase is a number from -1 to 1, not {in_short(phase)}")
     check_packages()
     load_matplotlib()
     drawing = drawing_of(analysis.given)
     subjects = subjects_of(analysis, drawing, chosen)
-    seen = view_of(view, drawing)
-    size = None if size is None else checked_size(size)
+    seen, size = view_of(view, drawing), _checked(size)
     return compose(analysis, drawing, subjects, seen, phase=phase, size=size, plain=plain)
 
 
-def checked_size(size: object) -> tuple[int, int]:
-    """Width and height of a picture, if they can be.
+def _checked(size: tuple[int, int] | None) -> tuple[int, int] | None:
+    """Width and height of a picture, if they can be; None where they are not given.
 
     Raises:
         TypeError: They are no whole numbers.
         ValueError: They are out of range.
     """
+    if size is None:
+        return None
     try:
-        width, height = (index(side) for side in size)  # type: ignore[attr-defined]
+        width, height = map(index, size)
     except (TypeError, ValueError):
         raise TypeError(f"a size is two whole numbers, not {in_short(size)}") from None
     if not (0 < width <= _WIDEST and 0 < height <= _WIDEST):
@@ -216,16 +216,38 @@ def picture_bytes(
     kind = check_suffix(suffix)
     check_packages(kind)
     asked = Chosen(**chosen)
-    with quiet():
-        load_matplotlib()
-        words = _words(analysis)
+    require_kind(analysis, Result, "what can be drawn is a result")
+
+    def subjects(drawing: Drawing) -> list[Subject]:
         if kind in MOVING:
-            size = None if size is None else checked_size(size)
-            drawing = drawing_of(analysis.given)
-            subject, seen = moving_subject(analysis, drawing, asked), view_of(view, drawing)
-            shown = analysis, drawing, subject, seen, kind, words[0]
-            return moving_bytes(*shown, size=size, plain=plain, progress=progress)
-        return still_bytes(_figure(analysis, asked, view, 1.0, size, plain), kind, *words)
+            return [moving_subject(analysis, drawing, asked)]
+        return subjects_of(analysis, drawing, asked)
+
+    told = analysis, kind, _words(analysis), view, size, plain, progress
+    return _bytes(analysis.given, subjects, *told)
+
+
+def _bytes(
+    data: ModelData,
+    subjects: Callable[[Drawing], list[Subject]],
+    analysis: Result | None,
+    suffix: str,
+    words: tuple[str, str],
+    view: str | None,
+    size: tuple[int, int] | None,
+    plain: bool,
+    progress: Callable[[float], None] | None = None,
+) -> bytes:
+    """What is shown of a model as the content of a file; `words` are its title and more."""
+    with _quiet():
+        load_matplotlib()
+        drawing = drawing_of(data)
+        shown, seen, size = subjects(drawing), view_of(view, drawing), _checked(size)
+        if suffix in MOVING:
+            moving = analysis, drawing, shown[0], seen, suffix, words[0]
+            return _moving_bytes(*moving, size=size, plain=plain, progress=progress)
+        figure = compose(analysis, drawing, shown, seen, size=size, plain=plain)
+        return still_bytes(figure, suffix, *words)
 
 
 def still_of(
@@ -250,7 +272,7 @@ def _words(analysis: Result) -> tuple[str, str]:
 
 
 @contextmanager
-def quiet() -> Iterator[None]:
+def _quiet() -> Iterator[None]:
     """Letters that the font lacks are boxes, caches may be anywhere: nothing to warn of."""
     logger = logging.getLogger("matplotlib")
     level = logger.level
@@ -264,34 +286,15 @@ def quiet() -> Iterator[None]:
         logger.setLevel(level)
 
 
-def model_bytes(
-    data: ModelData,
-    suffix: str = ".png",
-    *,
-    view: str | None = None,
-    size: tuple[int, int] | None = None,
-) -> bytes:
-    """A picture of a model without words, as the content of a file.
-
-    Args:
-        data: The model.
-        suffix: `.png`, `.svg` or `.pdf`.
-        view: As of `draw`.
-        size: Width and height [px].
+def model_bytes(data: ModelData, size: tuple[int, int]) -> bytes:
+    """A picture of a model without words as PNG, so many pixels wide and high.
 
     Raises:
-        PictureError: There is no such kind of picture, or a package is missing.
-        ViewError: There is no such view.
+        PictureError: A package is missing.
     """
-    kind = check_suffix(suffix)
     check_packages()
-    with quiet():
-        load_matplotlib()
-        drawing = drawing_of(data)
-        seen = view_of(view, drawing)
-        size = None if size is None else checked_size(size)
-        figure = compose(None, drawing, [Subject()], seen, size=size, plain=True)
-        return still_bytes(figure, kind, harmless(data.name) or "Mechanism", "")
+    words = harmless(data.name) or "Mechanism", ""
+    return _bytes(data, lambda _: [Subject()], None, ".png", words, None, size, True)
 
 
 def shape_bytes(
@@ -324,16 +327,116 @@ def shape_bytes(
     """
     kind = check_suffix(suffix)
     check_packages(kind)
-    with quiet():
-        load_matplotlib()
-        drawing = drawing_of(data)
-        words = harmless(title[:1].upper() + title[1:])
-        subject = Subject(words, movement=swing(drawing, state, displacement, "To first order."))
-        seen = view_of(view, drawing)
-        size = None if size is None else checked_size(size)
-        name = harmless(data.name) or "Mechanism"
-        if kind in MOVING:
-            shown = drawing, subject, seen, kind, f"{name}: {words}"
-            return moving_bytes(None, *shown, size=size, plain=plain)
-        figure = compose(None, drawing, [subject], seen, size=size, plain=plain)
-        return still_bytes(figure, kind, name, words)
+    name, words = harmless(data.name) or "Mechanism", harmless(title[:1].upper() + title[1:])
+
+    def subjects(drawing: Drawing) -> list[Subject]:
+        return [Subject(words, movement=swing(drawing, state, displacement, "To first order."))]
+
+    told = (f"{name}: {words}", "") if kind in MOVING else (name, words)
+    return _bytes(data, subjects, None, kind, told, view, size, plain)
+
+
+#: Frames of a cycle, and of a full turn; how long each stands [ms].
+_CYCLE, _TURN = 36, 48
+_DURATION = 50
+#: Width and height [px].
+_SIZE = (720, 608)
+#: Phases at which a motion is looked at for the room that it takes.
+_LOOKED_AT = (-1.0, -0.5, 0.0, 0.5, 1.0)
+
+
+def _moving_bytes(
+    analysis: Result | None,
+    drawing: Drawing,
+    subject: Subject,
+    view: View,
+    suffix: str,
+    title: str,
+    *,
+    size: tuple[int, int] | None = None,
+    plain: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> bytes:
+    """The animation as a GIF that runs without end, or as a video of one cycle that loops.
+
+    All frames share one scale, and those of a GIF one palette, so that nothing but what moves
+    changes.
+    """
+    made: list[np.ndarray] = []
+    order, phases, views = _schedule(drawing, subject, view)
+    box = _reach(drawing, subject, views)
+    for number, (phase, each) in enumerate(zip(phases, views, strict=True)):
+        figure = compose(
+            analysis,
+            drawing,
+            [subject],
+            each,
+            phase=phase,
+            size=size or _SIZE,
+            plain=plain,
+            box=box,
+        )
+        made.append(_after(made[0], figure) if made and drawing.planar else pixels(figure))
+        if progress is not None:
+            progress((number + 1) / (len(phases) + (suffix in VIDEOS)))
+    if suffix not in VIDEOS:
+        return gif_bytes(made, order, _DURATION)
+    content = video_bytes(made, order, _DURATION, suffix, title)
+    if progress is not None:
+        progress(1.0)
+    return content
+
+
+def _after(first: np.ndarray, figure: Figure) -> np.ndarray:
+    """The pixels of a later figure, of which only the axes differ from those of the first.
+
+    Words stand above and below planar drawings, and to draw them takes as long as the rest.
+    """
+    for words in figure.texts:
+        words.set_visible(False)
+    made, box = first.copy(), figure.axes[0].bbox
+    rows = slice(len(made) - int(np.ceil(box.y1)), len(made) - int(np.floor(box.y0)))
+    made[rows] = pixels(figure)[rows]
+    return made
+
+
+def _schedule(
+    drawing: Drawing, subject: Subject, view: View
+) -> tuple[list[int], list[float], list[View]]:
+    """Which drawings the frames show, and the phase and view of each drawing."""
+    if subject.movement is not None:
+        # From rest to the end, to the other end, and back to rest; the ways back show the same
+        # drawings as the ways there.
+        there = _CYCLE // 2
+        rest = there // 2
+        phases = np.cos(np.pi * np.arange(there + 1) / there).tolist()
+        phases[rest] = 0.0
+        order = [*range(rest, 0, -1), *range(there), *range(there, rest, -1)]
+        return order, phases, [view] * len(phases)
+    if drawing.planar:
+        return [0], [0.0], [view]
+    views = [View(view.azimuth + 360.0 * k / _TURN, view.elevation) for k in range(_TURN)]
+    return list(range(_TURN)), [0.0] * _TURN, views
+
+
+def _reach(drawing: Drawing, subject: Subject, views: list[View]) -> Box:
+    """The box round all frames, so that the scale stays."""
+    if subject.movement is not None:
+        boxes = [paint(drawing, subject, views[0], phase)[0].box for phase in _LOOKED_AT]
+    else:
+        boxes = [paint(drawing, subject, view)[0].box for view in views[:: len(views) // 4 or 1]]
+        boxes += [_cylinder(drawing, view) for view in views]
+    low, high = zip(*boxes, strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)
+
+
+def _cylinder(drawing: Drawing, view: View) -> Box:
+    """The box round the upright cylinder in which a turning drawing stays."""
+    nodes = np.unique(drawing.members.nodes[:, [0, 2]])
+    offset = drawing.reference.position[nodes] - drawing.centre
+    radius = np.linalg.norm(offset[:, :2], axis=1).max(initial=0.0)
+    flat = view.project(drawing.centre)[:2]
+    rise = np.abs(view.axes[1, 2]) * (drawing.high[2] - drawing.low[2]) / 2
+    rise += np.hypot(*view.axes[1, :2]) * radius
+    half = np.array((radius, rise))
+    return flat - half, flat + half

@@ -10,8 +10,8 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...util.records import Frozen
 from ...util.rotations import unit
-from ..drawing import BENDING, QUANTITIES, Drawing, Resultants
-from ..drawing.diagrams import diagrams_of
+from ..drawing import QUANTITIES, Drawing, Resultants
+from ..drawing.diagrams import PIECES, diagrams_of
 from ..drawing.members import diverging
 from ..drawing.view import View
 from .canvas import OVER, SOLID, Canvas
@@ -27,46 +27,40 @@ SHADE = 0.66
 _LIGHT = np.array((-0.353, 0.504, 0.788))
 
 
-@dataclass(frozen=True, eq=False)
-class Grid(Frozen):
-    """Solids with equally many stations and corners.
-
-    Attributes:
-        points: (k, s, c, 3) corners, anticlockwise about the direction of the stations [m].
-        colour: (k, s - 1, 3) or what fits that, one a piece between two stations.
-        opacity: (k,) or (1,).
-        outline: (k, 3) or (1, 3) colour of the edges.
-        joined: (k, 2) which ends, first and last, have no edges.
-    """
-
-    points: FloatArray
-    colour: FloatArray
-    opacity: FloatArray
-    outline: FloatArray
-    joined: np.ndarray | None = None
-
-
 def lit(normal: FloatArray, view: View, shade: float = SHADE) -> FloatArray:
     """(n, 1) what colours are multiplied by on surfaces with unit normals (n, 3)."""
     bright = np.clip(normal @ (_LIGHT @ view.axes), 0.0, 1.0)
     return np.asarray(shade + (1.0 - shade) * bright)[:, None]
 
 
-def add_grid(canvas: Canvas, grid: Grid, *, layer: int = SOLID, shade: float = SHADE) -> None:
-    """Draw solids.
+def add_grid(
+    canvas: Canvas,
+    points: FloatArray,
+    colour: FloatArray,
+    opacity: FloatArray | float = 1.0,
+    outline: FloatArray | tuple[float, ...] = OUTLINE,
+    joined: np.ndarray | bool = False,
+    *,
+    layer: int = SOLID,
+    shade: float = SHADE,
+) -> None:
+    """Draw solids with equally many stations and corners.
 
     Args:
         canvas: Where to.
-        grid: The solids.
+        points: (k, s, c, 3) corners, anticlockwise about the direction of the stations [m].
+        colour: (k, s - 1, 3) or what fits that, one a piece between two stations.
+        opacity: (k,) or one for all.
+        outline: (k, 3) or (3,) colour of the edges.
+        joined: (k, 2) which ends, first and last, have no edges.
         layer: Of the canvas.
         shade: The part of their colours that they keep where no light falls on them; 1: flat.
     """
-    k, s, c, _ = grid.points.shape
-    colour = np.broadcast_to(grid.colour, (k, s - 1, 3))
-    opacity = np.broadcast_to(grid.opacity, k)
-    outline = np.broadcast_to(grid.outline, (k, 3))
-    following = np.roll(grid.points, -1, axis=2)
-    around = (grid.points[:, :-1], following[:, :-1], following[:, 1:], grid.points[:, 1:])
+    k, s, c, _ = points.shape
+    colour = np.broadcast_to(colour, (k, s - 1, 3))
+    opacity, joined = np.broadcast_to(opacity, k), np.broadcast_to(joined, (k, 2))
+    following = np.roll(points, -1, axis=2)
+    around = (points[:, :-1], following[:, :-1], following[:, 1:], points[:, 1:])
     sides = np.stack(around, axis=3)
     normal = unit(
         np.cross(sides[..., 2, :] - sides[..., 0, :], sides[..., 3, :] - sides[..., 1, :])
@@ -79,11 +73,10 @@ def add_grid(canvas: Canvas, grid: Grid, *, layer: int = SOLID, shade: float = S
     before = np.roll(front, 1, axis=2)
     sharp = np.sum(normal * np.roll(normal, 1, axis=2), axis=-1) < _SHARP
     member, station, corner = np.nonzero((front | before) & (sharp | (front != before)))
-    edges = [np.stack([grid.points[member, station + i, corner] for i in (0, 1)], axis=1)]
+    edges = [np.stack([points[member, station + i, corner] for i in (0, 1)], axis=1)]
     owners = [member]
-    joined = np.zeros((k, 2), bool) if grid.joined is None else grid.joined
     for end, turn in ((0, -1), (-1, 1)):
-        ring = grid.points[:, end]
+        ring = points[:, end]
         cap = _ring_normal(ring[:, ::turn])
         faces = cap @ canvas.view.axes[2] > 1.0e-9
         shaded = colour[faces, end] * lit(cap[faces], canvas.view, shade)
@@ -92,7 +85,7 @@ def add_grid(canvas: Canvas, grid: Grid, *, layer: int = SOLID, shade: float = S
         member, corner = np.nonzero((front[:, end] | faces[:, None]) & there)
         edges.append(np.stack((ring[member, corner], ring[member, (corner + 1) % c]), axis=1))
         owners.append(member)
-    every = outline[np.concatenate(owners)]
+    every = np.broadcast_to(outline, (k, 3))[np.concatenate(owners)]
     canvas.lines(np.concatenate(edges), every, OUTLINE_WIDTH, layer=layer)
 
 
@@ -111,10 +104,6 @@ _THROUGH = 0.3
 _NAMED, _MOST_NAMED = 0.3, 8
 #: Values that differ by less than this part of the largest have one colour.
 _EVEN = 0.01
-#: Of very many members those above this part of the largest value are drawn thicker.
-_LOUD = 0.05
-#: Pieces of a member for its colours.
-PIECES = 36
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,10 +131,6 @@ class Stress(Frozen):
         high, low = ends.max(axis=1), ends.min(axis=1)
         return self.colours_of(np.where(high >= -low * (1.0 - _EVEN), high, low))
 
-    def is_loud(self) -> np.ndarray:
-        """(k,) whether a member has more than a small part of the largest value."""
-        return np.asarray(np.abs(self.values[self.quantity]).max(axis=1) > _LOUD * self.largest)
-
     def hinge_colours(self) -> FloatArray:
         """(h, 3) of the hinges."""
         return self.colours_of(self.values.hinges[:, QUANTITIES.index(self.quantity)])
@@ -161,50 +146,39 @@ class Stress(Frozen):
         uneven = np.abs(ends[:, 0] - ends[:, 1]).max(initial=0.0)
         return PIECES if uneven > _EVEN * self.largest else 1
 
-    @property
-    def has_diagram(self) -> bool:
-        """Whether it is a bending moment."""
-        return self.quantity in BENDING
 
-
-@dataclass(frozen=True)
-class Peak:
-    """The largest value of a member's diagram: where the outline is there, and its foot."""
-
-    place: tuple[float, float, float]
-    foot: tuple[float, float, float]
-    value: float
-
-
-def stress_of(values: Resultants, quantity: str | None) -> Stress:
-    """One quantity of resultants, by default the dominant one."""
-    chosen = quantity or values.dominant
-    return Stress(values, chosen, values.largest(chosen))
+#: The largest value of a member's diagram: (3,) where the outline is there, (3,) its foot, and
+#: the value.
+Peak = tuple[FloatArray, FloatArray, float]
 
 
 def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]:
-    """Draw bending diagrams beside the members, on the stretched sides; where their peaks are."""
-    if not stress.has_diagram or not stress.largest > 0.0:
-        return []
-    made = diagrams_of(drawing, stress.values, stress.quantity, canvas.view.axes[2], PIECES)
-    if not made.member.size:
-        return []
-    colour = stress.colours_of((made.value[:, 1:] + made.value[:, :-1]) / 2)
-    _add_outlined(canvas, made.base, made.top, colour, made.ends)
-    peaks = []
-    for row, peak in enumerate(_peaks(made.value)):
-        place, foot = (tuple(each[row, peak].tolist()) for each in (made.top, made.base))
-        peaks.append(Peak(place, foot, float(made.value[row, peak])))
-    return _to_be_named(peaks, stress.largest)
+    """Draw bending diagrams beside the members, on the stretched sides.
 
-
-def _peaks(value: FloatArray) -> list[int]:
-    """(k,) the station of the largest value; where a moment is constant the middle."""
+    Returns:
+        The peaks whose values are told; of many, each value once.
+    """
+    made = diagrams_of(drawing, stress.values, stress.quantity, canvas.view.axes[2])
+    _, value, base, top, ends = made
+    if not len(value):
+        return []
+    colour = stress.colours_of((value[:, 1:] + value[:, :-1]) / 2)
+    _add_outlined(canvas, base, top, colour, ends)
     size = np.abs(value)
     first = size >= (1.0 - _EVEN) * size.max(axis=1, keepdims=True)
-    constant = first.all(axis=1)
-    made: list[int] = np.where(constant, value.shape[1] // 2, first.argmax(axis=1)).tolist()
-    return made
+    # Where a moment is constant, in the middle.
+    stations = np.where(first.all(axis=1), value.shape[1] // 2, first.argmax(axis=1))
+    peaks: list[Peak] = [
+        (top[row, station], base[row, station], float(value[row, station]))
+        for row, station in enumerate(stations.tolist())
+        if size[row, station] >= _NAMED * stress.largest
+    ]
+    if len(peaks) > _MOST_NAMED // 2:
+        alike: dict[str, list[Peak]] = {}
+        for peak in peaks:
+            alike.setdefault(f"{peak[2]:.2g}", []).append(peak)
+        peaks = [every[len(every) // 2] for every in alike.values()]
+    return peaks if len(peaks) <= _MOST_NAMED else []
 
 
 def _add_outlined(
@@ -225,14 +199,3 @@ def _add_outlined(
     canvas.polygons(quads.reshape(-1, 4, 3), pale, opacity=_THROUGH, layer=OVER)
     around = np.concatenate((base[:, :1], top, base[:, -1:]), axis=1)
     canvas.lines(around, ink, 0.4, layer=OVER)
-
-
-def _to_be_named(peaks: list[Peak], largest: float) -> list[Peak]:
-    """The peaks whose values are told; of many, each value once."""
-    peaks = [peak for peak in peaks if abs(peak.value) >= _NAMED * largest]
-    if len(peaks) > _MOST_NAMED // 2:
-        alike: dict[str, list[Peak]] = {}
-        for peak in peaks:
-            alike.setdefault(f"{peak.value:.2g}", []).append(peak)
-        peaks = [every[len(every) // 2] for every in alike.values()]
-    return peaks if len(peaks) <= _MOST_NAMED else []

@@ -24,9 +24,9 @@ from ..drawing import (
     quantity_named,
     resultants,
 )
-from ..drawing.selection import Selection, require_there, select_motion
+from ..drawing.selection import require_there, select_motion
 from ..spaces import SpaceShown, holds_shown, spaces_shown
-from .stress import Stress, stress_of
+from .stress import Stress
 
 
 class SubjectError(BatchError):
@@ -123,12 +123,11 @@ def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subj
     made: list[Subject] = []
     missing: list[str] = []
     if len(analysis.motions) or not len(analysis.self_stresses):
-        made += attempted("The motion", partial(_first, analysis, drawing), made, missing)
+        first = attempted("The motion", partial(_moving, analysis, drawing), made, missing)
+        made += first
     if len(analysis.self_stresses):
-        first = attempted(
-            "The self-stress", lambda: _stressed(analysis, drawing, 1, None), None, missing
-        )
-        made += [] if first is None else [first]
+        stressed = partial(_stressed, analysis, drawing, 1, None)
+        made += attempted("The self-stress", stressed, list[Subject](), missing)
     return made or [Subject(" ".join(missing) or Subject.title)]
 
 
@@ -156,43 +155,42 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
             )
         return made[0]
     missing: list[str] = []
-    made = attempted("The motion", partial(_first, analysis, drawing), list[Subject](), missing)
+    made = attempted("The motion", partial(_moving, analysis, drawing), list[Subject](), missing)
     if not made and len(analysis.self_stresses):
-        made = [_stressed(analysis, drawing, 1, None)]
+        made = _stressed(analysis, drawing, 1, None)
     return made[0] if made else Subject(" ".join(missing) or Subject.title)
-
-
-def _first(analysis: Result, drawing: Drawing) -> list[Subject]:
-    """The motion that is shown where none is asked for."""
-    return _moving(analysis, drawing, select_motion(analysis))
 
 
 def _asked_for(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subject]:
     made = []
     if chosen.motion is not None:
-        made += _moving(analysis, drawing, select_motion(analysis, motion=chosen.motion))
+        made += _moving(analysis, drawing, motion=chosen.motion)
     if chosen.freedom is not None:
-        made += _moving(analysis, drawing, select_motion(analysis, freedom=chosen.freedom))
+        made += _moving(analysis, drawing, freedom=chosen.freedom)
     if chosen.is_stressed:
         number = 1 if chosen.stress is None else chosen.stress
-        made.append(_stressed(analysis, drawing, number, chosen.quantity))
+        made += _stressed(analysis, drawing, number, chosen.quantity)
     return made
 
 
-def _moving(analysis: Result, drawing: Drawing, shown: Selection | None) -> list[Subject]:
+def _moving(analysis: Result, drawing: Drawing, **chosen: int | str) -> list[Subject]:
+    """The motion that is chosen, or is shown where none is; nothing where there is none."""
+    shown = select_motion(analysis, **chosen)  # type: ignore[arg-type]
     if shown is None:
         return []
     words = motion_in_words(analysis, shown.number, shown.freedom)
     return [Subject(_heading(words), movement=move(drawing, shown.motion))]
 
 
-def _stressed(analysis: Result, drawing: Drawing, number: int, quantity: str | None) -> Subject:
+def _stressed(
+    analysis: Result, drawing: Drawing, number: int, quantity: str | None
+) -> list[Subject]:
     stresses = analysis.self_stresses
     require_there(number, len(stresses), "self-stress", "self-stresses")
     values = resultants(drawing, stresses[number - 1])
-    known = None if quantity is None else quantity_named(quantity)
+    known = (quantity_named(quantity) if quantity else None) or values.dominant
     words = f"self-stress {number} of {analysis.over_constrained}"
-    return Subject(_heading(words), stress=stress_of(values, known))
+    return [Subject(_heading(words), stress=Stress(values, known, values.largest(known)))]
 
 
 def refuse_zero(analysis: Result, number: int | None, quantity: str | None) -> None:
