@@ -17,10 +17,9 @@ from reference_decks import text_of as deck_of
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.convert.files import bytes_of, read_any
+from flexact.apps.convert.files import PackageError, bytes_of, read_any, read_tables, text_of
 from flexact.apps.convert.mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh
 from flexact.apps.convert.tables import TablesError, tables_of
-from flexact.apps.convert.text import PackageError, read_tables, text_of
 
 BAR = "TRUSS 1 1 2 % bar\nX 2 1 0 0\nFIX 1\nFIX 2 2 3\n"
 WRONG_JSON = b"""\

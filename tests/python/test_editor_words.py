@@ -11,8 +11,7 @@ from reference_decks import NAMES, text_of
 import flexact
 from flexact.apps.editor.actions import edits_between, edits_of, mends_of, remedies_at
 from flexact.apps.editor.completion import complete_at
-from flexact.apps.editor.deck import WARPING, Deck, keys_in
-from flexact.apps.editor.document import Document, Edit, Position
+from flexact.apps.editor.deck import WARPING, Deck, Document, Edit, Position, keys_in
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import (
     RenameError,
@@ -22,7 +21,7 @@ from flexact.apps.editor.outline import (
     references_at,
     rename_at,
 )
-from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
+from flexact.apps.editor.session import advice_on, opinion_on, problems_of
 from flexact.core.elements import element_kinds
 from flexact.deck.keywords import Block
 

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.apps.checks.comparison import differences
-from flexact.apps.checks.stored_answer import answer_of, read_answer
+from flexact.apps.checks.comparison import answer_of, differences, read_answer
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"

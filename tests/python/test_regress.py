@@ -15,15 +15,16 @@ from large_results import changed, first_of
 from small_decks import COLLINEAR
 
 import flexact
-from flexact.apps.checks import stored_answer
-from flexact.apps.checks.comparison import WITHIN, differences
-from flexact.apps.checks.stored_answer import (
+from flexact.apps.checks import comparison
+from flexact.apps.checks.comparison import (
     VECTORS,
+    WITHIN,
     Images,
     Projector,
     StoredAnswer,
     StoredAnswerError,
     answer_of,
+    differences,
     fixed_vectors,
     read_answer,
     text_of,
@@ -153,7 +154,7 @@ def test_singular_values_are_compared_by_the_largest() -> None:
 def as_images(answer: StoredAnswer) -> StoredAnswer:
     """The same answer, its projectors replaced by what they make of the fixed vectors."""
 
-    def images(kept: stored_answer.Kept) -> Images:
+    def images(kept: comparison.Kept) -> Images:
         assert isinstance(kept, Projector)
         return Images(kept.labels, kept.matrix @ fixed_vectors(kept.labels))
 
@@ -166,7 +167,7 @@ def test_a_large_projector_is_kept_by_its_images(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     small = stored(COLLINEAR)
-    monkeypatch.setattr(stored_answer, "LARGEST_PROJECTOR", 0)
+    monkeypatch.setattr(comparison, "LARGEST_PROJECTOR", 0)
     large = stored(COLLINEAR)
     for kept, wanted in (
         (large.motions, as_images(small).motions),

@@ -37,8 +37,7 @@ import flexact
 from flexact import Analysis, Model, analyse
 from flexact.advice.describe import describe
 from flexact.analysis.decomposition import Asked
-from flexact.apps.checks.comparison import differences
-from flexact.apps.checks.stored_answer import StoredAnswerError, answer_of, read_answer
+from flexact.apps.checks.comparison import StoredAnswerError, answer_of, differences, read_answer
 from flexact.apps.cli.main import main
 from flexact.core import calls
 from flexact.core.arrays import model_arrays

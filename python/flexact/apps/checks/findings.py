@@ -23,8 +23,7 @@ from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, d
 from ...deck.tokens import Tokens, tokens_of
 from ...util.records import cached_property
 from ...util.text import harmless
-from ..editor.deck import Index, Key
-from ..editor.document import units
+from ..editor.deck import Index, Key, units
 
 
 def from_root(path: str, environment: Mapping[str, str] = os.environ) -> str:

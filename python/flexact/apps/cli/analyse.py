@@ -107,7 +107,7 @@ class Findings:
         """Write what waits until all decks are done; gives back the code."""
         if self._form == SARIF:
             ended_well = code is not ExitCode.OTHER
-            module = load("flexact.apps.checks.sarif")
+            module = load("flexact.apps.checks.outputs")
             log = module.log_of(self._kept, int(code), ended_well=ended_well)
             give(load("json").dumps(log, indent=1))
         return code

@@ -15,8 +15,8 @@ from ...util.decks import STDIN, DeckFile, FolderError
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.text import harmless
-from ..watch.messages import Answer, Broken
-from ..watch.watch import SCRIPT, Watch
+from ..watch.scene import SCRIPT, Answer, Broken
+from ..watch.watch import Watch
 from . import decks as failures
 from .decks import ACCURACY, DECISION
 from .parser import Verb, argument

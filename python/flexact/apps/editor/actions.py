@@ -15,9 +15,8 @@ from ...analysis.change import Change
 from ...analysis.naming import plain
 from ...model.editing import edited_deck
 from ...util.text import harmless
-from .deck import ELEMENT, NODE, Deck, Key, keys_in, span
-from .document import Document, Edit, Position, Range, split
-from .problems import Problem
+from .deck import ELEMENT, NODE, Deck, Document, Edit, Key, Position, Range, keys_in, span, split
+from .session import Problem
 
 _MEANT = re.compile(r"^did you mean ([!-~]+)\?$")
 _LONGEST_TITLE = 160

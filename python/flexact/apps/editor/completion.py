@@ -22,10 +22,14 @@ from ...deck.keywords import (
 )
 from ...deck.tokens import Line, Tokens
 from ...model.attributes import CrossSection
-from .deck import ELEMENT, NODE, Deck
-from .document import Position, Range
-from .hover import keyword_words
-from .names import components_of_element, components_of_node, designers_words, kind_words
+from .deck import ELEMENT, NODE, Deck, Position, Range
+from .hover import (
+    components_of_element,
+    components_of_node,
+    designers_words,
+    keyword_words,
+    kind_words,
+)
 
 #: How many numbers are offered at once.
 _MOST = 200

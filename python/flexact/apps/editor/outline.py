@@ -16,9 +16,8 @@ from ...deck.keywords import Block, words_of
 from ...deck.tokens import Line
 from ...model.names import part_name
 from ...util.text import harmless
-from .deck import ELEMENT, Deck, Key, keys_in, span
-from .document import Edit, Position, Range
-from .names import kind_words
+from .deck import ELEMENT, Deck, Edit, Key, Position, Range, keys_in, span
+from .hover import kind_words
 
 One = TypeVar("One")
 Sort = Literal["group", "part", "element", "point", "statement"]

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -123,31 +123,10 @@ _OF_ALL: dict[Step, Sequence[tuple[str, Class]]] = {
 }
 
 
-class Choice(NamedTuple):
-    """What is done with a part."""
-
-    word: str
-    """Such as "release"."""
-    edits: tuple[Edit, ...]
+Json = dict[str, Any]
 
 
-class Proposal(NamedTuple):
-    """A part, and what can be done with it."""
-
-    words: str
-    choices: tuple[Choice, ...]
-
-
-class Proposals(NamedTuple):
-    """Proposals of one kind."""
-
-    head: str
-    items: tuple[Proposal, ...]
-    more: bool
-    """Whether there are more of them."""
-
-
-def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
+def proposals(board: Board, now: Result) -> list[Json]:
     """What may be done about the motions and the self-stresses of the mechanism as it is now."""
     ways = (*on_motions(now), *on_self_stresses(now))
     if now.folds:
@@ -156,34 +135,43 @@ def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
     if any(way.step is Step.DECLARE_INTERNAL for way in ways):
         # What else there is to do is seen once each divided part is one beam.
         ways = tuple(way for way in ways if way.step is Step.DECLARE_INTERNAL)
-    made = (_proposals(board, now, way) for way in ways)
-    return tuple(each for each in made if each.items)
+    return [made for way in ways if (made := _proposals(board, now, way))["items"]]
 
 
-def _proposals(board: Board, now: Result, way: Way) -> Proposals:
-    items: dict[str, Proposal] = {}
+def _proposals(board: Board, now: Result, way: Way) -> Json:
+    """Parts, and of each what can be done with it, such as to release it."""
+    items: dict[str, Json] = {}
     if way.step in _OF_ALL:
-        places = [place for part in way.parts for place in _every_place(board, part)]
-        if places:
+        if places := [place for part in way.parts for place in _every_place(board, part)]:
             count = len(way.parts)
             words = f"what is inside {count} beam{'s' * (count != 1)}"
             if way.step is not Step.DECLARE_INTERNAL:
                 words = listed(list(dict.fromkeys(place_in_words(board, each) for each in places)))
-            choices = (
-                Choice(word, tuple(Edit(place, to) for place in places))
-                for word, to in _OF_ALL[way.step]
-            )
-            items[words] = Proposal(words, tuple(choices))
+            items[words] = _proposal(words, places, _OF_ALL[way.step])
     else:
         for part in way.parts:
             if (place := _place(board, now, part)) is not None:
                 words = place_in_words(board, place)
                 verbs = _of_one(way.step, isinstance(part, Coordinate))
-                choices = (Choice(word, (Edit(place, to),)) for word, to in verbs)
-                items.setdefault(words, Proposal(words, tuple(choices)))
+                items.setdefault(words, _proposal(words, [place], verbs))
     most = _MOST_SUPPORTS if way.step is Step.FREE_SUPPORT else _MOST
-    every = tuple(items.values())
-    return Proposals(_head(now, way.step), every[:most], way.more or len(every) > most)
+    shown = list(items.values())[:most]
+    return {
+        "head": _head(now, way.step),
+        "more": way.more or len(items) > most,
+        "items": shown,
+    }
+
+
+def _proposal(words: str, places: list[Place], verbs: Sequence[tuple[str, Class]]) -> Json:
+    choices = [
+        {
+            "word": word,
+            "set": [{**place_json(place), "to": state_word(place, to)} for place in places],
+        }
+        for word, to in verbs
+    ]
+    return {"words": words, "place": place_json(places[0]), "choices": choices}
 
 
 def _of_one(step: Step, is_coordinate: bool) -> Sequence[tuple[str, Class]]:
@@ -241,17 +229,15 @@ _MOST_NEAR, _MOST_POINTS = 10, 3
 #: How many names are offered.
 MOST_NAMES = 400
 
-Json = dict[str, Any]
 
-
-def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collection[Edit]) -> Json:
+def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collection[Json]) -> Json:
     """What is offered of the part of an element, by its number.
 
     Args:
         board: The mechanism as given.
         edits: What was switched.
         element: Number of the element.
-        wanted: What the advice proposes.
+        wanted: What the advice proposes, as requests name it.
 
     Raises:
         RefusedError: There is no such element.
@@ -280,7 +266,7 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
     }
 
 
-def panel_of_node(board: Board, edits: Edits, node: int, wanted: Collection[Edit]) -> Json:
+def panel_of_node(board: Board, edits: Edits, node: int, wanted: Collection[Json]) -> Json:
     """What is offered of a point, by the number of one of its nodes; else as of an element."""
     index = board.given.node_index.get(node)
     if index is None:
@@ -354,15 +340,15 @@ def _supports(board: Board) -> Iterator[tuple[str, int]]:
             yield node_title(board, index), int(board.given.arrays.node_number[index])
 
 
-def _row(board: Board, edits: Edits, wanted: Collection[Edit], place: Place, words: str) -> Json:
-    now, states = board.now(place, edits), states_of(place)
+def _row(board: Board, edits: Edits, wanted: Collection[Json], place: Place, words: str) -> Json:
+    now, states, at = board.now(place, edits), states_of(place), place_json(place)
     return {
-        "place": place_json(place),
+        "place": at,
         "words": words,
         "states": list(states),
         "now": state_word(place, now),
         "before": state_word(place, board.before(place)),
-        "proposed": [w for w, to in states.items() if to != now and Edit(place, to) in wanted],
+        "proposed": [w for w, to in states.items() if to != now and {**at, "to": w} in wanted],
     }
 
 
@@ -374,7 +360,7 @@ def place_json(place: Place) -> Json:
 
 
 def _of_point(
-    board: Board, edits: Edits, wanted: Collection[Edit], index: int, title: str = ""
+    board: Board, edits: Edits, wanted: Collection[Json], index: int, title: str = ""
 ) -> Iterator[Json]:
     """Switches of a position and of what turns there, or of a node that stands nowhere."""
     turned = [node for node in _nodes_at(board, index) if node != index]
@@ -393,7 +379,7 @@ def _of_point(
         yield {"title": head, "rows": rows}
 
 
-def _of_body(board: Board, edits: Edits, wanted: Collection[Edit], part: Part) -> Iterator[Json]:
+def _of_body(board: Board, edits: Edits, wanted: Collection[Json], part: Part) -> Iterator[Json]:
     """Coordinates of a body at the points where one is declared, else at its first point."""
     slots = (board.given.arrays.element_node[:, list(part.elements)] - 1).T
     points = list(dict.fromkeys(int(n) for row in slots for n in (row[0], row[2]) if n >= 0))
