@@ -506,6 +506,6 @@ def _add(suite: ElementTree.Element, deck: DeckFile, finding: comparison.Finding
     )
     if finding.state in (*_FAILURES, *_ERRORS):
         kind = "failure" if finding.state in _FAILURES else "error"
-        lines = comparison.reasons(finding)
+        lines = finding.reasons
         about = ElementTree.SubElement(case, kind, type=finding.state.value, message=lines[0])
         about.text = "\n".join(lines)

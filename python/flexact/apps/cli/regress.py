@@ -10,6 +10,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import OutputError, plan_file, plan_files, write_together
 from ...util.text import harmless
-from ..checks.comparison import Finding, Question, State, answer_place, case_of, reasons
+from ..checks.comparison import Finding, State, answer_place, case_of, finding_of
 from . import decks as failures
 from .decks import DECKS, METHOD, announce_wait, tolerance
 from .parser import Verb, argument
@@ -62,7 +63,7 @@ def _of(state: State, found: _Found) -> Iterator[str]:
 def _why(finding: Finding) -> str:
     if finding.state is State.MISSING:
         return ""
-    first, *others = reasons(finding)
+    first, *others = finding.reasons
     more = f"; {len(others)} more" if others and finding.state is State.DIFFERENT else ""
     return f": {first}{more}"
 
@@ -118,13 +119,14 @@ def _findings(
     decks: Sequence[DeckFile], chosen: argparse.Namespace
 ) -> Iterator[tuple[DeckFile, Finding]]:
     """What comes of each deck, in their order; a folder that gives none fails."""
-    question = Question(chosen.method, chosen.within, chosen.store)
+    asked = {"method": chosen.method, "tolerance": chosen.within, "stores": chosen.store}
     good = [deck for deck in decks if deck.error is None]
     results: Iterator[tuple[Finding, str]]
     if chosen.dask is None and (len(good) == 1 or chosen.workers == 1):
-        results = ((_watched(deck, chosen, question), "") for deck in good)
+        results = ((_watched(deck, chosen, asked), "") for deck in good)
     else:
-        results = in_order(question, (case_of(deck, chosen.against) for deck in good), chosen)
+        cases = (case_of(deck, chosen.against) for deck in good)
+        results = in_order(partial(finding_of, **asked), cases, chosen)
     for deck in decks:
         if deck.error is not None:
             yield deck, Finding(State.FAILED, error=deck.error)
@@ -133,7 +135,7 @@ def _findings(
         yield deck, Finding(State.FAILED, error=AnalysisError(failure)) if failure else finding
 
 
-def _watched(deck: DeckFile, chosen: argparse.Namespace, question: Question) -> Finding:
+def _watched(deck: DeckFile, chosen: argparse.Namespace, asked: dict[str, Any]) -> Finding:
     """What comes of a deck, while a bar says how far it is."""
 
     def watch(model: ModelData) -> Progress | None:
@@ -143,7 +145,7 @@ def _watched(deck: DeckFile, chosen: argparse.Namespace, question: Question) -> 
 
     with Bar(deck.name, deck.path) as bar:
         bar.show("reading")
-        return question(case_of(deck, chosen.against), watch)
+        return finding_of(case_of(deck, chosen.against), watch=watch, **asked)
 
 
 def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, ExitCode]:
