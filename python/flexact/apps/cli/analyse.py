@@ -80,35 +80,30 @@ class Findings:
         """Read a deck, and write its problems."""
         model = read_deck(deck)
         report_problems(model)
-        module = load("flexact.apps.checks.findings")
-        self._add(module.findings_of(deck.name, model.problems, model.source))
+        self._add("findings_of", deck, model.problems, model.source)
         return Outcome(deck.name, ExitCode.ANALYSED, "without errors")
 
     def analysed(self, deck: DeckFile, result: Result, expected: Verdict | None) -> None:
         """Write what is found in a deck that was analysed."""
-        module = load("flexact.apps.checks.findings")
-        self._add(module.findings_about(deck.name, result, expected))
+        self._add("findings_about", deck, result, expected)
 
     def failed(self, deck: DeckFile, error: Exception) -> None:
         """Write why a deck failed."""
         source = error.source if isinstance(error, DeckError) else None
-        module = load("flexact.apps.checks.findings")
-        self._add(module.findings_of(deck.name, failures.problems_of(error), source))
+        self._add("findings_of", deck, failures.problems_of(error), source)
 
-    def _add(self, findings: list[Any]) -> None:
+    def _add(self, function: str, deck: DeckFile, *about: object) -> None:
+        found = getattr(load("flexact.apps.checks.findings"), function)(deck.name, *about)
         if self._form == SARIF:
-            self._kept += findings
-            return
-        lines = map(load("flexact.apps.checks.outputs").annotation, findings)
-        if text := "\n".join(lines):
+            self._kept += found
+        elif text := "\n".join(map(load("flexact.apps.checks.outputs").annotation, found)):
             give(text)
 
     def finish(self, code: ExitCode) -> ExitCode:
         """Write what waits until all decks are done; gives back the code."""
         if self._form == SARIF:
-            ended_well = code is not ExitCode.OTHER
-            module = load("flexact.apps.checks.outputs")
-            log = module.log_of(self._kept, int(code), ended_well=ended_well)
+            log_of = load("flexact.apps.checks.outputs").log_of
+            log = log_of(self._kept, int(code), ended_well=code is not ExitCode.OTHER)
             give(load("json").dumps(log, indent=1))
         return code
 
@@ -129,8 +124,8 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
     findings = None if chosen.format == TEXT else Findings(chosen.format)
     files: ResultFiles | None = None
     if chosen.output and not is_table(chosen.output):
-        module = load("flexact.apps.cli.export")
-        files = module.ResultFiles(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
+        planned = load("flexact.apps.cli.export").ResultFiles
+        files = planned(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
     wanted = VERDICTS.get(chosen.expect)
 
     def written(deck: DeckFile, result: Result) -> Exception | None:

@@ -146,28 +146,17 @@ def _differences(then: dict[str, Any], now: dict[str, Any]) -> list[str]:
         if pair[0] != pair[1]
     ]
     if decks != now["decks"]:
-        made.append(_of_decks(decks, now["decks"]))
+        new, gone = sorted({*now["decks"]} - {*decks}), sorted({*decks} - {*now["decks"]})
+        words = [f"{len(decks)} decks then, {len(now['decks'])} now"] if new or gone else []
+        words += [f"{new[0]} is new"] if new else []
+        words += [f"{gone[0]} is not among them any more"] if gone else []
+        made.append(", ".join(words) or "the decks stand in another order")
     return made
 
 
-def _of_decks(then: list[str], now: list[str]) -> str:
-    new, gone = sorted({*now} - {*then}), sorted({*then} - {*now})
-    if not new and not gone:
-        return "the decks stand in another order"
-    words = [f"{len(then)} decks then, {len(now)} now"]
-    words += [f"{new[0]} is new"] if new else []
-    words += [f"{gone[0]} is not among them any more"] if gone else []
-    return ", ".join(words)
-
-
-class Item(NamedTuple):
-    """A deck that is to be done."""
-
-    name: str
-    place: str
-    """Of its page, beside the index and without its suffix."""
-    raw: bytes
-    """Its text: workers need not have its file."""
+#: A deck that is to be done: its name, the place of its page, beside the index and without its
+#: suffix, and its text: workers need not have its file.
+Item = tuple[str, str, bytes]
 
 
 class Answer(NamedTuple):
@@ -178,9 +167,8 @@ class Answer(NamedTuple):
     is_wanted: bool
     """Whether it is what --where asks for."""
     files: tuple[bytes, ...] = ()
-    page: bytes = b""
-    entry: Entry | None = None
-    """In the index of the pages."""
+    page: DeckPage | None = None
+    """With its entry in the index of the pages."""
 
 
 class Work:
@@ -220,15 +208,16 @@ class Work:
 
     def __call__(self, item: Item) -> Answer:
         """Analyse a deck, and make what is wanted of it."""
-        return self._answer(deck_row(item.raw, item.name, self._asked, self._want), item)
+        name, place, raw = item
+        return self._answer(deck_row(raw, name, self._asked, self._want), name, place)
 
     def failed(self, error: Exception, deck: DeckFile) -> Answer:
         """What is said of a deck that could not be done."""
         row = failed_row(error, deck.name, self._want)
-        return self._answer(row, Item(deck.name, deck.relative.as_posix(), b""))
+        return self._answer(row, deck.name, deck.relative.as_posix())
 
-    def _answer(self, row: DeckRow, item: Item) -> Answer:
-        is_wanted = self._test({**row.values, "deck": item.name})
+    def _answer(self, row: DeckRow, name: str, place: str) -> Answer:
+        is_wanted = self._test({**row.values, "deck": name})
         files: tuple[bytes, ...] = ()
         page: DeckPage | None = None
         if is_wanted:
@@ -239,16 +228,14 @@ class Work:
                 if self._has_pages:
                     report = load("flexact.apps.cli.report")
                     if row.result is not None:
-                        page = report.page_of(row.result, item.place, indexed=True)
+                        page = report.page_of(row.result, place, indexed=True)
                     else:
-                        page = report.broken_page_of(row.error, item.name, item.place)
+                        page = report.broken_page_of(row.error, name, place)
             except Exception as error:
-                row.values["error"] = f"{item.name}: its files could not be made: {why(error)}"
+                row.values["error"] = f"{name}: its files could not be made: {why(error)}"
                 files = ()
         values = tuple(row.values[column.name] for column in self.columns[1:])
-        if page is None:
-            return Answer(values, is_wanted, files)
-        return Answer(values, is_wanted, files, page.content, page.entry)
+        return Answer(values, is_wanted, files, page)
 
 
 class Outputs:
@@ -299,19 +286,19 @@ class Outputs:
         Raises:
             OutputError: A file cannot be written.
         """
-        contents = [*answer.files, *([answer.page] if answer.page else [])]
-        targets = self._targets(deck, bool(answer.files), bool(answer.page))
+        page, entry = answer.page or (b"", None)
+        contents = [*answer.files, *([page] if page else [])]
+        targets = self._targets(deck, bool(answer.files), bool(page))
         if contents:
             write_together(dict(zip(targets, contents, strict=True)))
         record: dict[str, Any] = {}
         if answer.files:
             record["files"] = [len(content) for content in answer.files]
-        if answer.page:
-            record["page"] = [len(answer.page)]
-        if answer.entry is not None:
-            picture = answer.entry.picture
+        if entry is not None:
+            picture = entry.picture
             packed = None if picture is None else base64.b64encode(picture).decode("ascii")
-            record["entry"] = {**asdict(answer.entry), "picture": packed}
+            record["page"] = [len(page)]
+            record["entry"] = {**asdict(entry), "picture": packed}
         return record
 
     def _targets(self, deck: DeckFile, has_files: bool, has_page: bool) -> list[Path]:
@@ -480,21 +467,17 @@ class BatchRun:
         if self._place[index] == _NOT_DONE:
             return False
         deck, record = self._decks[index], self._journal.read(self._place[index])
-        return (
-            record.get("of") == _content(deck)[1]
-            and self._is_row(record.get("row"))
-            and type(record.get("wanted")) is bool
-            and self._outputs.are_there(deck, record)
-        )
-
-    def _is_row(self, row: object) -> bool:
-        """Whether it is a row as those are that this run writes."""
-        kinds = [column.kind for column in self._work.columns[1:]]
+        kinds, row = [column.kind for column in self._work.columns[1:]], record.get("row")
         if not isinstance(row, list) or len(row) != len(kinds):
             return False
-        return all(
-            cell is None or type(cell) is kind or (kind is float and type(cell) is int)
-            for cell, kind in zip(row, kinds, strict=True)
+        return (
+            record.get("of") == _content(deck)[1]
+            and all(
+                cell is None or type(cell) is kind or (kind is float and type(cell) is int)
+                for cell, kind in zip(row, kinds, strict=True)
+            )
+            and type(record.get("wanted")) is bool
+            and self._outputs.are_there(deck, record)
         )
 
     @property
@@ -553,7 +536,7 @@ class BatchRun:
                 continue
             self._sent[sent] = index, digest
             sent += 1
-            yield Item(deck.name, deck.relative.as_posix(), raw)
+            yield deck.name, deck.relative.as_posix(), raw
 
     def _finish(self, index: int, digest: str, answer: Answer) -> None:
         """Write what was made of a deck, and then that it is done."""
@@ -577,7 +560,11 @@ class BatchRun:
         write_table(table, self._work.columns, self._rows(counts))
         self._outputs.keep()
         self._journal.remove()
-        return _summary(counts, self._rows_written, self._work.where, table, index)
+        total, rows, where = counts.total(), self._rows_written, self._work.where
+        found = ", ".join(f"{count} {words}" for words, count in counts.most_common())
+        some = f", {rows} row{'s' * (rows != 1)} where {where}" if where else ""
+        lines = [f"{total} deck{'s' * (total != 1)}: {found}", f"table in {table}{some}"]
+        return "\n".join(map(harmless, [*lines, *([f"index in {index}"] if index else [])]))
 
     def _rows(self, counts: Counter[str]) -> Iterator[tuple[Cell, ...]]:
         """The wanted rows in the order of the decks; what came of all is counted."""
@@ -605,15 +592,6 @@ def _content(deck: DeckFile) -> tuple[bytes, str, Exception | None]:
     except (DeckError, FolderError) as error:
         return b"", first_error(error, ""), error
     return raw, hashlib.blake2b(raw, digest_size=16).hexdigest(), None
-
-
-def _summary(counts: Counter[str], rows: int, where: str, table: Path, index: str) -> str:
-    total = counts.total()
-    decks = f"{total} deck{'s' * (total != 1)}"
-    found = ", ".join(f"{count} {words}" for words, count in counts.most_common())
-    some = f", {rows} row{'s' * (rows != 1)} where {where}" if where else ""
-    lines = [f"{decks}: {found}", f"table in {table}{some}"]
-    return "\n".join(map(harmless, [*lines, *([f"index in {index}"] if index else [])]))
 
 
 VERB = Verb(

@@ -10,14 +10,14 @@ from typing import Any
 from ...deck.rendering import ProblemsError, render
 from ...util.decks import STDIN, DeckFile, find_decks
 from ...util.errors import BatchError, FlexactError
-from ...util.outputs import STDOUT
+from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
 from ..convert.files import Format, bytes_of, form_of_content, format_of, read_any, read_content
 from ..convert.mesh_files import KINDS
 from ..convert.tables import FLEXIBLE
 from .decks import report_problems
 from .parser import Verb, argument
-from .targets import plan_text, write_text
+from .targets import write_text
 from .terminal import ExitCode, complain, say
 
 
@@ -91,7 +91,8 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
         named = Path("tables.json" if given is Format.DECK else "deck.dat")
     format_of(named)
     options = _options(chosen, given)
-    plan_text(source, target)
+    if target != STDOUT:
+        plan_file(source, target)
     try:
         if source.content is None:
             model = read_any(chosen.file, **options)

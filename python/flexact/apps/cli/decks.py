@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
@@ -212,24 +212,18 @@ def take(
         return outcome
 
     outcomes = list(each_of(decks, step, failed))
-    if text := summarise(outcomes):
+    if len(outcomes) > 1:
+        counts = Counter(outcome.result for outcome in outcomes)
+        parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
+        lines = [f"{len(outcomes)} decks: {parts}"]
+        lines += [
+            f"  {outcome.remark or REMARKS[outcome.code]}: {harmless(outcome.deck)}"
+            for outcome in outcomes
+            if outcome.code is not ExitCode.ANALYSED
+        ]
+        text = "\n".join(lines)
         complain(text) if as_json or on_failure else say(text)
     return exit_code(outcomes)
-
-
-def summarise(outcomes: Sequence[Outcome]) -> str:
-    """How many decks gave what, and which of them want attention; empty for a single deck."""
-    if len(outcomes) < 2:
-        return ""
-    counts = Counter(outcome.result for outcome in outcomes)
-    parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
-    lines = [f"{len(outcomes)} decks: {parts}"]
-    lines += [
-        f"  {outcome.remark or REMARKS[outcome.code]}: {harmless(outcome.deck)}"
-        for outcome in outcomes
-        if outcome.code is not ExitCode.ANALYSED
-    ]
-    return "\n".join(lines)
 
 
 #: From this number of rows and columns on, people wait for the decomposition.
@@ -419,12 +413,6 @@ class SummaryTable:
             self._name = max(min(longest, room), len("deck"))
         self._names = {name: name[len(self.folder) :].removesuffix(ending) for name in names}
 
-    @property
-    def place(self) -> str:
-        """Where the decks are, in words, if the lines do not say so."""
-        return f" in {self.folder.rstrip('/' + os.sep)}" if self.folder else ""
-
-    @property
     def head(self) -> str:
         """The first line."""
         return self._line("deck", {name: name for name in self._columns})
@@ -497,7 +485,7 @@ def tabulate(
         step: What is done with a deck; it may raise what `take` takes.
     """
     table = SummaryTable(columns, [harmless(deck.name) for deck in decks])
-    say(table.head)
+    say(table.head())
     outcomes = []
     for deck, (cells, outcome) in zip(decks, each_of(decks, step, failed), strict=True):
         say(table.line(harmless(deck.name), cells))
@@ -509,7 +497,8 @@ def tabulate(
         for result, count in counts.most_common()
     )
     many = len(outcomes)
-    say(table.filled(f"{many} deck{'s' * (many != 1)}{table.place}: {parts}"))
+    place = f" in {table.folder.rstrip('/' + os.sep)}" if table.folder else ""
+    say(table.filled(f"{many} deck{'s' * (many != 1)}{place}: {parts}"))
     for outcome in outcomes:
         if outcome.code is ExitCode.DIFFERENT:
             say(f"  not as expected: {harmless(outcome.deck)}")
@@ -562,23 +551,21 @@ def summarise_results(
 
     code = tabulate(decks, _TOLD, step)
     if target is not None:
-        columns = _columns()
+        # Those that `batch` has too go by the same names.
+        known = load("flexact.sweeps.columns")
+        names = ("verdict", "under_constrained", "over_constrained", "certainty", "margin")
+        of = {column.name: column for column in known.COLUMNS}
+        columns = (
+            *(load("flexact.sweeps.batch").DECK, *(of[name] for name in names[:3])),
+            known.Column("degrees_of_freedom", int, "declared degrees of freedom", "verdict"),
+            *(of["certainty"], of["margin"], of["margin_angle"], known.ERROR),
+        )
         # A folder that gives no decks has not come to a step.
         found = ((deck, rows.get(deck.name, {"error": str(deck.error)})) for deck in decks)
         lines = ([deck.name, *(row.get(c.name) for c in columns[1:])] for deck, row in found)
         load("flexact.sweeps.writing").write_table(target, columns, lines)
         say(f"table in {harmless(str(target))}")
     return code
-
-
-def _columns() -> tuple[Any, ...]:
-    """The columns of the table as a file: those that `batch` has too go by the same names."""
-    rows, known = load("flexact.sweeps.batch"), load("flexact.sweeps.columns")
-    names = ("verdict", "under_constrained", "over_constrained", "certainty", "margin")
-    of = {column.name: column for column in known.COLUMNS}
-    freedoms = known.Column("degrees_of_freedom", int, "declared degrees of freedom", "verdict")
-    counts = (*(of[name] for name in names[:3]), freedoms)
-    return (rows.DECK, *counts, of["certainty"], of["margin"], of["margin_angle"], known.ERROR)
 
 
 def _cells(result: Result) -> Cells:

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from importlib import import_module
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TextIO
 
 from ...util.errors import reason_of
@@ -111,11 +112,6 @@ def painted(text: str, style: str) -> str:
     return "\n".join(f"\x1b[{_STYLES[style]}m{row}\x1b[0m" if row else row for row in rows)
 
 
-def painted_problems(text: str) -> str:
-    """Diagnostics as they were rendered, with kinds, places and carets in colour."""
-    return "\n".join(map(_painted_row, text.split("\n")))
-
-
 def _painted_row(row: str) -> str:
     if found := _HEADS.match(row):
         kind = found["kind"]
@@ -142,32 +138,19 @@ class ResultsError(Exception):
     """Results cannot be written to stdout, so that going on has no use."""
 
 
-@dataclass
-class _Manner:
-    """How the present run speaks, as was chosen.
-
-    Attributes:
-        colour: Of `colour.CHOICES`.
-        quiet: Whether words are left out, so that errors and the exit code are left.
-        verbose: How much is told of what is done.
-    """
-
-    colour: str = "auto"
-    quiet: bool = False
-    verbose: int = 0
-
-
-_MANNER = _Manner()
+#: How the present run speaks, as was chosen: one of `CHOICES`; whether words are left out, so that
+#: errors and the exit code are left; and how much is told of what is done.
+_MANNER = SimpleNamespace(colour="auto", quiet=False, verbose=0)
 
 
 def speak(colour: str = "auto", quiet: bool = False, verbose: int = 0) -> None:
     """Choose how the run speaks that begins."""
-    _MANNER.colour, _MANNER.quiet, _MANNER.verbose = colour, quiet, verbose
+    vars(_MANNER).update(colour=colour, quiet=quiet, verbose=verbose)
 
 
 def is_verbose() -> bool:
     """Whether somebody wants to know what is done, and how long it takes."""
-    return _MANNER.verbose > 0
+    return bool(_MANNER.verbose)
 
 
 def is_coloured(stream: TextIO | None) -> bool:
@@ -210,13 +193,10 @@ def _fitted(text: str, stream: TextIO | None) -> str:
     return text if seen is None else refitted(text, max(_LEAST, seen))
 
 
-def say(text: str, style: str = "") -> None:
+def say(text: str) -> None:
     """Print what results are in words, as wide as the terminal; errors as for `give`."""
     if not _MANNER.quiet:
-        text = _fitted(text, sys.stdout)
-        if style and is_coloured(sys.stdout):
-            text = painted(text, style)
-        give(text)
+        give(_fitted(text, sys.stdout))
 
 
 def give(text: str) -> None:
@@ -263,17 +243,12 @@ def _results() -> Iterator[None]:
 def complain(text: str) -> None:
     """Print problems and remarks, behind the results that came before them."""
     if text:
-        _clear_progress()
+        end_progress()
         text = _fitted(text, sys.stderr)
         if is_coloured(sys.stderr):
-            text = painted_problems(text)
+            # Diagnostics as they were rendered, with kinds, places and carets in colour.
+            text = "\n".join(map(_painted_row, text.split("\n")))
         _to_stderr(f"{text}\n")
-
-
-def remark(text: str) -> None:
-    """Print what is done, where somebody wants to know."""
-    if is_verbose():
-        complain(text)
 
 
 def show_progress(number: int, total: int, deck: str) -> None:
@@ -284,10 +259,6 @@ def show_progress(number: int, total: int, deck: str) -> None:
 
 def end_progress() -> None:
     """Wipe the line of progress."""
-    _clear_progress()
-
-
-def _clear_progress() -> None:
     if _is_watched():
         _to_stderr("\r\x1b[K")
 
