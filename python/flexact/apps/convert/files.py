@@ -7,7 +7,6 @@ import json
 import stat
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from enum import Enum
 from importlib import import_module
 from json import scanner
 from pathlib import Path
@@ -17,10 +16,11 @@ from typing import Any
 from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
 from ...model.model import Model
 from ...model.reading import read, read_text
+from ...util.decks import SUFFIX
 from ...util.errors import BatchError, reason_of
 from .mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh, read_mesh, suffixes
+from .table_input import TablesError, Text
 from .tables import model_of, tables_of
-from .values import TablesError, Text
 
 #: Where a value begins and ends, and its parts in their order.
 _Tree = tuple[int, int, list[Any]]
@@ -64,17 +64,23 @@ def spans_of_json(text: str) -> dict[str, Place]:
     """Where each value of a sound text stands, by its place, such as nprops[3].fix."""
     roots: list[_Tree] = []
     around = [roots]
-    plain = scanner.py_make_scanner(json.JSONDecoder())  # type: ignore[attr-defined]
+    plain: Any = scanner.py_make_scanner(json.JSONDecoder())  # type: ignore[attr-defined]
+    decoder: Any = json.decoder
 
     def scanned(text: str, start: int) -> tuple[Any, int]:
+        """As the scanner of the standard library does, and note where parts stand."""
         parts: list[_Tree] = []
         around.append(parts)
-        value, behind = kind(text, start)
+        if text[start : start + 1] == "{":
+            value, behind = decoder.JSONObject((text, start + 1), True, scanned, None, _once, {})
+        elif text[start : start + 1] == "[":
+            value, behind = decoder.JSONArray((text, start + 1), scanned)
+        else:
+            value, behind = plain(text, start)
         around.pop()
         around[-1].append((start, behind, parts))
         return value, behind
 
-    kind = _with_inner(plain, scanned)
     value, _ = scanned(text, len(text) - len(text.lstrip()))
     breaks = [-1, *(i for i, c in enumerate(text) if c == "\n")]
 
@@ -85,22 +91,6 @@ def spans_of_json(text: str) -> dict[str, Place]:
         return Place(line, first - before, min(behind, end) - before - 1)
 
     return {place: span(*both) for place, *both in _json_places(value, roots[0], "")}
-
-
-def _with_inner(plain: Any, scanned: Any) -> Any:
-    """The scanner of the standard library, whose parts are scanned by another one."""
-    decoder = json.decoder
-
-    def scan(text: str, start: int) -> tuple[Any, int]:
-        if text[start : start + 1] == "{":
-            return decoder.JSONObject(  # type: ignore[attr-defined,no-any-return]
-                (text, start + 1), True, scanned, None, _once, {}
-            )
-        if text[start : start + 1] == "[":
-            return decoder.JSONArray((text, start + 1), scanned)  # type: ignore[attr-defined,no-any-return]
-        return plain(text, start)  # type: ignore[no-any-return]
-
-    return scan
 
 
 def _json_places(value: Any, tree: _Tree, place: str) -> Iterator[tuple[str, int, int]]:
@@ -188,10 +178,6 @@ JSON, YAML = (".json",), (".yaml", ".yml")
 _ROW = 100
 
 
-class PackageError(BatchError):
-    """A package is missing."""
-
-
 def read_tables(raw: bytes, name: str, suffix: str) -> tuple[Mapping[str, Any], Text]:
     """Tables from the bytes of a file, and where everything stands in it.
 
@@ -202,7 +188,7 @@ def read_tables(raw: bytes, name: str, suffix: str) -> tuple[Mapping[str, Any], 
 
     Raises:
         TablesError: it is no JSON or YAML, or holds no object.
-        PackageError: PyYAML is missing.
+        BatchError: PyYAML is missing.
     """
     source = Source(raw.removeprefix(b"\xef\xbb\xbf"), name)
     try:
@@ -219,13 +205,14 @@ def read_tables(raw: bytes, name: str, suffix: str) -> tuple[Mapping[str, Any], 
         raise _error(source, "lists or objects stand in each other too deeply") from None
     if not isinstance(value, Mapping):
         raise _error(source, "an object with nodes, elements, nprops and eprops is wanted")
-    return value, Text(source, lambda: _spans(yaml, text))
 
+    def spans() -> dict[str, Place]:
+        """Where each value stands."""
+        if yaml is None:
+            return spans_of_json(text)
+        return dict(_yaml_places(yaml, yaml.compose(text, Loader=yaml.SafeLoader), ""))
 
-def _spans(yaml: ModuleType | None, text: str) -> dict[str, Place]:
-    if yaml is None:
-        return spans_of_json(text)
-    return dict(_yaml_places(yaml, yaml.compose(text, Loader=yaml.SafeLoader), ""))
+    return value, (source, spans)
 
 
 def _error(source: Source, message: str, line: int = 0, column: int = 0) -> TablesError:
@@ -242,7 +229,7 @@ def text_of(tables: Mapping[str, Any], suffix: str) -> str:
         suffix: One of `JSON` or `YAML`.
 
     Raises:
-        PackageError: PyYAML is missing.
+        BatchError: PyYAML is missing.
     """
     if suffix in YAML:
         yaml = _yaml()
@@ -285,44 +272,39 @@ def _yaml() -> ModuleType:
     try:
         return import_module("yaml")
     except ImportError as error:
-        raise PackageError(
+        raise BatchError(
             f"YAML needs the package PyYAML: pip install PyYAML ({error}); JSON does not"
         ) from error
 
 
-DECK = (".dat",)
 #: Larger files are no tables that somebody has written.
 _MOST_BYTES = 2**30
 #: So much a file may have grown since its size was asked for.
 _PIECE = 2**20
 
 
-class Format(Enum):
-    """What a file holds."""
-
-    DECK = "deck"
-    TABLES = "tables"
-    MESH = "mesh"
+#: What a file holds.
+DECK, TABLES, MESH = "deck", "tables", "mesh"
 
 
 class FormatError(BatchError):
     """A file of no known format, or one that cannot be read."""
 
 
-def format_of(path: Path) -> Format:
+def format_of(path: Path) -> str:
     """The format that a file's suffix means.
 
     Raises:
         FormatError: there is none.
     """
     suffix = path.suffix.lower()
-    if suffix in DECK:
-        return Format.DECK
+    if suffix == SUFFIX:
+        return DECK
     if suffix in (*JSON, *YAML):
-        return Format.TABLES
+        return TABLES
     try:
         if suffix in suffixes():
-            return Format.MESH
+            return MESH
     except MeshError as error:
         raise FormatError(f"{path}: {error}") from error
     raise FormatError(
@@ -346,9 +328,9 @@ def read_any(
         FlexactError: anything is wrong with the file; all of it, each with its place.
     """
     form = format_of(path)
-    if form is Format.DECK:
+    if form is DECK:
         return read(path)
-    if form is Format.MESH:
+    if form is MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
     try:
         # A pipe or a device may keep whoever reads it for ever.
@@ -375,14 +357,14 @@ def read_content(raw: bytes, name: str, *, flexible: str = "independent") -> Mod
     Raises:
         FlexactError: anything is wrong with it.
     """
-    if form_of_content(raw) is Format.TABLES:
+    if form_of_content(raw) is TABLES:
         return _of_tables(raw, Path(f"{name}{JSON[0]}"), flexible)
     return read_text(raw, name)
 
 
-def form_of_content(raw: bytes) -> Format:
+def form_of_content(raw: bytes) -> str:
     """What a text without a suffix is."""
-    return Format.TABLES if raw.lstrip()[:1] == b"{" else Format.DECK
+    return TABLES if raw.lstrip()[:1] == b"{" else DECK
 
 
 def _of_tables(raw: bytes, path: Path, flexible: str) -> Model:
@@ -401,9 +383,9 @@ def bytes_of(model: Model, path: Path) -> tuple[bytes, tuple[Diagnostic, ...]]:
         FlexactError: the model is wrong, or the format cannot hold it.
     """
     form = format_of(path)
-    if form is Format.DECK:
+    if form is DECK:
         return model.to_deck().encode("utf-8"), ()
-    if form is Format.TABLES:
+    if form is TABLES:
         remarks: list[Diagnostic] = []
         made = text_of(tables_of(model, remarks), path.suffix.lower())
         return made.encode("utf-8"), tuple(remarks)

@@ -23,9 +23,8 @@ from ...model.model import Model
 from ...util.errors import BatchError, require_kind
 from ...util.text import harmless
 from .model_tables import tables_with_remarks
-from .table_input import Entry
+from .table_input import AXES, Entry, Remarks
 from .tables import model_of
-from .values import AXES, Remarks
 
 #: What a line can be.
 KINDS = ("beam", "truss", "plbeam", "pltruss")

@@ -33,9 +33,23 @@ from ...model.model import Model
 from ...model.names import one_line
 from ...util.errors import require_kind
 from .model_tables import tables_with_remarks
-from .table_input import Entry, Tables, mass_of, shape_of, stiffness_of, tables_given, warped
-from .values import AXES as LETTERS
-from .values import LOADS, NODES_A_POINT, PRESCRIBED, Found, Remarks, TablesError, Text
+from .table_input import AXES as LETTERS
+from .table_input import (
+    LOADS,
+    NODES_A_POINT,
+    PRESCRIBED,
+    Entry,
+    Found,
+    Remarks,
+    Tables,
+    TablesError,
+    Text,
+    mass_of,
+    shape_of,
+    stiffness_of,
+    tables_given,
+    warped,
+)
 
 
 def _numbers(
@@ -382,7 +396,7 @@ def model_of(
     require_kind(tables, Mapping, "tables are a mapping")
     if flexible not in FLEXIBLE:
         raise ValueError(f"flexible is one of {', '.join(FLEXIBLE)}, not {flexible!r}")
-    found = Found(text or Text(), name)
+    found = Found(text, name)
     checked = tables_given({key: _plain(value) for key, value in tables.items()}, found)
     found.require_none()
     checked.name = checked.name or name

@@ -7,7 +7,6 @@ import difflib
 import re
 from collections.abc import Iterator
 from itertools import islice, takewhile
-from typing import NamedTuple
 
 from ...advice.advice import Advice
 from ...advice.step import Step
@@ -24,15 +23,9 @@ _LONGEST_TITLE = 160
 _MOST_COMPARED = 4_000_000
 
 
-class Remedy(NamedTuple):
-    """A step of the advice, or one of the choices that symmetry gives it."""
-
-    title: str
-    step: int
-    """From 1."""
-    choice: int
-    """From 1."""
-    makes_exact: bool
+#: A step of the advice, or one of the choices that symmetry gives it: its title, and the numbers of
+#: both, from 1.
+Remedy = tuple[str, int, int]
 
 
 def mends_of(deck: Deck, problem: Problem) -> list[tuple[str, Edit]]:
@@ -106,7 +99,7 @@ def _remedy(step: Step, choice: int, change: Change) -> Remedy:
     room = _LONGEST_TITLE - len(outcome) - 2
     if len(alike) > room:
         alike = f"{alike[: room - 3]}..."
-    return Remedy(f"{alike}: {outcome}", step.number, choice, outcome == "exactly constrained")
+    return f"{alike}: {outcome}", step.number, choice
 
 
 def edits_of(deck: Deck, advice: Advice, step: int, choice: int) -> list[Edit]:

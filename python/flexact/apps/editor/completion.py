@@ -24,11 +24,11 @@ from ...deck.tokens import Line, Tokens
 from ...model.attributes import CrossSection
 from .deck import ELEMENT, NODE, Deck, Position, Range
 from .hover import (
+    KIND_WORDS,
     components_of_element,
     components_of_node,
     designers_words,
     keyword_words,
-    kind_words,
 )
 
 #: How many numbers are offered at once.
@@ -138,10 +138,10 @@ def _operands(deck: Deck, line: Line, place: int, typed: str) -> Iterator[Offer]
         for number, kind in index.kinds.items():
             if wanted in (0, kind) and str(number).startswith(typed):
                 comment = index.comment((NODE, number))
-                detail = f"{kind_words(kind)}{f', {comment}' if comment else ''}"
+                detail = f"{KIND_WORDS[kind]}{f', {comment}' if comment else ''}"
                 yield Offer(str(number), "number", detail)
         if wanted:
-            yield Offer(str(index.free(NODE)), "number", f"free for {kind_words(wanted)}")
+            yield Offer(str(index.free(NODE)), "number", f"free for {KIND_WORDS[wanted]}")
     elif letter == "e":
         for number, made in index.made[ELEMENT].items():
             if str(number).startswith(typed):

@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import BoolArray
-from ...core.raw import ElementKind
 from ...deck.diagnostics import Problems
 from ...deck.rendering import DeckError
 from ...deck.tokens import Line, Tokens
@@ -253,11 +252,6 @@ class Index:
         """The statement that makes an element."""
         line = self.made[ELEMENT].get(number)
         return None if line is None else self.tokens[line]
-
-    def kind_of_element(self, number: int) -> ElementKind | None:
-        """What an element is."""
-        made = self.element(number)
-        return None if made is None else made.element
 
     def comment(self, key: Key) -> str:
         """The comment behind the statement that makes it."""

@@ -30,7 +30,8 @@ _CLASSES = {
     Class.DEPENDENT: "dependent",
     Class.INDEPENDENT: "independent",
 }
-_KINDS = {
+#: What a node is, by its kind.
+KIND_WORDS: dict[int, str] = {
     NodeKind.POSITION: "position",
     NodeKind.PLANAR_POSITION: "position",
     NodeKind.ORIENTATION: "orientation",
@@ -41,11 +42,6 @@ _KINDS = {
 
 #: Numbers of a position.
 _NUMBERS = {NodeKind.POSITION: 3, NodeKind.PLANAR_POSITION: 2}
-
-
-def kind_words(kind: int) -> str:
-    """What a node is: position, orientation or warping."""
-    return _KINDS[kind]
 
 
 def components_of_node(kind: int) -> dict[int, str]:
@@ -128,7 +124,7 @@ def node_lines(deck: Deck, number: int) -> list[str]:
     kind = deck.index.kinds.get(number)
     if kind is None:
         return [f"**node {number}**: no element names it."]
-    lines = [f"**node {number}**: {kind_words(kind)}"]
+    lines = [f"**node {number}**: {KIND_WORDS[kind]}"]
     told, on = deck.told, deck.index.elements_on(number)
     part_of = dict.fromkeys(on[:8], "")
     if told is not None:
@@ -221,7 +217,7 @@ def _of_operand(deck: Deck, line: Line, place: int) -> str:
     if letter == "n":
         lines = node_lines(deck, number)
         if line.element is not None:
-            noun = kind_words(line.words[place].node)
+            noun = KIND_WORDS[line.words[place].node]
             article = "an" if noun[0] in "aeiou" else "a"
             slot = operands_of(line.element, line.name)[place - 1]
             lines.append(f"here {slot}, {article} {noun}")
@@ -257,8 +253,8 @@ def _real(deck: Deck, line: Line, place: int) -> str:
         named, behind = meanings.GRAVITY, place - 1
     elif letter == "n" and (node := deck.index.kinds.get(owner, 0)) > 0:
         named = meanings.of_node(line.name, node)
-    elif letter == "e" and (kind := deck.index.kind_of_element(owner)) is not None:
-        named = meanings.of_element(line.name, kind)
+    elif letter == "e" and (made := deck.index.element(owner)) is not None:
+        named = meanings.of_element(line.name, made.element) if made.element else ()
     return f"**{line.words[place].text}**: {named[behind]}" if 0 <= behind < len(named) else ""
 
 

@@ -17,7 +17,7 @@ from ...deck.tokens import Line
 from ...model.names import part_name
 from ...util.text import harmless
 from .deck import ELEMENT, Deck, Edit, Key, Position, Range, keys_in, span
-from .hover import kind_words
+from .hover import KIND_WORDS
 
 One = TypeVar("One")
 Sort = Literal["group", "part", "element", "point", "statement"]
@@ -124,7 +124,7 @@ def _part(deck: Deck, name: str, lines: list[int]) -> Symbol:
 def _node(deck: Deck, number: int) -> Symbol:
     line = deck.tokens[number]
     kind = deck.index.kinds.get(line.number_of(1))
-    words = kind_words(kind) if kind is not None else "node"
+    words = KIND_WORDS[kind] if kind is not None else "node"
     name = f"node {line.words[1].text}" if len(line.words) > 1 else "node"
     if line.comment and kind is not None and kind > 0 and is_position(kind):
         name = f"{name}: {harmless(line.comment)}"

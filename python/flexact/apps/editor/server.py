@@ -10,7 +10,8 @@ import logging
 import re
 from collections.abc import Callable, Generator, Iterable
 from functools import partial
-from typing import Any, BinaryIO, NamedTuple
+from types import SimpleNamespace
+from typing import Any, BinaryIO
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
@@ -111,9 +112,10 @@ def markup(text: str, *, is_markdown: bool) -> lsp.MarkupContent:
     return lsp.MarkupContent(lsp.MarkupKind.PlainText, re.sub(r"[*`]|  (?=\n)", "", text))
 
 
-def completions(document: Document, offers: Offers, *, snippets: bool) -> lsp.CompletionList:
+def completions(document: Document, found: Offers, *, snippets: bool) -> lsp.CompletionList:
     """What may stand there, in the order in which it is offered."""
-    where = range_of(document, offers.range)
+    place, offers, is_complete = found
+    where = range_of(document, place)
     items = [
         lsp.CompletionItem(
             label=one.label,
@@ -125,9 +127,9 @@ def completions(document: Document, offers: Offers, *, snippets: bool) -> lsp.Co
             insert_text_format=lsp.InsertTextFormat.Snippet if snippets and one.snippet else None,
             text_edit=lsp.TextEdit(where, (snippets and one.snippet) or one.label),
         )
-        for order, one in enumerate(offers.offers)
+        for order, one in enumerate(offers)
     ]
-    return lsp.CompletionList(is_incomplete=not offers.is_complete, items=items)
+    return lsp.CompletionList(is_incomplete=not is_complete, items=items)
 
 
 def symbol(document: Document, one: Symbol) -> lsp.DocumentSymbol:
@@ -164,40 +166,33 @@ _FAILED = -32803
 _PATIENCE = 15.0
 
 
-class Client(NamedTuple):
-    """What an editor can show."""
+def client_of(params: lsp.InitializeParams) -> SimpleNamespace:
+    """What an editor can show, each true or false.
 
-    related: bool = False
-    """Places that belong to a diagnostic."""
-    markdown: bool = False
-    snippets: bool = False
-    outline: bool = False
-    """An outline with levels."""
-    resolves: bool = False
-    """Whether it asks for the edit of an action when the action is taken."""
-    verdict: bool = False
-    """Whether it wants the verdict in messages of its own, flexact/verdict."""
-
-    @classmethod
-    def of(cls, params: lsp.InitializeParams) -> Client:
-        """The editor that sends this."""
-        text = params.capabilities.text_document or lsp.TextDocumentClientCapabilities()
-        given = params.initialization_options
-        options: dict[str, Any] = given if isinstance(given, dict) else {}
-        published, hover = text.publish_diagnostics, text.hover
-        item = text.completion.completion_item if text.completion else None
-        symbols, action = text.document_symbol, text.code_action
-        resolved = action.resolve_support if action else None
-        formats = (hover.content_format if hover else None) or []
-        return cls(
-            related=bool(published and published.related_information)
-            and options.get("help") != "message",
-            markdown=lsp.MarkupKind.Markdown in formats,
-            snippets=bool(item and item.snippet_support),
-            outline=bool(symbols and symbols.hierarchical_document_symbol_support),
-            resolves=bool(resolved and "edit" in resolved.properties),
-            verdict=options.get("verdict") is True,
-        )
+    Attributes:
+        related: Places that belong to a diagnostic.
+        markdown: Likewise.
+        snippets: Likewise.
+        outline: An outline with levels.
+        resolves: Whether it asks for the edit of an action when the action is taken.
+        verdict: Whether it wants the verdict in messages of its own, flexact/verdict.
+    """
+    text = params.capabilities.text_document or lsp.TextDocumentClientCapabilities()
+    given = params.initialization_options
+    options: dict[str, Any] = given if isinstance(given, dict) else {}
+    published, hover = text.publish_diagnostics, text.hover
+    item = text.completion.completion_item if text.completion else None
+    symbols, action = text.document_symbol, text.code_action
+    resolved = action.resolve_support if action else None
+    return SimpleNamespace(
+        related=bool(published and published.related_information)
+        and options.get("help") != "message",
+        markdown=lsp.MarkupKind.Markdown in ((hover.content_format if hover else None) or []),
+        snippets=bool(item and item.snippet_support),
+        outline=bool(symbols and symbols.hierarchical_document_symbol_support),
+        resolves=bool(resolved and "edit" in resolved.properties),
+        verdict=options.get("verdict") is True,
+    )
 
 
 class _Protocol(LanguageServerProtocol):
@@ -238,7 +233,7 @@ class DeckServer(LanguageServer):
     def __init__(self) -> None:
         """Nothing is open."""
         super().__init__("flexact", VERSION, protocol_cls=_Protocol)
-        self.client = Client()
+        self.client = client_of(lsp.InitializeParams(lsp.ClientCapabilities()))
         self.sessions: dict[str, Session] = {}
         #: Whether the editor said that it is about to end.
         self.was_shut_down = False
@@ -312,7 +307,7 @@ class DeckServer(LanguageServer):
         document, context = deck.document, params.context
         offers = complete_at(deck, position_in(document, params.position))
         is_typed = context and context.trigger_kind == lsp.CompletionTriggerKind.TriggerCharacter
-        if is_typed and any(one.kind == "keyword" for one in offers.offers):
+        if is_typed and any(one.kind == "keyword" for one in offers[1]):
             # A blank at the start of a line asks for nothing.
             return lsp.CompletionList(is_incomplete=False, items=[])
         return completions(document, offers, snippets=self.client.snippets)
@@ -355,18 +350,18 @@ class DeckServer(LanguageServer):
         if seen.advice is None or seen.opinion is None:
             return made
         shown = verdict(document, seen.opinion, with_related=related)
-        for remedy in remedies_at(seen.deck, seen.advice, first, last):
-            action = _fix(remedy.title, shown)
+        for title, step, choice in remedies_at(seen.deck, seen.advice, first, last):
+            action = _fix(title, shown)
             made.append(action)
             if self.client.resolves:
                 action.data = {
                     "uri": document.uri,
                     "version": document.version,
-                    "step": remedy.step,
-                    "choice": remedy.choice,
+                    "step": step,
+                    "choice": choice,
                 }
             else:
-                _fill(seen, action, remedy.step, remedy.choice)
+                _fill(seen, action, step, choice)
         return made
 
     async def resolve(self, action: lsp.CodeAction) -> lsp.CodeAction:
@@ -442,7 +437,7 @@ def make_server() -> DeckServer:
     server = DeckServer()
 
     def initialize(params: lsp.InitializeParams) -> None:
-        server.client = Client.of(params)
+        server.client = client_of(params)
 
     def shut_down(*_: object) -> None:
         server.was_shut_down = True
