@@ -15,7 +15,7 @@ import time
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import PurePath
-from typing import Any, NamedTuple
+from typing import Any
 from urllib.parse import quote
 from xml.etree import ElementTree
 
@@ -29,14 +29,6 @@ from .findings import Finding, Region, from_root
 HOME = "https://github.com/flexact/flexact"
 _DOCS = f"{HOME}/blob/main/docs"
 _DECKS, _VERDICT, _COMMAND = "decks.md", "verdict.md", "command.md#check"
-
-
-class Rule(NamedTuple):
-    """What a code means."""
-
-    title: str
-    help: str
-    page: str
 
 
 #: By the code; verdicts and doubts stand behind mistakes of decks.
@@ -278,14 +270,6 @@ _OF_FILES = frozenset(
 )
 
 
-def rule_of(code: str) -> Rule:
-    """What a code means."""
-    if code in _VERDICTS:
-        return Rule(*_VERDICTS[code], f"{_DOCS}/{_VERDICT}")
-    title, help_ = _RULES.get(code, (f"{code.replace('-', ' ').capitalize()}.", "See the message."))
-    return Rule(title, help_, f"{_DOCS}/{_COMMAND if code in _OF_FILES else _DECKS}")
-
-
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 )
@@ -325,15 +309,18 @@ def log_of(findings: Sequence[Finding], exit_code: int, *, ended_well: bool) -> 
 
 
 def _rule(code: str, findings: Sequence[Finding]) -> dict[str, Any]:
-    rule = rule_of(code)
+    """What a code means."""
+    page = _VERDICT if code in _VERDICTS else _COMMAND if code in _OF_FILES else _DECKS
+    other = f"{code.replace('-', ' ').capitalize()}.", "See the message."
+    title, help_ = {**_RULES, **_VERDICTS}.get(code, other)
     gravest = {finding.severity for finding in findings if finding.code == code}
     level = next(severity for severity in Severity if severity in gravest)
     return {
         "id": code,
-        "shortDescription": {"text": rule.title},
-        "fullDescription": {"text": rule.title},
-        "help": {"text": rule.help, "markdown": rule.help},
-        "helpUri": rule.page,
+        "shortDescription": {"text": title},
+        "fullDescription": {"text": title},
+        "help": {"text": help_, "markdown": help_},
+        "helpUri": f"{_DOCS}/{page}",
         "defaultConfiguration": {"level": level.value},
     }
 
@@ -350,8 +337,8 @@ def _result(finding: Finding, index: int, seen: Counter[str]) -> dict[str, Any]:
     }
     if finding.related:
         made["relatedLocations"] = [
-            {"id": number, **_location(finding, one.region), "message": _text(one.message)}
-            for number, one in enumerate(finding.related, start=1)
+            {"id": number, **_location(finding, region), "message": _text(message)}
+            for number, (region, message) in enumerate(finding.related, start=1)
         ]
     return made
 
@@ -362,21 +349,16 @@ def _text(words: str) -> dict[str, str]:
 
 
 def _location(finding: Finding, region: Region | None) -> dict[str, Any]:
-    physical: dict[str, Any] = {"artifactLocation": _artifact(from_root(finding.deck))}
-    if region is None:
-        # GitHub shows no result without a line.
-        physical["region"] = {"startLine": 1}
-    else:
-        line, column, end = region
-        physical["region"] = {"startLine": line, "startColumn": column, "endColumn": end}
-    return {"physicalLocation": physical}
-
-
-def _artifact(path: str) -> dict[str, str]:
-    if PurePath(path).is_absolute():
-        return {"uri": PurePath(path).as_uri()}
+    path = from_root(finding.deck)
     # A colon in the first part would make it a scheme.
-    return {"uri": quote(path.encode("utf-8", "surrogateescape")), "uriBaseId": _ROOT}
+    uri = {"uri": quote(path.encode("utf-8", "surrogateescape")), "uriBaseId": _ROOT}
+    if PurePath(path).is_absolute():
+        uri = {"uri": PurePath(path).as_uri()}
+    # GitHub shows no result without a line.
+    where = {"startLine": 1}
+    if region is not None:
+        where = dict(zip(("startLine", "startColumn", "endColumn"), region, strict=True))
+    return {"physicalLocation": {"artifactLocation": uri, "region": where}}
 
 
 def _fingerprint(finding: Finding, seen: Counter[str]) -> str:
@@ -399,9 +381,9 @@ def annotation(finding: Finding) -> str:
         places = {"line": line, "endLine": line, "col": column, "endColumn": end}
         entries |= {name: str(value) for name, value in places.items()}
     words += [
-        f"line {one.region.line}: {one.message}"
-        for one in finding.related
-        if one.message not in finding.message
+        f"line {region.line}: {message}"
+        for region, message in finding.related
+        if message not in finding.message
     ]
     if finding.help:
         words.append(f"help: {finding.help}")

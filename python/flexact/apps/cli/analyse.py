@@ -13,7 +13,7 @@ from ...analysis.result import Result
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
 from ...deck.rendering import DeckError
-from ...model.reading import read_deck
+from ...model.data import ModelData
 from ...show.writers import TABLES
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
@@ -28,7 +28,6 @@ from .decks import (
     DECKS,
     is_table,
     read_and_analysed,
-    report_problems,
     summarise_results,
     summary_argument,
     take,
@@ -76,12 +75,9 @@ class Findings:
         self._form = form
         self._kept: list[Any] = []
 
-    def checked(self, deck: DeckFile) -> Outcome:
-        """Read a deck, and write its problems."""
-        model = read_deck(deck)
-        report_problems(model)
+    def checked(self, deck: DeckFile, model: ModelData) -> None:
+        """Write the problems of a deck that was read."""
         self._add("findings_of", deck, model.problems, model.source)
-        return Outcome(deck.name, ExitCode.ANALYSED, "without errors")
 
     def analysed(self, deck: DeckFile, result: Result, expected: Verdict | None) -> None:
         """Write what is found in a deck that was analysed."""

@@ -7,13 +7,22 @@ import argparse
 import os
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ...show.writers import PAGES, PICTURES, PLAYING, TABLES
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, OutputError, plan_file, require_replaceable, write_together
+from ...util.loading import load
+from ...util.outputs import (
+    STDOUT,
+    OutputError,
+    plan_file,
+    plan_files,
+    require_replaceable,
+    write_together,
+)
 from .parser import Argument, Group, argument
 from .terminal import put
 
@@ -89,6 +98,19 @@ def plan_deck(deck: DeckFile, target: Path) -> None:
     if suffix not in DECKS and suffix != Path(deck.path).suffix.lower() and _FILE.fullmatch(suffix):
         raise OutputError(f"{target} is no name of a deck: it ends with {SUFFIX}")
     plan_file(deck, target)
+
+
+def plan_shown(deck: DeckFile, target: Path, endings: Sequence[str]) -> None:
+    """As `plan_file`, with the files of a cycle that plays beside it.
+
+    Raises:
+        OutputError: One of them may not be written.
+    """
+    plan_file(deck, target)
+    if target.suffix.lower() == PLAYING:
+        collection = load("flexact.show.mesh.collection")
+        steps = replace(deck, relative=Path(collection.STEM))
+        plan_files([steps], collection.folder_of(target), endings)
 
 
 def plan_table(table: Path, decks: Sequence[DeckFile]) -> None:

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 
 from ...deck.rendering import DeckError
@@ -64,7 +64,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
 
     decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     with unwinding():
-        watched = Watch(path, renewed, _printed, chosen.port, decision)
+        watched = Watch(path, renewed, partial(print, end="", flush=True), chosen.port, decision)
         with closing(watched):
             say(f"{name} is shown at {watched.server.address}")
             if not chosen.no_browser and not watched.opens():
@@ -76,11 +76,6 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
 def harmless_lines(text: str) -> str:
     """Text of several lines in which nothing can move a cursor."""
     return "\n".join(harmless(line, keep_tabs=True) for line in text.split("\n"))
-
-
-def _printed(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()
 
 
 VERB = Verb(

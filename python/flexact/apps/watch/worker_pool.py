@@ -80,16 +80,12 @@ class Worker:
         Raises:
             WorkerError: The system gives no process, or no pipes to it.
         """
-        # Ctrl-C of this terminal is not for it.
-        apart: dict[str, Any] = {"start_new_session": True}
-        if sys.platform == "win32":
-            apart = {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0x200)}
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-c", _START, _HOME],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
-                **apart,
+                **_apart(),
             )
         except OSError as error:
             raise WorkerError(
@@ -157,6 +153,13 @@ class Worker:
                 )
             self._process.kill()
         self._process.wait()
+
+
+def _apart() -> dict[str, Any]:
+    """What starts a process that Ctrl-C of this terminal is not for."""
+    if sys.platform == "win32":
+        return {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0x200)}
+    return {"start_new_session": True}
 
 
 def _how(code: int) -> str:
