@@ -76,8 +76,7 @@ def stages(side: int) -> Mechanism:
         for dx, dy in ((1.0, 0.0), (-0.5, 0.8660254), (-0.5, -0.8660254)):
             fold = model.node(x + _LEAF * dx, y + _LEAF * dy, z)
             foot = held((x + _LEAF * (dx - dy), y + _LEAF * (dy + dx), z))
-            leaf = model.beam(foot, fold, (dx, dy, 0.0), (2, 5))
-            model.independent(leaf, 6)
+            model.independent(model.beam(foot, fold, (dx, dy, 0.0), (2, 5)), 6)
             model.beam(fold, here, (-dy, dx, 0.0), (2, 5, 6))
         beside = centre.get((i - 1, j)) or ground[i - 1, j]
         below = centre.get((i, j - 1)) or ground[i, j - 1]

@@ -102,8 +102,7 @@ class Lines:
         first = max(place.column, 1)
         last = max(place.last_column, first)
         start = units(text[: first - 1], "utf-16") + 1
-        end = start + max(1, units(text[first - 1 : last], "utf-16"))
-        return Region(place.line, start, end)
+        return Region(place.line, start, start + max(1, units(text[first - 1 : last], "utf-16")))
 
     def statement(self, number: int) -> str:
         """The words of a line in capitals, one blank between them, without the comment."""
@@ -157,8 +156,7 @@ def of_diagnostics(
             region = lines.region(Place(item.line, item.column, item.last_column))
             statement = lines.statement(item.line)
         if item.other is not None:
-            is_before = item.other < (item.line, item.column)
-            words = "first here" if is_before else "and here"
+            words = "first here" if item.other < (item.line, item.column) else "and here"
             related.append((lines.region(item.other), words))
         message = harmless(item.message)
         if item.label:

@@ -472,8 +472,7 @@ def junit_xml(
     ElementTree.SubElement(suite, "system-out")
     ElementTree.SubElement(suite, "system-err")
     ElementTree.indent(root)
-    text = ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
-    return bytes(text) + b"\n"
+    return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
 
 
 def _add(suite: ElementTree.Element, deck: DeckFile, finding: comparison.Finding) -> None:

@@ -99,8 +99,7 @@ def _keywords(block: Block) -> Iterator[Offer]:
         for name in ENDINGS:
             yield Offer(name, "keyword", "ends a block", about=keyword_words(name, block))
     if block is not Block.KINEMATICS and block is not Block.PICTURE:
-        visual = keywords()[Block.PICTURE, "VISUALIZATION"]
-        yield _statement(visual)
+        yield _statement(keywords()[Block.PICTURE, "VISUALIZATION"])
 
 
 def _element(name: str, block: Block) -> Offer:

@@ -245,8 +245,7 @@ class Index:
 
     def definition(self, key: Key) -> list[Range]:
         """Where an element is made; where a node has its X, else where it first stands."""
-        made = self._spans(key, self._made)
-        return made or (self.where(key)[:1] if key[0] == NODE else [])
+        return self._spans(key, self._made) or (self.where(key)[:1] if key[0] == NODE else [])
 
     def element(self, number: int) -> Line | None:
         """The statement that makes an element."""

@@ -305,8 +305,7 @@ class Session:
     async def _look(self, seen: Seen, is_new: bool) -> None:
         try:
             deck = seen.deck
-            is_large = len(deck.document.lines) > _LINES_OF_LARGE
-            rest = _OF_LARGE if is_large else 0.0
+            rest = _OF_LARGE if len(deck.document.lines) > _LINES_OF_LARGE else 0.0
             await asyncio.sleep(0.0 if is_new else _READ + rest)
             seen.problems = await beside(lambda: problems_of(deck))
             self._tell(seen)

@@ -226,8 +226,7 @@ class Session:
         """The deck with all edits, and the lines that differ."""
         edits = self.history.now
         if self._deck is None or self._deck[0] != edits:
-            changed = self.board.model(edits)
-            self._deck = (edits, edited(self.board.given, changed))
+            self._deck = (edits, edited(self.board.given, self.board.model(edits)))
         return self._deck[1]
 
     def proposals(self) -> list[Json]:

@@ -280,8 +280,7 @@ class Renewal:
             return int(numbers[same])
         others = [i for i, each in enumerate(before) if each == name]
         if mine:
-            place = others.index(index)
-            return int(numbers[mine[place]]) if len(mine) == len(others) else None
+            return int(numbers[mine[others.index(index)]]) if len(mine) == len(others) else None
         # It may have another name now.
         is_there = same is not None and self._to.ends(same) == self._from.ends(index)
         return int(numbers[same]) if is_there else None
@@ -325,8 +324,7 @@ class _Known:
         if position is None:
             return ()
         count = 2 if self.data.arrays.node_kind[position] == NodeKind.PLANAR_POSITION else 3
-        value = np.asarray(self.data.arrays.node_value[:count, position]) + 0.0
-        return tuple(value.tolist())
+        return tuple((np.asarray(self.data.arrays.node_value[:count, position]) + 0.0).tolist())
 
     def ends(self, element: int) -> Identity:
         """Where the nodes of an element are."""

@@ -47,8 +47,7 @@ class Calls:
         Of a large model the calls are by numbers, and need no trial.
         """
         if edits not in self._known:
-            before = self.of(edits[:-1])
-            self._known[edits] = (*before, *self._calls(edits))
+            self._known[edits] = (*self.of(edits[:-1]), *self._calls(edits))
         return self._known[edits]
 
     def _calls(self, edits: Edits) -> Sequence[Call]:
