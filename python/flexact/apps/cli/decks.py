@@ -40,7 +40,6 @@ from .terminal import (
     Outcome,
     ResultsError,
     columns_of,
-    columns_to_fill,
     complain,
     end_progress,
     exit_code,
@@ -348,6 +347,8 @@ def announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:
         )
 
 
+#: A terminal of fewer columns is taken for one of so many.
+_NARROWEST = 32
 #: From so many columns of the terminal on there is a place for everything.
 _WIDE, _WIDER = 64, 100
 #: Columns that are left out where there are fewer.
@@ -393,11 +394,15 @@ class SummaryTable:
 
     def __init__(self, columns: Sequence[str], names: Sequence[str]) -> None:
         """Lay out the columns behind that of the decks, whose names are known."""
-        self.width = columns_to_fill()
-        wide = self.width is None or self.width >= _WIDE
+        # That stated, that of the terminal, or any number.
+        wide = columns_of(sys.stdout)
+        self.width = max(wide, _NARROWEST) if wide else None
+        is_wide = self.width is None or self.width >= _WIDE
         self._wider = self.width is None or self.width >= _WIDER
-        self._gap = " " * (2 if wide else 1)
-        self._columns = {name: _WIDTHS[name][wide] for name in columns if wide or name not in _LESS}
+        self._gap = " " * (2 if is_wide else 1)
+        self._columns = {
+            name: _WIDTHS[name][is_wide] for name in columns if is_wide or name not in _LESS
+        }
         if self._wider and "margin" in self._columns:
             self._columns["margin"] = _WIDE_MARGIN
         self.folder, ending = "", ""

@@ -298,16 +298,6 @@ def discard(stream: TextIO | None) -> None:
         os.close(nowhere)
 
 
-#: A terminal of fewer columns is taken for one of so many.
-_NARROWEST = 32
-
-
-def columns_to_fill() -> int | None:
-    """How many columns a table may have: those stated, those of the terminal, or any number."""
-    wide = columns_of(sys.stdout)
-    return max(wide, _NARROWEST) if wide else None
-
-
 def padded(text: str, width: int, *, right: bool = False) -> str:
     """A text in a cell, at its left or its right end."""
     room = " " * (width - columns(text))

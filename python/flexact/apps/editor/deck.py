@@ -263,10 +263,6 @@ class Index:
         lines = tokens.line[(tokens.node != 0) & (tokens.number == node)]
         return [number for number in dict.fromkeys(tokens.owner[lines].tolist()) if number]
 
-    def is_used(self, key: Key) -> bool:
-        """Whether a number is that of a node, or of an element."""
-        return bool((self._named[key[0]] & (self.tokens.number == key[1])).any())
-
     def free(self, kind: str) -> int:
         """The smallest number behind all that are in use."""
         return int(self.tokens.number[self._named[kind]].max(initial=0)) + 1

@@ -223,7 +223,7 @@ def rename_at(deck: Deck, position: Position, new: str) -> list[Edit]:
     number = int(new)
     if number == old:
         return []
-    if deck.index.is_used((kind, number)):
+    if deck.index.where((kind, number)):
         article = "an" if kind == ELEMENT else "a"
         raise RenameError(f"there is {article} {kind} {number} already; {free} is free")
     for at in deck.tokens.lines_of(*_MIXED).tolist():

@@ -35,7 +35,7 @@ from .outline import (
     references_at,
     rename_at,
 )
-from .session import OneAtATime, Opinion, Problem, Remark, Seen, Session, beside, first_word
+from .session import OneAtATime, Opinion, Problem, Remark, Seen, Session, beside
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
@@ -100,7 +100,8 @@ def _remark(one: Remark, where: Range) -> str:
 
 def verdict(document: Document, opinion: Opinion, *, with_related: bool) -> lsp.Diagnostic:
     """The verdict, as an information on the first line."""
-    where = first_word(document)
+    first, last = re.search(r"^\s*(\S*)", document.bare[0]).span(1)  # type: ignore[union-attr]
+    where = Range.within(0, first, last)
     said = Problem(where, Severity.NOTE, "verdict", opinion.words, opinion.remarks)
     return diagnostic(document, said, with_related=with_related)
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import asyncio
-import re
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -26,8 +25,6 @@ from ...deck.diagnostics import Diagnostic, Place, Severity
 from ...util.errors import FlexactError
 from ...util.text import harmless
 from .deck import Deck, Document, Key, Position, Range
-
-_FIRST_WORD = re.compile(r"^\s*(\S*)")
 
 
 class Remark(NamedTuple):
@@ -71,12 +68,6 @@ def problems_of(deck: Deck) -> list[Problem]:
 def first_line(document: Document) -> Range:
     """All of the first line."""
     return Range.within(0, 0, len(document.bare[0]))
-
-
-def first_word(document: Document) -> Range:
-    """The first word of the first line."""
-    first, last = _FIRST_WORD.search(document.bare[0]).span(1)  # type: ignore[union-attr]
-    return Range.within(0, first, last)
 
 
 def _problem(document: Document, item: Diagnostic) -> Problem:

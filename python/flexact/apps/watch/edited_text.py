@@ -103,19 +103,17 @@ def _role(board: Board, place: DeformationPlace) -> int:
 
 def _by_numbers(given: ModelData, wanted: ModelData) -> Iterator[Call]:
     """Calls by the numbers of elements and nodes, which mean the same in every model."""
-    before, after = given.arrays.deformation_class, wanted.arrays.deformation_class
-    for number, index in np.argwhere(before != after).tolist():
-        element = int(given.arrays.element_number[index])
-        classes = Class(int(before[number, index])), Class(int(after[number, index]))
-        for method in _of_deformation(*classes):
-            yield Call(method, (element, number + 1))
-    before, after = given.arrays.coordinate_class, wanted.arrays.coordinate_class
-    for axis, index in np.argwhere(before != after).tolist():
-        node = int(given.arrays.node_number[index])
-        name = coordinate_name(int(given.arrays.node_kind[index]), axis)
-        classes = Class(int(before[axis, index])), Class(int(after[axis, index]))
-        for method in _of_coordinate(*classes):
-            yield Call(method, (node, name))
+    a, b = given.arrays, wanted.arrays
+    for before, after, numbers, methods in (
+        (a.deformation_class, b.deformation_class, a.element_number, _of_deformation),
+        (a.coordinate_class, b.coordinate_class, a.node_number, _of_coordinate),
+    ):
+        for row, index in np.argwhere(before != after).tolist():
+            which: int | str = row + 1
+            if numbers is a.node_number:
+                which = coordinate_name(int(a.node_kind[index]), row)
+            for method in methods(Class(int(before[row, index])), Class(int(after[row, index]))):
+                yield Call(method, (int(numbers[index]), which))
 
 
 def _of_deformation(before: Class, after: Class) -> list[str]:

@@ -92,14 +92,6 @@ def element_words(board: Board, index: int) -> str:
     return f"{keyword} {arrays.element_number[index]}"
 
 
-def elements_words(board: Board, part: Part) -> str:
-    """All elements of a part as a deck has them."""
-    words = [element_words(board, index) for index in part.elements]
-    return ", ".join(
-        words if len(words) <= 4 else [*words[:2], "\N{HORIZONTAL ELLIPSIS}", words[-1]]
-    )
-
-
 def node_title(board: Board, index: int) -> str:
     """What a node is called: a point of a body by its part, a turn by what turns."""
     if board.given.arrays.node_kind[index] <= NodeKind.POSITION:
@@ -150,9 +142,13 @@ def _proposals(board: Board, now: Result, way: Way) -> Json:
             items[words] = _proposal(words, places, _OF_ALL[way.step])
     else:
         for part in way.parts:
+            is_coordinate = isinstance(part, Coordinate)
             if (place := _place(board, now, part)) is not None:
                 words = place_in_words(board, place)
-                verbs = _of_one(way.step, isinstance(part, Coordinate))
+                release, stop = ("free", "fix") if is_coordinate else ("release", "hold")
+                verbs = [(release, Class.DEPENDENT)]
+                if way.step in (Step.DECLARE_OR_HOLD, Step.DECLARE_OR_HOLD_RELEASED):
+                    verbs = [("declare", Class.INDEPENDENT), (stop, Class.FIXED)]
                 items.setdefault(words, _proposal(words, [place], verbs))
     most = _MOST_SUPPORTS if way.step is Step.FREE_SUPPORT else _MOST
     shown = list(items.values())[:most]
@@ -172,14 +168,6 @@ def _proposal(words: str, places: list[Place], verbs: Sequence[tuple[str, Class]
         for word, to in verbs
     ]
     return {"words": words, "place": place_json(places[0]), "choices": choices}
-
-
-def _of_one(step: Step, is_coordinate: bool) -> Sequence[tuple[str, Class]]:
-    """What can be done with one part."""
-    if step in (Step.DECLARE_OR_HOLD, Step.DECLARE_OR_HOLD_RELEASED):
-        stop = "fix" if is_coordinate else "hold"
-        return ("declare", Class.INDEPENDENT), (stop, Class.FIXED)
-    return (("free" if is_coordinate else "release", Class.DEPENDENT),)
 
 
 def _head(now: Result, step: Step) -> str:
@@ -252,6 +240,9 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
     rows = [
         _row(board, edits, wanted, place, deformation_in_words(board, place)) for place in places
     ]
+    elements = [element_words(board, each) for each in part.elements]
+    if len(elements) > 4:
+        elements[2:-1] = ["\N{HORIZONTAL ELLIPSIS}"]
     own = "" if is_whole or len(part.elements) == 1 else f" of {element_words(board, index)}"
     groups = [{"title": f"Deformations{own}", "rows": rows}]
     if part.kind is PartKind.BODY:
@@ -260,7 +251,7 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
         "element": places[0].element if is_whole else element,
         "title": _capital(element_title(board, index)),
         "kind": part.kind.value,
-        "about": elements_words(board, part),
+        "about": ", ".join(elements),
         "groups": groups,
         "near": list(_near_part(board, part, index)),
     }

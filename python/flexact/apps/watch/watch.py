@@ -63,15 +63,14 @@ class Saved:
             return False
         if now == self._rest:
             return False
-        if time_now - self._first < _LONGEST and time_now - self._since < self._patience():
+        is_whole = _is_whole(self.path)
+        ends = is_whole or (is_whole is not None and not self._was_whole)
+        patience = QUIET if ends else UNFINISHED
+        if time_now - self._first < _LONGEST and time_now - self._since < patience:
             return False
         self._rest = now
         self._was_whole = _is_whole(self.path)
         return True
-
-    def _patience(self) -> float:
-        is_whole = _is_whole(self.path)
-        return QUIET if is_whole or (is_whole is not None and not self._was_whole) else UNFINISHED
 
     def _look(self) -> dict[str, _State]:
         return {path: _state(path) for path in (self.path, *self._more)}
