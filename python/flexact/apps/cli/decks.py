@@ -11,7 +11,6 @@ import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -395,10 +394,9 @@ class SummaryTable:
     def __init__(self, columns: Sequence[str], names: Sequence[str]) -> None:
         """Lay out the columns behind that of the decks, whose names are known."""
         # That stated, that of the terminal, or any number.
-        wide = columns_of(sys.stdout)
-        self.width = max(wide, _NARROWEST) if wide else None
-        is_wide = self.width is None or self.width >= _WIDE
-        self._wider = self.width is None or self.width >= _WIDER
+        seen = columns_of(sys.stdout)
+        self.width = max(seen, _NARROWEST) if seen else math.inf
+        is_wide, self._wider = self.width >= _WIDE, self.width >= _WIDER
         self._gap = " " * (2 if is_wide else 1)
         self._columns = {
             name: _WIDTHS[name][is_wide] for name in columns if is_wide or name not in _LESS
@@ -407,15 +405,13 @@ class SummaryTable:
             self._columns["margin"] = _WIDE_MARGIN
         self.folder, ending = "", ""
         longest = max(text_columns(name) for name in ("deck", *names))
-        self._name = longest
-        if self.width is not None:
-            others = sum(self._columns.values()) + len(self._gap) * len(self._columns)
-            room = max(self.width - others, _SHORTEST)
-            if longest > room:
-                # What all names have in common tells none from another.
-                self.folder, ending = _in_common(names)
-                longest -= text_columns(self.folder) + len(ending)
-            self._name = max(min(longest, room), len("deck"))
+        others = sum(self._columns.values()) + len(self._gap) * len(self._columns)
+        room = max(self.width - others, _SHORTEST)
+        if longest > room:
+            # What all names have in common tells none from another.
+            self.folder, ending = _in_common(names)
+            longest -= text_columns(self.folder) + len(ending)
+        self._name = max(int(min(longest, room)), len("deck"))
         self._names = {name: name[len(self.folder) :].removesuffix(ending) for name in names}
 
     def head(self) -> str:
@@ -430,13 +426,14 @@ class SummaryTable:
             made, behind = self._line(name, {first: cells.first}, (first,)), cells.error
         if behind:
             made += self._gap + behind
-        return made if self.width is None else shortened(made, self.width)
+        return made if self.width == math.inf else shortened(made, int(self.width))
 
     def filled(self, words: str) -> str:
         """A sentence below the table."""
-        if self.width is None:
+        if self.width == math.inf:
             return words
-        return textwrap.fill(words, self.width, subsequent_indent="  ", break_on_hyphens=False)
+        wide = int(self.width)
+        return textwrap.fill(words, wide, subsequent_indent="  ", break_on_hyphens=False)
 
     def _line(
         self,
@@ -456,9 +453,7 @@ def _in_common(names: Sequence[str]) -> tuple[str, str]:
     """The folder that all names lie in, with its stroke, and their common suffix."""
     if len(names) < 2:
         return "", ""
-    first, last = min(names), max(names)
-    alike = (a == b for a, b in zip(first, last, strict=False))
-    start = first[: sum(takewhile(bool, alike))]
+    start = os.path.commonprefix(names)  # noqa: RUF071 - the folder is cut from it
     folder = start[: max(start.rfind("/"), start.rfind(os.sep)) + 1]
     suffixes = {os.path.splitext(name)[1] for name in names}
     return folder, suffixes.pop() if len(suffixes) == 1 else ""

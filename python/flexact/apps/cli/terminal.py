@@ -9,7 +9,7 @@ import errno
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from importlib import import_module
@@ -90,22 +90,6 @@ _MARKS = re.compile(r"^( *\| *)([\^]+|-+)( .*)?$")
 _HELP = re.compile(r"^( *= )(help|note)(?=:)")
 
 
-def is_wanted(stream: TextIO | None, choice: str, environment: Mapping[str, str]) -> bool:
-    """Whether a stream is to be coloured.
-
-    `--color` decides; else NO_COLOR, if it is not empty, forbids colour (no-color.org), and
-    CLICOLOR_FORCE or FORCE_COLOR wants it; else it is for terminals that are not dumb.
-    """
-    if choice != "auto":
-        return choice == "always"
-    if environment.get("NO_COLOR"):
-        return False
-    if any(environment.get(name, "0") not in ("", "0") for name in _FORCING):
-        return True
-    seen = stream is not None and stream.isatty()
-    return seen and environment.get("TERM") != "dumb"
-
-
 def painted(text: str, style: str) -> str:
     """A text in a colour; each row by itself, so that a pager shows it."""
     rows = text.split("\n")
@@ -154,9 +138,18 @@ def is_verbose() -> bool:
 
 
 def is_coloured(stream: TextIO | None) -> bool:
-    """Whether a stream is to be coloured."""
-    wanted = is_wanted(stream, _MANNER.colour, os.environ)
-    return wanted and (_obeys_escapes(stream) or _MANNER.colour == "always")
+    """Whether a stream is to be coloured.
+
+    `--color` decides; else NO_COLOR, if it is not empty, forbids colour (no-color.org), and
+    CLICOLOR_FORCE or FORCE_COLOR wants it; else it is for terminals that are not dumb.
+    """
+    if _MANNER.colour != "auto":
+        return bool(_MANNER.colour == "always")
+    if os.environ.get("NO_COLOR"):
+        return False
+    is_forced = any(os.environ.get(name, "0") not in ("", "0") for name in _FORCING)
+    is_seen = stream is not None and stream.isatty() and os.environ.get("TERM") != "dumb"
+    return (is_forced or is_seen) and _obeys_escapes(stream)
 
 
 def _obeys_escapes(stream: TextIO | None) -> bool:

@@ -225,19 +225,26 @@ def _of_operand(deck: Deck, line: Line, place: int) -> str:
     return _component(deck, line, number) if letter == "i" else ""
 
 
-def _component(deck: Deck, line: Line, number: int) -> str:
-    """What a component of the node, or a deformation of the element, of a statement is."""
+def components_of(deck: Deck, line: Line) -> dict[int, str]:
+    """The components of the node, or the deformations of the element, of a statement."""
     owner = line.number_of(1)
     if line.words[1].letter == "n":
         kind = deck.index.kinds.get(owner)
-        words = components_of_node(kind).get(number) if kind is not None else None
-        return f"**{number}**: {words} of node {owner}" if words else ""
+        return components_of_node(kind) if kind is not None else {}
     made = deck.index.element(owner)
     if made is None or made.element is None:
-        return ""
-    words = components_of_element(made.element, made.name).get(number)
+        return {}
+    return components_of_element(made.element, made.name)
+
+
+def _component(deck: Deck, line: Line, number: int) -> str:
+    """What a component of the node, or a deformation of the element, of a statement is."""
+    words = components_of(deck, line).get(number)
     if words is None:
         return ""
+    owner = line.number_of(1)
+    if line.words[1].letter == "n":
+        return f"**{number}**: {words} of node {owner}"
     own = designers_words(deck, owner, number)
     if not own or own == words:
         return f"**{number}**: {words} of element {owner}"
