@@ -42,22 +42,18 @@ def summary(found: _Found, chosen: argparse.Namespace) -> str:
     parts = [f"{counts[state]} {state.value}" for state in State if counts[state]]
     lines = [f"{len(found)} decks: {', '.join(parts)}"]
     for state in (State.DIFFERENT, State.FAILED, State.MISSING):
-        lines += _of(state, [pair for pair in found if pair[1].state is state])
+        if not counts[state]:
+            continue
+        some = [pair for pair in found if pair[1].state is state]
+        worst = sorted(some, key=lambda pair: (-pair[1].gravity, -len(pair[1].differences)))
+        order = ", the worst first" if state is State.DIFFERENT else ""
+        lines.append(f"{state.value[0].upper()}{state.value[1:]}{order}:")
+        lines += [f"  {harmless(deck.name)}{_why(each)}" for deck, each in worst[:_MOST_NAMED]]
+        if len(worst) > _MOST_NAMED:
+            lines.append(f"  and {len(worst) - _MOST_NAMED} more")
     if counts[State.DIFFERENT] or counts[State.MISSING]:
         lines += ["To store the new answers, once they are right:", f"  {_command(chosen)}"]
     return "\n".join(lines)
-
-
-def _of(state: State, found: _Found) -> Iterator[str]:
-    if not found:
-        return
-    worst = sorted(found, key=lambda pair: (-pair[1].gravity, -len(pair[1].differences)))
-    first = state.value[0].upper() + state.value[1:]
-    yield f"{first}{', the worst first' if state is State.DIFFERENT else ''}:"
-    for deck, finding in worst[:_MOST_NAMED]:
-        yield f"  {harmless(deck.name)}{_why(finding)}"
-    if len(worst) > _MOST_NAMED:
-        yield f"  and {len(worst) - _MOST_NAMED} more"
 
 
 def _why(finding: Finding) -> str:

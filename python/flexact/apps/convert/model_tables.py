@@ -45,34 +45,27 @@ def _shared(points: Pairs, which: int) -> dict[int, int]:
 def points_of(arrays: ModelArrays) -> tuple[Pairs, Pairs]:
     """The points of a sound model as the elements name them, and the two ends of each element."""
     slots = (arrays.element_node.T - 1).tolist()
-    pairs: dict[tuple[int, int], None] = {}
-    for nodes in slots:
-        for end in (nodes[:2], nodes[2:]):
-            if min(end) >= 0:
-                pairs[end[0], end[1]] = None
     of_position: dict[int, tuple[int, int]] = {}
     of_orientation: dict[int, tuple[int, int]] = {}
-    for pair in pairs:
-        of_position.setdefault(pair[0], pair)
-        of_orientation.setdefault(pair[1], pair)
+    for p, turned_p, q, turned_q in slots:
+        for pair in ((p, turned_p), (q, turned_q)):
+            if min(pair) >= 0:
+                of_position.setdefault(pair[0], pair)
+                of_orientation.setdefault(pair[1], pair)
     _add_turned(arrays, slots, of_orientation)
-    ends = []
-    for nodes in slots:
-        both = []
-        for position, orientation in (nodes[:2], nodes[2:]):
-            if min(position, orientation) >= 0:
-                pair = position, orientation
-            elif position >= 0:
-                pair = of_position.setdefault(position, (position, -1))
-            else:
-                pair = of_orientation[orientation]
-            both.append(pair)
-        ends.append(both)
     order: dict[tuple[int, int], int] = {}
-    for both in ends:
-        for pair in both:
-            order.setdefault(pair, len(order) + 1)
-    return tuple(order), tuple((order[p], order[q]) for p, q in ends)
+
+    def point(position: int, orientation: int) -> int:
+        """The number of the point where an element ends."""
+        pair = position, orientation
+        if position < 0:
+            pair = of_orientation[orientation]
+        elif orientation < 0:
+            pair = of_position.setdefault(position, pair)
+        return order.setdefault(pair, len(order) + 1)
+
+    ends = tuple((point(*nodes[:2]), point(*nodes[2:])) for nodes in slots)
+    return tuple(order), ends
 
 
 def _add_turned(

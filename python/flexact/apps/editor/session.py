@@ -24,7 +24,7 @@ from ...analysis.verdict_words import margin_in_short, verdict_in_short, warning
 from ...deck.diagnostics import Diagnostic, Place, Severity
 from ...util.errors import FlexactError
 from ...util.text import harmless
-from .deck import Deck, Document, Key, Position, Range
+from .deck import Deck, Document, Position, Range
 
 
 class Remark(NamedTuple):
@@ -166,10 +166,9 @@ def _remarks(deck: Deck, result: Result) -> list[Remark]:
         carried = _listed(stress_in_parts(stress, _PARTS))
         words = conflict_in_words(stress) or carried
         made.append(_remark(deck, f"self-stress {number}: ", words, carried))
-    known = len(result.data.problems.kept)
-    for item in warnings_of(result)[known:]:
-        made.append(Remark(first_line(deck.document), harmless(item.message)))
-    return made
+    doubts = warnings_of(result)[len(result.data.problems.kept) :]
+    start = first_line(deck.document)
+    return made + [Remark(start, harmless(item.message)) for item in doubts]
 
 
 def _listed(parts: Sequence[Pieces]) -> Pieces:
@@ -181,10 +180,7 @@ def _listed(parts: Sequence[Pieces]) -> Pieces:
 def _remark(deck: Deck, head: str, words: Pieces, carried: Pieces) -> Remark:
     """A remark where the first of what takes part stands."""
     named = next((piece for piece in (*carried, *words) if isinstance(piece, Named)), None)
-    where: list[Range] = []
-    if named is not None:
-        key: Key = (named.kind, named.number)
-        where = deck.index.definition(key)
+    where = deck.index.definition((named.kind, named.number)) if named is not None else []
     return Remark(where[0] if where else first_line(deck.document), f"{head}{plain(words)}")
 
 

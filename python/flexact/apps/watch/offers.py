@@ -372,8 +372,7 @@ def _of_point(
 
 def _of_body(board: Board, edits: Edits, wanted: Collection[Json], part: Part) -> Iterator[Json]:
     """Coordinates of a body at the points where one is declared, else at its first point."""
-    slots = (board.given.arrays.element_node[:, list(part.elements)] - 1).T
-    points = list(dict.fromkeys(int(n) for row in slots for n in (row[0], row[2]) if n >= 0))
+    points = _points_of(board, part)
     classes = board.given.arrays.coordinate_class
     stated = [
         point
@@ -383,6 +382,12 @@ def _of_body(board: Board, edits: Edits, wanted: Collection[Json], part: Part) -
     for point in (stated or points[:1])[:_MOST_POINTS]:
         words = node_title(board, point)
         yield from _of_point(board, edits, wanted, point, f"Coordinates of {words}")
+
+
+def _points_of(board: Board, part: Part) -> list[int]:
+    """The positions that a body names, in the order of its elements."""
+    slots = board.given.arrays.element_node[[0, 2]][:, list(part.elements)].T - 1
+    return list(dict.fromkeys(slots[slots >= 0].tolist()))
 
 
 def _nodes_at(board: Board, position: int) -> list[int]:
@@ -395,9 +400,7 @@ def _near_part(board: Board, part: Part, index: int) -> Iterator[Json]:
     """Ends of a part, and the other elements of one that is not switched as one."""
     numbers = board.given.arrays.node_number
     if part.kind is PartKind.BODY:
-        slots = board.given.arrays.element_node[[0, 2]][:, list(part.elements)].T - 1
-        points = list(dict.fromkeys(int(n) for n in slots.ravel() if n >= 0))
-        for point in points[:_MOST_NEAR]:
+        for point in _points_of(board, part)[:_MOST_NEAR]:
             yield {"words": node_title(board, point), "node": int(numbers[point])}
     elif part.kind is PartKind.HINGE:
         for node in board.given.arrays.element_node[[1, 3], index] - 1:

@@ -177,8 +177,7 @@ def errors_part(error: Exception, path: str) -> str:
 def _problem(item: Diagnostic, name: str, source: Source | None) -> str:
     head, *excerpt = render(item, name, source).split("\n")
     # Help is a sentence, which breaks into lines as they fit.
-    helps = [line for line in excerpt if line.lstrip().startswith("= help:")]
-    lines = [line for line in excerpt if line not in helps]
+    lines = [line for line in excerpt if not line.lstrip().startswith("= help:")]
     severity, _, words = head.partition(": ")
     hint = f'<p class="help">help: {text(item.help)}</p>' if item.help else ""
     # The label is an arrow's word; without a place it stands alone.
