@@ -139,7 +139,7 @@ def test_a_deck_that_kills_its_worker_fails_alone(
 ) -> None:
     whole = comparison._found
 
-    def deadly(case: comparison.Case, *asked: Any) -> comparison.Finding:
+    def deadly(case: comparison.Case, *asked: Any) -> comparison.Comparison:
         if "same" in case[0]:
             os.kill(os.getpid(), signal.SIGKILL)
         return whole(case, *asked)

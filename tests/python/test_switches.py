@@ -15,8 +15,15 @@ from reference_decks import NAMES, ROOT
 
 import flexact
 from flexact.apps.watch.edit_session import Session
-from flexact.apps.watch.editable_model import Board, Edit, Place, states_of
-from flexact.apps.watch.edited_text import Calls, EditedDeck, edited
+from flexact.apps.watch.editable_model import (
+    Board,
+    Calls,
+    Edit,
+    EditedDeck,
+    Place,
+    edited,
+    states_of,
+)
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 

@@ -407,7 +407,7 @@ class State(Enum):
 
 
 @dataclass(frozen=True)
-class Finding:
+class Comparison:
     """What came of a deck.
 
     Attributes:
@@ -469,7 +469,7 @@ def finding_of(
     tolerance: float | None = None,
     stores: bool = False,
     watch: Callable[[ModelData], Progress | None] = lambda model: None,
-) -> Finding:
+) -> Comparison:
     """What comes of a deck.
 
     Args:
@@ -484,12 +484,12 @@ def finding_of(
     try:
         finding = _found(case, method, tolerance, stores, watch)
     except MissingAnswerError as error:
-        finding = Finding(State.MISSING, error=error)
+        finding = Comparison(State.MISSING, error=error)
     except (FlexactError, MemoryError) as error:
-        finding = Finding(State.FAILED, error=error)
+        finding = Comparison(State.FAILED, error=error)
     except Exception as error:
         # One deck over which this program stumbles shall not cost the others.
-        finding = Finding(State.FAILED, error=AnalysisError(why(error)))
+        finding = Comparison(State.FAILED, error=AnalysisError(why(error)))
     return replace(finding, seconds=time.perf_counter() - start)
 
 
@@ -499,7 +499,7 @@ def _found(
     tolerance: float | None,
     stores: bool,
     watch: Callable[[ModelData], Progress | None],
-) -> Finding:
+) -> Comparison:
     name, text, kept, place = case
     model = read_bytes(_given(text), name)
     stored: StoredAnswer | None = None
@@ -512,12 +512,12 @@ def _found(
     within = WITHIN if tolerance is None else (tolerance, tolerance)
     found = () if stored is None else differences(stored, now, within)
     if stored is not None and not found:
-        return Finding(State.AS_STORED)
+        return Comparison(State.AS_STORED)
     if stores:
-        return Finding(State.STORED, found, text=text_of(now))
+        return Comparison(State.STORED, found, text=text_of(now))
     assert stored is not None
     gravity = int(stored.numbers != now.numbers or stored.counts != now.counts)
-    return Finding(State.DIFFERENT, found, 2 if stored.verdict != now.verdict else gravity)
+    return Comparison(State.DIFFERENT, found, 2 if stored.verdict != now.verdict else gravity)
 
 
 def _given(text: bytes | FlexactError) -> bytes:

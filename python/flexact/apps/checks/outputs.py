@@ -23,7 +23,7 @@ from ...deck.diagnostics import Diagnostic, Place, Problems, Severity
 from ...util.decks import DeckFile
 from ...util.loading import VERSION
 from ...util.text import harmless
-from . import comparison
+from .comparison import Comparison, State
 from .findings import Finding, Region, from_root
 
 HOME = "https://github.com/flexact/flexact"
@@ -437,14 +437,12 @@ def _place(place: Place) -> dict[str, int]:
 
 #: States that are failures of a test, and errors in it.
 _FAILURES, _ERRORS = (
-    (comparison.State.DIFFERENT,),
-    (comparison.State.FAILED, comparison.State.MISSING),
+    (State.DIFFERENT,),
+    (State.FAILED, State.MISSING),
 )
 
 
-def junit_xml(
-    found: Sequence[tuple[DeckFile, comparison.Finding]], seconds: float, start: float
-) -> bytes:
+def junit_xml(found: Sequence[tuple[DeckFile, Comparison]], seconds: float, start: float) -> bytes:
     """The text of a JUnit XML file: a test case a deck.
 
     Args:
@@ -475,7 +473,7 @@ def junit_xml(
     return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
 
 
-def _add(suite: ElementTree.Element, deck: DeckFile, finding: comparison.Finding) -> None:
+def _add(suite: ElementTree.Element, deck: DeckFile, finding: Comparison) -> None:
     folder = str(deck.relative.parent).encode("utf-8", "backslashreplace").decode("utf-8")
     parts = [] if folder == "." else folder.replace("\\", "/").split("/")
     case = ElementTree.SubElement(

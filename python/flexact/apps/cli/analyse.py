@@ -20,21 +20,21 @@ from ...util.errors import BatchError
 from ...util.loading import load
 from ...util.partial import attempted
 from ...util.text import harmless
-from . import decks as failures
-from . import terminal as colour
 from .decks import (
     ACCURACY_AND_BEYOND,
     DECISION,
     DECKS,
     is_table,
+    problems_of,
     read_and_analysed,
+    report_failure,
     summarise_results,
     summary_argument,
     take,
 )
 from .parser import Verb, argument
 from .targets import folder_or, mesh_argument
-from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, say, text_width
+from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, painted, say, text_width
 
 if TYPE_CHECKING:
     from .export import ResultFiles
@@ -86,7 +86,7 @@ class Findings:
     def failed(self, deck: DeckFile, error: Exception) -> None:
         """Write why a deck failed."""
         source = error.source if isinstance(error, DeckError) else None
-        self._add("findings_of", deck, failures.problems_of(error), source)
+        self._add("findings_of", deck, problems_of(error), source)
 
     def _add(self, function: str, deck: DeckFile, *about: object) -> None:
         found = getattr(load("flexact.apps.checks.findings"), function)(deck.name, *about)
@@ -134,7 +134,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
         code = ExitCode.DIFFERENT if is_wrong else ExitCode.ANALYSED
         if failure is None:
             return Outcome(deck.name, code, word)
-        failures.report_failure(deck, failure)
+        report_failure(deck, failure)
         return Outcome(deck.name, ExitCode.OTHER, word, "results not written")
 
     def step(deck: DeckFile) -> Outcome:
@@ -194,7 +194,7 @@ def _coloured(words: str, analysis: Result) -> str:
     style = "bad"
     if analysis.verdict is Verdict.EXACT:
         style = "unsure" if analysis.is_marginal else "good"
-    return re.sub(verdict, lambda found: colour.painted(found[0], style), words, count=1)
+    return re.sub(verdict, lambda found: painted(found[0], style), words, count=1)
 
 
 VERB = Verb(

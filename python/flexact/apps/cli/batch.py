@@ -75,7 +75,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     plan_table(table, decks)
     outputs = Outputs(decks, chosen.files, chosen.mesh or "vtu", chosen.report)
     asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, outputs.has_pages)
+    work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, chosen.report is not None)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
     # One thread of BLAS, where the work is done in this process, as in those of a pool.
     is_here = chosen.dask is None and (chosen.workers or processors()) == 1
@@ -272,11 +272,6 @@ class Outputs:
             if not load("flexact.show.picture").has_packages():
                 complain(pages.WITHOUT_PICTURES)
 
-    @property
-    def has_pages(self) -> bool:
-        """Whether pages are wanted."""
-        return self._index is not None
-
     def put(self, deck: DeckFile, answer: Answer) -> dict[str, Any]:
         """Write what was made of a deck.
 
@@ -358,9 +353,6 @@ class _Entries:
         for deck, record in self.records():
             packed = record.get("entry")
             yield _unpacked(packed) if packed else page.unread_entry(deck.relative.as_posix())
-
-    def __contains__(self, entry: object) -> bool:
-        return any(entry == each for each in self)
 
 
 def _is_entry(packed: object) -> bool:

@@ -11,9 +11,17 @@ from ...model.reading import read_deck
 from ...util.decks import DeckFile, find_decks
 from ...util.loading import load
 from ...util.text import harmless
-from . import decks as failures
 from .analyse import FORMAT, TEXT, Findings, require_one_form
-from .decks import DECKS, Cells, failed, report_problems, summary_argument, tabulate, take
+from .decks import (
+    DECKS,
+    Cells,
+    failed,
+    problems_of,
+    report_problems,
+    summary_argument,
+    tabulate,
+    take,
+)
 from .parser import Verb, argument
 from .terminal import ExitCode, Outcome, give, say
 
@@ -27,7 +35,7 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
     findings = None if chosen.format == TEXT else Findings(chosen.format)
 
     def give_problems(deck: DeckFile, error: Exception) -> None:
-        give_as_json(deck, failures.problems_of(error))
+        give_as_json(deck, problems_of(error))
 
     def give_as_json(deck: DeckFile, problems: Problems) -> None:
         made = load("flexact.apps.checks.outputs").dictionary_of(deck.name, problems)

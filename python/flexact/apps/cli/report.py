@@ -36,8 +36,19 @@ from ...util.interruption import unwinding
 from ...util.outputs import OutputError, plan_file, plan_files, require_replaceable, write_together
 from ...util.partial import attempted
 from ...util.text import harmless
-from . import decks as failures
-from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, analysed, opened, read_and_analysed, take
+from .decks import (
+    ACCURACY_AND_BEYOND,
+    DECISION,
+    DECKS,
+    NOT_READ,
+    analysed,
+    foreseen,
+    opened,
+    outcome_of,
+    read_and_analysed,
+    report_failure,
+    take,
+)
 from .parser import Verb, argument
 from .targets import folder_or
 from .terminal import Bar, ExitCode, Outcome, complain, end_progress, exit_code, say, show_progress
@@ -79,7 +90,7 @@ def broken_page_of(
 ) -> DeckPage | None:
     """The page of a deck with errors; None where its file could not be read."""
     items = error.diagnostics if isinstance(error, ProblemsError) else ()
-    if {item.code for item in items} & failures.NOT_READ:
+    if {item.code for item in items} & NOT_READ:
         return None
     made = broken_page(error, name)
     if indexed:
@@ -250,12 +261,12 @@ class _Comparison:
                 result = analysed(deck, opened(deck, bar), self.chosen, bar)
                 return side_of(result), result, ExitCode.ANALYSED
         except Exception as unforeseen:
-            error = failures.foreseen(unforeseen)
+            error = foreseen(unforeseen)
             is_pair = not os.path.isdir(self.chosen.decks[0])
             if is_pair and isinstance(error, (SideError, BatchError)):
                 raise BatchError(str(error)) from error
-            failures.report_failure(deck, error)
-            return broken_side(error), None, failures.outcome_of(deck, error).code
+            report_failure(deck, error)
+            return broken_side(error), None, outcome_of(deck, error).code
 
     def _finish(self, pairs: Sequence[Pair], page: str) -> ExitCode:
         target: Path = self.chosen.output
@@ -337,13 +348,13 @@ def report_decks(chosen: argparse.Namespace) -> ExitCode:
         except BatchError:
             raise
         except Exception as unforeseen:
-            error = failures.foreseen(unforeseen)
+            error = foreseen(unforeseen)
             broken = broken_page_of(error, deck.name, place, indexed=indexed)
             try:
                 if broken is not None:
                     put(deck, broken)
             except OutputError:
-                failures.report_failure(deck, error)
+                report_failure(deck, error)
                 raise
             raise error from None
         word, target = verdict_word(result), plan[deck.path][0]

@@ -17,8 +17,7 @@ from ...util.interruption import unwinding
 from ...util.text import harmless
 from ..watch.scene import SCRIPT, Answer, Broken
 from ..watch.watch import Watch
-from . import decks as failures
-from .decks import ACCURACY, DECISION
+from .decks import ACCURACY, DECISION, report
 from .parser import Verb, argument
 from .targets import NO_BROWSER, one_deck
 from .terminal import ExitCode, complain, say
@@ -50,7 +49,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
         # What cannot be read now is more likely to be a slip than a deck to come.
         file_bytes(path)
     except (DeckError, FolderError) as error:
-        return failures.report(deck, error, as_json=False).code
+        return report(deck, error, as_json=False).code
     name = harmless(path)
 
     def renewed(words: str, answer: Answer) -> None:

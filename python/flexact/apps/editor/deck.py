@@ -166,10 +166,6 @@ class Document:
         lines = [*self.lines[:first], *pieces, *self.lines[last:]]
         return Document(self.uri, lines, version, self.encoding)
 
-    def replaced(self, text: str, version: int) -> Document:
-        """The document with all of its text anew."""
-        return Document.of(text, self.uri, version, self.encoding)
-
     def place_of(self, line: int, column: int) -> Position:
         """The position of a line and a character of the core's, both from 1.
 

@@ -261,7 +261,7 @@ class DeckServer(LanguageServer):
                 end = position_in(document, change.range.end)
                 document = document.changed(start, end, change.text, item.version)
             else:
-                document = document.replaced(change.text, item.version)
+                document = Document.of(change.text, document.uri, item.version, document.encoding)
         session.change(Deck(document))
 
     def close(self, uri: str) -> None:

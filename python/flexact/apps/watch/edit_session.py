@@ -21,8 +21,21 @@ from ...show.page.content import kind_of
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import why
 from ...util.text import harmless
-from .editable_model import Board, Edit, Edits, Place, RefusedError, Renewal, state_word, states_of
-from .edited_text import Calls, EditedDeck, edited, free_name, write_deck
+from .editable_model import (
+    Board,
+    Calls,
+    Edit,
+    EditedDeck,
+    Edits,
+    Place,
+    RefusedError,
+    Renewal,
+    edited,
+    free_name,
+    state_word,
+    states_of,
+    write_deck,
+)
 from .offers import (
     Json,
     edit_in_words,

@@ -288,17 +288,13 @@ class Stage:
         self._name = name
         self._summary: ResultSummary | None = None
         self._changed = threading.Condition()
-        self._scene = Scene(int(time.time() * 1000), name)
+        #: What is shown.
+        self.scene = Scene(int(time.time() * 1000), name)
         self._closed = False
-
-    @property
-    def scene(self) -> Scene:
-        """What is shown."""
-        return self._scene
 
     def put(self, answer: Answer) -> str:
         """Show an answer; what has changed, or what is wrong in short, in words."""
-        before = self._scene
+        before = self.scene
         saved = time.strftime("%H:%M:%S")
         if isinstance(answer, Broken):
             words = "cannot be analysed"
@@ -330,11 +326,11 @@ class Stage:
     def judge(self, summary: ResultSummary) -> None:
         """Say what the verdict will be, before its scene is there."""
         changed = changed_words(self._summary, summary) if self._summary else summary.verdict
-        self._show(replace(self._scene, work=f"{changed}; the scene follows"))
+        self._show(replace(self.scene, work=f"{changed}; the scene follows"))
 
     def work(self, words: str) -> None:
         """Say what is going on."""
-        self._show(replace(self._scene, work=words, began=time.time()))
+        self._show(replace(self.scene, work=words, began=time.time()))
 
     def close(self) -> None:
         """Let nobody wait any more."""
@@ -348,10 +344,10 @@ class Stage:
         After `longest` [s] it is the same.
         """
         with self._changed:
-            self._changed.wait_for(lambda: self._closed or self._scene is not seen, longest)
-            return None if self._closed else self._scene
+            self._changed.wait_for(lambda: self._closed or self.scene is not seen, longest)
+            return None if self._closed else self.scene
 
     def _show(self, scene: Scene) -> None:
         with self._changed:
-            self._scene = scene
+            self.scene = scene
             self._changed.notify_all()

@@ -30,8 +30,8 @@ from ...model.reading import file_bytes, read_file
 from ...show.page.content import broken_content
 from ...show.window import take_with
 from ...util.partial import why
-from . import worker_pool as frames
 from .scene import SCRIPT, Answer, Broken, ResultSummary, errors_part, shown_of, summary_of
+from .worker_pool import receive, send
 
 #: How many callers of the line that failed are named.
 _MOST_CALLERS = 3
@@ -320,7 +320,7 @@ def _hear(jobs: BinaryIO, waiting: queue.SimpleQueue[Any]) -> None:
     """Hand jobs on; where nobody is left who could give one, end with all that was started."""
     try:
         while True:
-            waiting.put(frames.receive(jobs))
+            waiting.put(receive(jobs))
     except (EOFError, OSError) as error:
         # What the script itself has closed says nothing of who asks, who ends this process then.
         if getattr(error, "errno", None) == errno.EBADF:
@@ -339,7 +339,7 @@ class _Said(io.RawIOBase):
 
     def send(self, value: Any) -> None:
         with self._lock:
-            frames.send(self._line, value)
+            send(self._line, value)
 
     def writable(self) -> bool:
         return True
