@@ -17,7 +17,6 @@ import flexact
 from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.editable_model import (
     Board,
-    Calls,
     Edit,
     EditedDeck,
     Place,
@@ -109,7 +108,6 @@ def called(given: ModelData, calls: list[str]) -> ModelData:
 def test_an_edit_is_the_deck_with_its_lines_and_the_model_after_its_calls(name: str) -> None:
     board = board_of(name)
     python = without_deck(board)
-    calls = Calls(python)
     for edit in edits_of(board, name):
         wanted = board.model((edit,))
         index = board.given.element_index.get(getattr(edit.place, "element", 0))
@@ -120,7 +118,7 @@ def test_an_edit_is_the_deck_with_its_lines_and_the_model_after_its_calls(name: 
         assert not deck.is_anew
         assert same(typed(board, deck), wanted)
         assert same(flexact.read_text(deck.text).data, wanted)
-        words = [call.in_words() for call in calls.of((edit,))]
+        words = [call.in_words() for call in python.calls((edit,))]
         assert same(called(python.given, words), wanted, CLASSES)
 
 
@@ -134,7 +132,7 @@ def test_several_edits_together(name: str) -> None:
     if not board.wholes:
         assert same(wanted, by_hand(board, list(edits)))
     assert same(typed(board, edited(board.given, wanted)), wanted)
-    words = [call.in_words("model") for call in Calls(python).of(edits)]
+    words = [call.in_words("model") for call in python.calls(edits)]
     assert same(called(python.given, words), wanted, CLASSES)
 
 
@@ -184,7 +182,7 @@ def test_calls_are_words_where_the_builder_has_them(beams: int) -> None:
     for number, to in product(range(1, 7), list(Class)[1:]):
         place = board.deformation(board.parts.all[0].number, number)
         edits = board.edited((), [Edit(place, to)])
-        calls = Calls(board).of(edits)
+        calls = board.calls(edits)
         model = guide(beams)
         for call in calls:
             exec(call.in_words("own_name"), {"own_name": model})

@@ -23,7 +23,6 @@ from ...util.partial import why
 from ...util.text import harmless
 from .editable_model import (
     Board,
-    Calls,
     Edit,
     EditedDeck,
     Edits,
@@ -89,8 +88,6 @@ class History(NamedTuple):
 
 #: How many switches a request may have.
 _MOST_SWITCHES = 20_000
-#: Bytes of the largest request.
-MOST_BYTES = 4_000_000
 
 
 class Session:
@@ -107,7 +104,6 @@ class Session:
         self.watched, self.stage, self.model_name = watched, stage or Stage(watched.name), model
         self.history = History()
         self._board: Board | None = None
-        self._calls: Calls | None = None
         self._now: Result | None = None
         self._proposed: list[Json] | None = None
         self._deck: tuple[Edits, EditedDeck] | None = None
@@ -178,7 +174,7 @@ class Session:
             says the same now.
         """
         old, self._board = self._board, Board(base)
-        self._calls, self._proposed, self._deck = Calls(self._board), None, None
+        self._proposed, self._deck = None, None
         self._now, self._is_broken, self._said = None, False, ()
         if old is not None:
             before = self.history
@@ -262,17 +258,14 @@ class Session:
                 return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": str(error)}
             before = self.history
             status, content = self.answered(body)
-            if changed := self.history.now != before.now:
+            if self.history.now != before.now:
                 try:
                     self._show(self._analysed())
                 except (FlexactError, MemoryError) as error:
                     self.history = before
                     words = f"this cannot be analysed: {_in_short(error)}"
                     return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": words}
-            if changed or "told" in content:
-                is_there = self._board is not None and not self._is_broken
-                looks = {"kind": kind_of(self.now)[0]} if is_there else {}
-                content["told"] = {**self.told(), **looks}
+                content["told"] = self.told()
             return status, content
 
     def _show(self, now: Result) -> None:
@@ -311,9 +304,6 @@ class Session:
     def answered(self, body: bytes) -> tuple[HTTPStatus, Json]:
         """Do what the body of a request says; what it cannot is told in words, as "error"."""
         try:
-            if len(body) > MOST_BYTES:
-                words, status = "the request is too long", HTTPStatus.REQUEST_ENTITY_TOO_LARGE
-                raise RefusedError(words, status)
             try:
                 request = json.loads(body)
             except (ValueError, RecursionError):
@@ -430,6 +420,7 @@ class Session:
             "save": harmless(free_name(self.watched)),
             "folder": harmless(str(self.watched.absolute().parent)),
             **self._how(),
+            "kind": kind_of(now)[0],
         }
 
     def _how(self) -> Json:
@@ -438,8 +429,7 @@ class Session:
         if not edits:
             return made
         if self.board.given.source is None:
-            assert self._calls is not None
-            calls = [call.in_words(self.model_name) for call in self._calls.of(edits)]
+            calls = [call.in_words(self.model_name) for call in self.board.calls(edits)]
             return {**made, "calls": calls, "copy": "\n".join(calls)}
         deck = self.deck()
         note = ""

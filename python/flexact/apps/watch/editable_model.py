@@ -118,6 +118,7 @@ class Board:
         self.base = base
         self.given = base.given
         self.parts = base.parts
+        self._calls: dict[Edits, tuple[Call, ...]] = {(): ()}
 
     @cached_property
     def plain(self) -> Decomposition:
@@ -223,6 +224,21 @@ class Board:
         """The mechanism after some edits; as it was given where there are none."""
         return self.change(edits).apply(self.given).data if edits else self.given
 
+    def calls(self, edits: Edits) -> tuple[Call, ...]:
+        """The calls that make edits, in order; each was tried, and gives what its edit gives.
+
+        Of a large model the calls are by numbers, and need no trial.
+        """
+        if edits not in self._calls:
+            before = self.calls(edits[:-1])
+            given, wanted = self.model(edits[:-1]), self.model(edits)
+            ways: Iterable[Sequence[Call]] = ()
+            if given.arrays.element_number.size <= MOST_TRIED:
+                ways = _in_words(self, edits[-1])
+            words = (calls for calls in ways if _is_same(made(given, calls), wanted))
+            self._calls[edits] = (*before, *next(words, _by_numbers(given, wanted)))
+        return self._calls[edits]
+
 
 _BENDINGS = {
     **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), "bending about y"),
@@ -230,36 +246,13 @@ _BENDINGS = {
 }
 
 
-class Calls:
-    """The calls that make edits; those of the edits before are remembered."""
-
-    def __init__(self, board: Board) -> None:
-        """Of one mechanism."""
-        self.board = board
-        self._known: dict[Edits, tuple[Call, ...]] = {(): ()}
-
-    def of(self, edits: Edits) -> tuple[Call, ...]:
-        """The calls in order; each was tried on the model, and gives what its edit gives.
-
-        Of a large model the calls are by numbers, and need no trial.
-        """
-        if edits not in self._known:
-            self._known[edits] = (*self.of(edits[:-1]), *self._calls(edits))
-        return self._known[edits]
-
-    def _calls(self, edits: Edits) -> Sequence[Call]:
-        given, wanted = self.board.model(edits[:-1]), self.board.model(edits)
-        if given.arrays.element_number.size <= MOST_TRIED:
-            a = wanted.arrays
-            for calls in _in_words(self.board, edits[-1]):
-                tried = made(given, calls)
-                if (
-                    tried is not None
-                    and np.array_equal(tried.arrays.deformation_class, a.deformation_class)
-                    and np.array_equal(tried.arrays.coordinate_class, a.coordinate_class)
-                ):
-                    return calls
-        return list(_by_numbers(given, wanted))
+def _is_same(tried: ModelData | None, wanted: ModelData) -> bool:
+    """Whether calls could be made, and give the same classes."""
+    if tried is None:
+        return False
+    a, b = tried.arrays, wanted.arrays
+    is_same = np.array_equal(a.deformation_class, b.deformation_class)
+    return is_same and np.array_equal(a.coordinate_class, b.coordinate_class)
 
 
 def _in_words(board: Board, edit: Edit) -> Iterator[list[Call]]:
