@@ -32,7 +32,7 @@ def test_mechanisms_have_the_rank_that_they_are_made_for(family: str, side: int)
     """By numpy's singular values of D(c), and by the count of what holds a stage or a joint."""
     model, _, motions, self_stresses = FAMILIES[family](side)
     data = flexact.read_text(model.to_deck()).data
-    full = full_matrix(data)
+    full = full_matrix(model)
     assert full.shape == (data.count.rows, data.count.columns)
     assert full.shape[1] == (24 * side**2 if family == "stages" else 3 * side**3)
     rank = int(np.linalg.matrix_rank(full))

@@ -217,7 +217,7 @@ def test_blocks_fold() -> None:
 )
 def test_the_help_of_a_problem_is_a_mend(text: str, title: str, mended: str | None) -> None:
     mine = deck(text)
-    problem = next(one for one in problems_of(mine) if mends_of(mine, one))
+    problem = next(one for one in problems_of(mine) if list(mends_of(mine, one)))
     ((said, edit),) = mends_of(mine, problem)
     assert said == title
     made = applied(mine.document, [edit])
@@ -229,7 +229,7 @@ def test_of_two_classes_either_goes() -> None:
     text = GUIDE.replace("FIX 6", "FIX 6\nFIX 3 1 2")
     mine = deck(text)
     problem = next(one for one in problems_of(mine) if one.code == "class-conflict")
-    mends = mends_of(mine, problem)
+    mends = list(mends_of(mine, problem))
     assert {title for title, _ in mends} == {
         "take 2 out of FIX in line 11",
         "take DYNX 3 2 out, line 14",

@@ -14,31 +14,26 @@ import numpy as np
 
 from ...analysis.decomposition import Asked
 from ...analysis.result import Result, result_of
-from ...core import calls
-from ...core.arrays import FloatArray, packed
+from ...core.arrays import FloatArray
 from ...core.elements import Class
 from ...model.data import ModelData
 from ...model.handles import Node
+from ...model.jacobian import jacobian
 from ...model.model import Model
 from ...util.errors import FlexactError
 from ...util.loading import load
 from ...util.text import harmless
 
 
-def full_matrix(data: ModelData) -> FloatArray:
+def full_matrix(model: Model) -> FloatArray:
     """D(c): derivatives of fixed and independent deformations to dependent coordinates."""
-    arrays = data.arrays
-    elements = arrays.element_number.size
-    whole = calls.assemble(packed(arrays), np.asfortranarray(arrays.node_value), np.zeros(elements))
-    deformation = arrays.deformation_class.T.ravel()
-    held = (deformation == Class.FIXED) | (deformation == Class.INDEPENDENT)
-    dependent = arrays.coordinate_class.T.ravel() == Class.DEPENDENT
-    used = held[whole.row_of] & dependent[whole.column_of]
-    row = (np.cumsum(held) - 1)[whole.row_of[used]]
-    column = (np.cumsum(dependent) - 1)[whole.column_of[used]]
-    full = np.zeros((int(held.sum()), int(dependent.sum())))
-    np.add.at(full, (row, column), whole.value[used])
-    return full
+    a = model.data.arrays
+    rows, columns = (
+        each.T[each.T != Class.NONE] for each in (a.deformation_class, a.coordinate_class)
+    )
+    held = np.isin(rows, (Class.FIXED, Class.INDEPENDENT))
+    full = jacobian(model).toarray()[held][:, columns == Class.DEPENDENT]
+    return np.ascontiguousarray(full)
 
 
 #: A mechanism, and what its construction says of it: its name, the numbers of its motions and of
@@ -237,7 +232,7 @@ def _measured(
     count = data.count
     made = Measurement(name, count.rows, count.columns, method, {}, {})
     try:
-        full = full_matrix(data) if max(count.rows, count.columns) <= _MOST_OF_SVD else None
+        full = full_matrix(model) if max(count.rows, count.columns) <= _MOST_OF_SVD else None
         for k, number in enumerate(threads):
             progress(f"{name}, {method}", k / len(threads))
             with load("threadpoolctl").threadpool_limits(number):

@@ -342,7 +342,7 @@ class DeckServer(LanguageServer):
             if not first <= problem.range.start.line <= last:
                 continue
             shown = diagnostic(document, problem, with_related=related)
-            mends = mends_of(seen.deck, problem)
+            mends = list(mends_of(seen.deck, problem))
             for title, edit in mends:
                 action = _fix(title, shown)
                 action.edit = workspace_edit(document, [edit])
