@@ -8,7 +8,6 @@ import base64
 import contextlib
 import hashlib
 import os
-import sys
 import time
 from array import array
 from collections import Counter
@@ -48,7 +47,7 @@ from ...util.text import harmless
 from .decks import ACCURACY, DECISION, DECKS
 from .parser import Verb, argument
 from .targets import WORKERS, folder, mesh_argument, plan_table
-from .terminal import ExitCode, complain, is_watched, say, size_of_terminal
+from .terminal import ExitCode, complain, drawn, is_watched, say
 
 if TYPE_CHECKING:
     from ...show.page import Entry
@@ -391,11 +390,8 @@ class BatchBar:
         """Draw the bar, if somebody watches."""
         if is_watched():
             with suppress(ImportError, OSError):
-                tqdm = import_module("tqdm").tqdm
-                tqdm.monitor_interval = 0  # no thread of its own: processes are forked
                 count = {"total": self._total, "initial": self._before, "unit": " decks"}
-                form = {"file": sys.stderr, "leave": False, "bar_format": _BAR}
-                self._bar = tqdm(**count, **form, **size_of_terminal())
+                self._bar = drawn(**count, bar_format=_BAR)
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -341,6 +341,7 @@ LARGE_FILE = 2**20
 LARGE_MODEL = 20_000
 
 _WIDTH, _ROWS = 80, 24
+_BAR = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
 
 
 class Bar:
@@ -375,7 +376,7 @@ class Bar:
         text = f"{self._deck}: {stage}"
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None:
-                self._bar = _drawn(text)
+                self._bar = drawn(total=1.0, desc=text, bar_format=_BAR)
             stages = ("reading", *load("flexact.core.calls").STAGES, "writing")
             self._bar.n = max(self._bar.n, (stages.index(stage) + done) / len(stages))
             self._bar.set_description_str(text)
@@ -389,7 +390,7 @@ class Bar:
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None or done <= self._bar.n:
                 self.clear()
-                self._bar = _drawn(text)
+                self._bar = drawn(total=1.0, desc=text, bar_format=_BAR)
             self._bar.set_description_str(text, refresh=False)
             self._bar.n = done
             self._bar.refresh()
@@ -401,19 +402,14 @@ class Bar:
                 self._bar.clear()
 
 
-def _drawn(text: str) -> Any:
+def drawn(**settings: Any) -> Any:
+    """A bar of tqdm on stderr, as wide as the terminal."""
     tqdm = import_module("tqdm").tqdm
-    tqdm.monitor_interval = 0  # no thread of its own: the core's calls say when to draw
-    form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
-    size = size_of_terminal()
-    return tqdm(total=1.0, file=sys.stderr, leave=False, desc=text, bar_format=form, **size)
-
-
-def size_of_terminal() -> dict[str, int]:
-    """Columns and rows that a bar may take."""
+    # No thread of its own: the core's calls say when to draw, and processes are forked.
+    tqdm.monitor_interval = 0
     # Some terminals say that they have no columns and no rows.
     width = os.get_terminal_size(sys.stderr.fileno()).columns or _WIDTH
-    return {"ncols": width - 1, "nrows": _ROWS}
+    return tqdm(file=sys.stderr, leave=False, ncols=width - 1, nrows=_ROWS, **settings)
 
 
 def is_watched() -> bool:

@@ -264,21 +264,12 @@ class Index:
         return int(self.tokens.number[self._named[kind]].max(initial=0)) + 1
 
 
-@dataclass(frozen=True, eq=False)
-class Told:
+class Told(NamedTuple):
     """A model of which is spoken without an analysis; see `analysis.deformation_words.Told`."""
 
     data: ModelData
-
-    @cached_property
-    def condensed(self) -> Condensed:
-        """The model as it is."""
-        return as_given(self.data)
-
-    @cached_property
-    def parts(self) -> Parts:
-        """Its parts."""
-        return Parts(self.data)
+    condensed: Condensed
+    parts: Parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -320,4 +311,5 @@ class Deck:
     @cached_property
     def told(self) -> Told | None:
         """Its model, to be spoken of; None where it has errors."""
-        return Told(self.data) if self.data is not None else None
+        data = self.data
+        return None if data is None else Told(data, as_given(data), Parts(data))
