@@ -158,9 +158,7 @@ def of_diagnostics(
         if item.other is not None:
             words = "first here" if item.other < (item.line, item.column) else "and here"
             related.append((lines.region(item.other), words))
-        message = harmless(item.message)
-        if item.label:
-            message = f"{message}: {harmless(item.label)}"
+        message = harmless(f"{item.message}: {item.label}" if item.label else item.message)
         yield Finding(
             *(deck, item.code, item.severity, message, region, statement),
             tuple(related),

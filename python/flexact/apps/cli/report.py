@@ -93,8 +93,7 @@ def broken_page_of(
     if {item.code for item in items} & NOT_READ:
         return None
     made = broken_page(error, name)
-    if indexed:
-        made = with_way_back(made, place)
+    made = with_way_back(made, place) if indexed else made
     return as_bytes(made), broken_entry(error, place, f"{place}.html", name)
 
 

@@ -26,7 +26,7 @@ from .tables import model_of, tables_of
 _Tree = tuple[int, int, list[Any]]
 
 
-class MalformedError(ValueError):
+class MalformedError(Exception):
     """A text that is no JSON or no YAML: what is wrong, and where, from 1; 0 where unknown."""
 
     def __init__(self, message: str, line: int = 0, column: int = 0) -> None:
@@ -45,8 +45,6 @@ def value_of_json(text: str) -> Any:
     except json.JSONDecodeError as error:
         words = f"this is no JSON: {error.msg[:1].lower()}{error.msg[1:]}"
         raise MalformedError(words, error.lineno, error.colno) from None
-    except MalformedError:
-        raise
     except ValueError as error:
         raise MalformedError(str(error)) from None
 
@@ -128,8 +126,6 @@ def value_of_yaml(yaml: ModuleType, text: str) -> Any:
         mark = getattr(error, "problem_mark", None)
         words = f"this is no YAML: {getattr(error, 'problem', None) or error}".splitlines()[0]
         raise MalformedError(words, *(_start(mark) if mark else ())) from None
-    except MalformedError:
-        raise
     except (ValueError, OverflowError) as error:
         raise MalformedError(str(error)) from None
 

@@ -187,9 +187,8 @@ def _key(folder: Path | None) -> bytes:
 
 def _kept(file: Path) -> bytes | None:
     """A key that was kept whole, and that nobody else has made or can have read."""
-    how = os.O_RDONLY
-    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY"):
-        how |= getattr(os, name, 0)
+    names = ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY")
+    how = os.O_RDONLY | sum(getattr(os, name, 0) for name in names)
     with contextlib.suppress(OSError), open(os.open(file, how), "rb") as given:
         found = os.fstat(given.fileno())
         if stat.S_ISREG(found.st_mode) and _is_mine(found, _FOR_OTHERS):

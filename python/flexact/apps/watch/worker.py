@@ -207,12 +207,14 @@ class Script:
 
 def _model_name(main: ModuleType, shown: object) -> str:
     """The name of the model that is shown, or of which the result is that is shown."""
-    for name, value in vars(main).items():
-        if isinstance(value, Model) and not name.startswith("_"):
-            is_its_result = isinstance(shown, Result) and value.data is shown.given
-            if value is shown or is_its_result:
-                return name
-    return "model"
+    names = (
+        name
+        for name, value in vars(main).items()
+        if isinstance(value, Model)
+        and not name.startswith("_")
+        and (value is shown or (isinstance(shown, Result) and value.data is shown.given))
+    )
+    return next(names, "model")
 
 
 def _said(error: BaseException) -> Iterator[tuple[str, str, str]]:
