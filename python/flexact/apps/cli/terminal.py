@@ -161,9 +161,9 @@ def _obeys_escapes(stream: TextIO | None) -> bool:
     return obeys
 
 
-def text_width(usual: int = USUAL, stream: TextIO | None = None) -> int:
+def text_width(usual: int = USUAL) -> int:
     """Columns for words: those of the terminal, as many as are read with ease; else `usual`."""
-    seen = columns_of(sys.stdout if stream is None else stream)
+    seen = columns_of(sys.stdout)
     return usual if seen is None else max(_LEAST, min(seen, USUAL))
 
 

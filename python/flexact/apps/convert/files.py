@@ -283,15 +283,11 @@ _PIECE = 2**20
 DECK, TABLES, MESH = "deck", "tables", "mesh"
 
 
-class FormatError(BatchError):
-    """A file of no known format, or one that cannot be read."""
-
-
 def format_of(path: Path) -> str:
     """The format that a file's suffix means.
 
     Raises:
-        FormatError: there is none.
+        BatchError: there is none.
     """
     suffix = path.suffix.lower()
     if suffix == SUFFIX:
@@ -302,8 +298,8 @@ def format_of(path: Path) -> str:
         if suffix in suffixes():
             return MESH
     except MeshError as error:
-        raise FormatError(f"{path}: {error}") from error
-    raise FormatError(
+        raise BatchError(f"{path}: {error}") from error
+    raise BatchError(
         f"the suffix of {path} says no format: decks are .dat, tables .json or .yaml, "
         "meshes .vtu, .vtk, .msh and others that meshio knows"
     )
@@ -332,13 +328,13 @@ def read_any(
         # A pipe or a device may keep whoever reads it for ever.
         found = path.stat()
         if not stat.S_ISREG(found.st_mode) and not stat.S_ISDIR(found.st_mode):
-            raise FormatError(f"{path}: this is not a regular file; write the tables to one first")
+            raise BatchError(f"{path}: this is not a regular file; write the tables to one first")
         if found.st_size > _MOST_BYTES:
-            raise FormatError(f"{path}: tables larger than a gigabyte are not read")
+            raise BatchError(f"{path}: tables larger than a gigabyte are not read")
         with open(path, "rb") as file:
             raw = file.read(found.st_size + _PIECE)
     except OSError as error:
-        raise FormatError(f"{path}: the file cannot be read: {reason_of(error)}") from error
+        raise BatchError(f"{path}: the file cannot be read: {reason_of(error)}") from error
     return _of_tables(raw, path, flexible)
 
 

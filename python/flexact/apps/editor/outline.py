@@ -77,10 +77,17 @@ def outline_of(deck: Deck) -> list[Symbol]:
     return groups
 
 
-def _group(name: str, entries: list[One], make: Callable[[One], Symbol]) -> Symbol:
+def _group(
+    name: str,
+    entries: list[One],
+    make: Callable[[One], Symbol],
+    detail: str = "",
+    sort: Sort = "group",
+) -> Symbol:
+    """Entries, or the stretches that they stand in, below one that is named where the first is."""
     inner = _stretches(entries, make)
     first = min(inner, key=lambda each: each.range)
-    return Symbol(name, "", "group", _around(inner), first.own, tuple(inner))
+    return Symbol(name, detail, sort, _around(inner), first.own, tuple(inner))
 
 
 def _stretches(entries: list[One], make: Callable[[One], Symbol]) -> list[Symbol]:
@@ -116,9 +123,7 @@ def _part(deck: Deck, name: str, lines: list[int]) -> Symbol:
     if len(lines) == 1:
         one = _element(deck, lines[0])._replace(sort="part")
         return one if name.startswith("\0") else one._replace(name=name, detail=one.name)
-    inner = tuple(_stretches(lines, partial(_element, deck)))
-    first = min(inner, key=lambda each: each.range)
-    return Symbol(name, f"{len(lines)} elements", "part", _around(inner), first.own, inner)
+    return _group(name, lines, partial(_element, deck), f"{len(lines)} elements", "part")
 
 
 def _node(deck: Deck, number: int) -> Symbol:
