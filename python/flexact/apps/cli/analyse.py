@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
 from ...analysis.result import Result
@@ -35,10 +35,6 @@ from .decks import (
 from .parser import Verb, argument
 from .targets import folder_or, mesh_argument
 from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, painted, say, text_width
-
-if TYPE_CHECKING:
-    from .export import ResultFiles
-
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
 
@@ -118,14 +114,18 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
         raise BatchError(f"-o {chosen.output} is a table, which --summary writes; or name a folder")
     decks = find_decks(chosen.decks)
     findings = None if chosen.format == TEXT else Findings(chosen.format)
-    files: ResultFiles | None = None
+    form, plan = "", {}
     if chosen.output and not is_table(chosen.output):
-        planned = load("flexact.apps.cli.export").ResultFiles
-        files = planned(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
+        plan_results = load("flexact.apps.cli.export").plan_results
+        form, plan = plan_results(decks, chosen.output, chosen.mesh or "vtu")
     wanted = VERDICTS.get(chosen.expect)
 
     def written(deck: DeckFile, result: Result) -> Exception | None:
-        return files.write(deck, result) if files else None
+        writing: Any = load("flexact.apps.cli.export") if plan else None
+        made: Exception | None = writing and writing.write_results(
+            *(result, plan[deck.path], form, chosen.log)
+        )
+        return made
 
     def judged(deck: DeckFile, result: Result, failure: Exception | None) -> Outcome:
         """What the verdict asks for, once the files are written, or why they are not."""
@@ -143,7 +143,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
             result = read_and_analysed(deck, chosen, bar)
             bar.show("writing")
             failure = written(deck, result)
-            words, is_data = ("", True) if findings else _words(result, chosen, files is not None)
+            words, is_data = ("", True) if findings else _words(result, chosen, bool(plan))
         if findings:
             findings.analysed(deck, result, wanted)
         else:

@@ -261,8 +261,8 @@ class Outputs:
         self._pages: dict[str, tuple[Path, ...]] = {}
         self._index: Path | None = None
         if files is not None:
-            made = load("flexact.apps.cli.export").ResultFiles(decks, files, mesh_format)
-            self.mesh_format, self._files = made.format, made.plan
+            plan_results = load("flexact.apps.cli.export").plan_results
+            self.mesh_format, self._files = plan_results(decks, files, mesh_format)
         if report is not None:
             # Processes that are forked have it then.
             pages = load("flexact.apps.cli.report")

@@ -62,32 +62,31 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
     return take([deck], step)
 
 
-class ResultFiles:
-    """Where each deck's results go, found before anything is computed.
+def plan_results(
+    decks: Sequence[DeckFile], folder: Path, mesh_format: str
+) -> tuple[str, dict[str, tuple[Path, ...]]]:
+    """The format of meshes, and where each deck's results go, before anything is computed.
 
     Raises:
         OutputError: Two decks would write one file, or the folder cannot take files.
         MeshFormatError: There is no such mesh format.
     """
+    with unwinding():
+        form = find_format(mesh_format)
+    return form, plan_files(decks, folder, (".json", ".log", f".{form}"))
 
-    def __init__(
-        self, decks: Sequence[DeckFile], folder: Path, mesh_format: str, log: str | None = None
-    ) -> None:
-        """Plan the files of all decks; `log` is the form of the logs, None that of Flexact."""
-        self._log = log
+
+def write_results(
+    result: Result, files: Sequence[Path], mesh_format: str, log: str | None
+) -> Exception | None:
+    """Write the results of a deck, or say why not: that is no reason to keep the verdict back."""
+    try:
+        contents = contents_of(result, mesh_format, log)
         with unwinding():
-            self.format = find_format(mesh_format)
-        self.plan = plan_files(decks, folder, (".json", ".log", f".{self.format}"))
-
-    def write(self, deck: DeckFile, result: Result) -> Exception | None:
-        """Write the results, or say why not: that is no reason to keep the verdict back."""
-        try:
-            contents = contents_of(result, self.format, self._log)
-            with unwinding():
-                write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
-        except Exception as error:
-            return foreseen(error)
-        return None
+            write_together(dict(zip(files, contents, strict=True)))
+    except Exception as error:
+        return foreseen(error)
+    return None
 
 
 def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tuple[bytes, ...]:
