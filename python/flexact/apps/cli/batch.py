@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import base64
-import contextlib
 import hashlib
 import os
 import time
@@ -397,7 +396,7 @@ class BatchBar:
     def __exit__(self, *_: object) -> None:
         """Wipe the bar."""
         if self._bar is not None:
-            with contextlib.suppress(OSError):
+            with suppress(OSError):
                 self._bar.close()
 
     def count(self, has_error: bool) -> None:

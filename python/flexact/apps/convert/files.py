@@ -8,7 +8,6 @@ import stat
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
-from json import scanner
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -62,7 +61,7 @@ def spans_of_json(text: str) -> dict[str, Place]:
     """Where each value of a sound text stands, by its place, such as nprops[3].fix."""
     roots: list[_Tree] = []
     around = [roots]
-    plain: Any = scanner.py_make_scanner(json.JSONDecoder())  # type: ignore[attr-defined]
+    plain: Any = json.scanner.py_make_scanner(json.JSONDecoder())  # type: ignore[attr-defined]
     decoder: Any = json.decoder
 
     def scanned(text: str, start: int) -> tuple[Any, int]:

@@ -14,12 +14,12 @@ from ...deck.comments import comments_of
 from ...model.attributes import CrossSection
 from ...model.data import ModelData
 from ...model.draft import Shape
-from .table_input import AXES as LETTERS
 from .table_input import (
-    ELEMENT_FIELDS,
+    LETTERS,
     LOADS,
     NODE_FIELDS,
     NODES_A_POINT,
+    OWN_FIELDS,
     Entry,
     Remarks,
     density_of,
@@ -169,7 +169,7 @@ def _masses(data: ModelData, own: tuple[int, int], remarks: Remarks) -> Entry:
         numbers = given[~np.isnan(given)].tolist()
         given_as: Any = numbers[0] if size == 1 else numbers + [0.0] * (6 - len(numbers))
         try:
-            fits = len(numbers) <= size and NODE_FIELDS[name].check(given_as) is not None
+            fits = len(numbers) <= size and NODE_FIELDS[name](given_as) is not None
         except ValueError:
             fits = False
         if not fits:
@@ -281,9 +281,8 @@ def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
     if data.loads is not None and data.loads.gravity.any():
         made.setdefault("opt", {})["gravity"] = data.loads.gravity.tolist()
     _note_the_rest(data, points, remarks)
-    for fields, entries in ((NODE_FIELDS, made["nprops"]), (ELEMENT_FIELDS, sets)):
-        for entry in entries:
-            remarks.own.update(name for name in entry if fields[name].is_own)
+    for entry in (*made["nprops"], *sets):
+        remarks.own.update(name for name in entry if name in OWN_FIELDS)
     if data.planar:
         remarks.own["nodes with x and y"] = len(made["nodes"])
     return made, remarks

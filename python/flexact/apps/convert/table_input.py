@@ -10,7 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -180,71 +180,57 @@ def moments(value: Any) -> tuple[float, ...]:
     return made
 
 
-AXES = ("x", "y", "z")
+LETTERS = ("x", "y", "z")
 #: Nodes of a deck by point: a position, an orientation, and a warping node, which is not used.
 NODES_A_POINT = 3
 
 
-class Field(NamedTuple):
-    """A field of a node or of a set of elements.
-
-    Attributes:
-        check: Gives the value as it is used, or raises ValueError in words.
-        left_out: What it says that a model does not hold; empty where it is used.
-        is_own: Whether only Flexact knows it.
-    """
-
-    check: Callable[[Any], Any]
-    left_out: str = ""
-    is_own: bool = False
-
-
+#: Gives the value of a field as it is used, or raises ValueError in words.
+Check = Callable[[Any], Any]
 PRESCRIBED = "values of prescribed motions"
-_SIMULATION = "what is for a simulation"
+#: Fields that only Flexact knows, and those that are for a simulation.
+OWN_FIELDS = frozenset(("fix_rx", "fix_ry", "fix_rz", "name", "same_pos", "same_orien", "type"))
+_SIMULATION = ("transfer_in", "transfer_out")
 
 #: Of each node.
-NODE_FIELDS: dict[str, Field] = {
-    **{name: Field(flag) for name in ("fix", "fix_pos", "fix_orien")},
-    **{f"fix_{axis}": Field(flag) for axis in AXES},
-    **{f"fix_r{axis}": Field(flag, is_own=True) for axis in AXES},
-    "fix_warp": Field(flag),
-    **{f"displ{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
-    **{f"rot{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
-    **{f"rot{start}": Field(vector(4)) for start in ("", "_initial")},
-    "mass": Field(not_negative),
-    "mominertia": Field(moments),
-    **{
-        f"{load}{start}": Field(vector(3))
-        for load in ("force", "moment")
-        for start in ("", "_initial")
-    },
-    "transfer_in": Field(texts, _SIMULATION),
-    "transfer_out": Field(texts, _SIMULATION),
-    "name": Field(text, is_own=True),
-    "same_pos": Field(count, is_own=True),
-    "same_orien": Field(count, is_own=True),
+NODE_FIELDS: dict[str, Check] = {
+    **{name: flag for name in ("fix", "fix_pos", "fix_orien")},
+    **{f"fix_{axis}": flag for axis in LETTERS},
+    **{f"fix_r{axis}": flag for axis in LETTERS},
+    "fix_warp": flag,
+    **{f"displ{start}_{axis}": number for start in ("", "_initial") for axis in LETTERS},
+    **{f"rot{start}_{axis}": number for start in ("", "_initial") for axis in LETTERS},
+    **{f"rot{start}": vector(4) for start in ("", "_initial")},
+    "mass": not_negative,
+    "mominertia": moments,
+    **{f"{load}{start}": vector(3) for load in ("force", "moment") for start in ("", "_initial")},
+    "transfer_in": texts,
+    "transfer_out": texts,
+    "name": text,
+    "same_pos": count,
+    "same_orien": count,
 }
 #: Of each set of elements.
-ELEMENT_FIELDS: dict[str, Field] = {
-    "elems": Field(numbers_from_one),
-    "emod": Field(positive),
-    "smod": Field(positive),
-    "dens": Field(not_negative),
-    "cshape": Field(shape),
-    "dim": Field(sizes),
-    "orien": Field(direction),
-    "nbeams": Field(count),
-    "flex": Field(deformations),
-    "color": Field(colour),
-    "opacity": Field(part),
-    "hide": Field(flag),
-    "warping": Field(flag),
-    "cw": Field(flag),
-    "type": Field(kind, is_own=True),
-    "name": Field(text, is_own=True),
+ELEMENT_FIELDS: dict[str, Check] = {
+    "elems": numbers_from_one,
+    "emod": positive,
+    "smod": positive,
+    "dens": not_negative,
+    "cshape": shape,
+    "dim": sizes,
+    "orien": direction,
+    "nbeams": count,
+    "flex": deformations,
+    "color": colour,
+    "opacity": part,
+    "hide": flag,
+    "warping": flag,
+    "cw": flag,
+    "type": kind,
+    "name": text,
 }
 #: Of the releases, element by element.
-RELEASE_FIELDS = {"def": Field(deformations)}
+RELEASE_FIELDS = {"def": deformations}
 #: What SPACAR Light calls the loads of a deck: XF, on which a simulation starts, and DELXF.
 LOADS = {"force": "_initial", "increment": ""}
 #: Options; of these releases and gravity are used, and none of the others is looked at.
@@ -462,7 +448,7 @@ def _take_ends(made: Tables, given: Any, found: Found) -> None:
 
 
 def _entries(
-    given: Any, name: str, fields: Mapping[str, Field], found: Found
+    given: Any, name: str, fields: Mapping[str, Check], found: Found
 ) -> list[tuple[int, Any]]:
     """Number and fields of each entry: of a list, of an object by numbers, or of a single one."""
     if is_unset(given):
@@ -485,7 +471,7 @@ def _entries(
 
 
 def _fields(
-    given: Any, name: str, fields: Mapping[str, Field], made: Tables, found: Found
+    given: Any, name: str, fields: Mapping[str, Check], made: Tables, found: Found
 ) -> dict[int, Entry]:
     """The checked fields of entries that have any, by number."""
     into: dict[int, Entry] = {}
@@ -500,13 +486,13 @@ def _fields(
             if key not in fields:
                 found.error(f"{place}.{key}", f"there is no such field{_meant(key, fields)}")
             elif not is_unset(value):
-                value = found.checked(f"{place}.{key}", fields[key].check, value)
+                value = found.checked(f"{place}.{key}", fields[key], value)
                 if value is None:
                     made.faulty.add(place)
                     continue
                 into.setdefault(i, {})[key] = value
-                if fields[key].left_out and value is not False:
-                    made.left_out[f"{fields[key].left_out}: {name}.{key}"] += 1
+                if key in _SIMULATION:
+                    made.left_out[f"what is for a simulation: {name}.{key}"] += 1
     return into
 
 

@@ -33,8 +33,8 @@ from ...model.model import Model
 from ...model.names import one_line
 from ...util.errors import require_kind
 from .model_tables import tables_with_remarks
-from .table_input import AXES as LETTERS
 from .table_input import (
+    LETTERS,
     LOADS,
     NODES_A_POINT,
     PRESCRIBED,
