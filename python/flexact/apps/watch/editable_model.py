@@ -10,7 +10,7 @@ from __future__ import annotations
 import difflib
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from http import HTTPStatus
 from itertools import zip_longest
 from pathlib import Path
@@ -102,6 +102,17 @@ def state_word(place: Place, value: Class) -> str:
     return next(word for word, each in states_of(place).items() if each == value)
 
 
+def index_of(known: Mapping[int, int], kind: str, number: int) -> int:
+    """The index of an element or a node by its number.
+
+    Raises:
+        RefusedError: There is none.
+    """
+    if number not in known:
+        raise RefusedError(f"there is no {kind} {number}")
+    return known[number]
+
+
 #: Edits, in the order in which they were made.
 Edits = tuple[Edit, ...]
 
@@ -137,9 +148,7 @@ class Board:
         Raises:
             RefusedError: There is no such element, or it has no such deformation.
         """
-        index = self.given.element_index.get(element)
-        if index is None:
-            raise RefusedError(f"there is no element {element}")
+        index = index_of(self.given.element_index, "element", element)
         last = element_kinds()[int(self.given.arrays.element_kind[index]) - 1].deformations
         if not 1 <= number <= last:
             raise RefusedError(f"element {element} has no deformation {number}: it has 1 to {last}")
@@ -154,9 +163,7 @@ class Board:
         Raises:
             RefusedError: There is no such node, or it has no such coordinate.
         """
-        index = self.given.node_index.get(node)
-        if index is None:
-            raise RefusedError(f"there is no node {node}")
+        index = index_of(self.given.node_index, "node", node)
         if name not in self.coordinates_of(index):
             there = ", ".join(self.coordinates_of(index))
             raise RefusedError(f"node {node} has no coordinate {in_short(name)}: it has {there}")

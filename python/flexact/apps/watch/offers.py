@@ -34,6 +34,7 @@ from .editable_model import (
     Edits,
     Place,
     RefusedError,
+    index_of,
     state_word,
     states_of,
 )
@@ -143,7 +144,7 @@ def _proposals(board: Board, now: Result, way: Way) -> Json:
     else:
         for part in way.parts:
             is_coordinate = isinstance(part, Coordinate)
-            if (place := _place(board, now, part)) is not None:
+            if (place := _place(board, part)) is not None:
                 words = place_in_words(board, place)
                 release, stop = ("free", "fix") if is_coordinate else ("release", "hold")
                 verbs = [(release, Class.DEPENDENT)]
@@ -151,11 +152,10 @@ def _proposals(board: Board, now: Result, way: Way) -> Json:
                     verbs = [("declare", Class.INDEPENDENT), (stop, Class.FIXED)]
                 items.setdefault(words, _proposal(words, [place], verbs))
     most = _MOST_SUPPORTS if way.step is Step.FREE_SUPPORT else _MOST
-    shown = list(items.values())[:most]
     return {
         "head": _head(now, way.step),
         "more": way.more or len(items) > most,
-        "items": shown,
+        "items": list(items.values())[:most],
     }
 
 
@@ -187,14 +187,13 @@ def _head(now: Result, step: Step) -> str:
     }[step]
 
 
-def _place(board: Board, now: Result, part: WayPart) -> Place | None:
+def _place(board: Board, part: WayPart) -> Place | None:
     if isinstance(part, Coordinate):
         return board.coordinate(part.node, part.name)
     element, number = map(int, part.operands.split()[:2])
     index = board.given.element_index[element]
     whole = board.wholes.get(index)
-    ends = () if whole is None else (whole.elements[0], whole.elements[-1])
-    if whole is not None and index not in ends:
+    if whole is not None and index not in (whole.elements[0], whole.elements[-1]):
         # Inside of a flexure that is switched as one there is nothing to be switched.
         return None
     try:
@@ -230,9 +229,7 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
     Raises:
         RefusedError: There is no such element.
     """
-    index = board.given.element_index.get(element)
-    if index is None:
-        raise RefusedError(f"there is no element {element}")
+    index = index_of(board.given.element_index, "element", element)
     part = board.parts.of_element(index)
     is_whole = index in board.wholes
     count = element_kinds()[int(board.given.arrays.element_kind[index]) - 1].deformations
@@ -259,9 +256,7 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
 
 def panel_of_node(board: Board, edits: Edits, node: int, wanted: Collection[Json]) -> Json:
     """What is offered of a point, by the number of one of its nodes; else as of an element."""
-    index = board.given.node_index.get(node)
-    if index is None:
-        raise RefusedError(f"there is no node {node}")
+    index = index_of(board.given.node_index, "node", node)
     position = board.parts.place_of(index)
     index = index if position is None else position
     parts = () if position is None else board.parts.at(position)
