@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             ends at once.
 
     Returns:
-        The exit code; see ``outcome.ExitCode``. 128 and the number of a signal if one came.
+        The exit code; see ``terminal.ExitCode``. 128 and the number of a signal if one came.
     """
     if arguments is None:
         end_at_once()

@@ -40,7 +40,7 @@ def live_page(scene: Scene, start: str, key: str) -> str:
     Args:
         scene: What it shows.
         start: The start of the server that it comes from.
-        key: What it finds out by whether a server is one of this user and file; see `guard`.
+        key: What it finds out by whether a server is one of this user and file; see `Secrets`.
     """
     body = (
         f'<div class="live" data-revision="{scene.revision if scene.saved else 0}" '

@@ -68,8 +68,7 @@ class Saved:
         patience = QUIET if ends else UNFINISHED
         if time_now - self._first < _LONGEST and time_now - self._since < patience:
             return False
-        self._rest = now
-        self._was_whole = _is_whole(self.path)
+        self._rest, self._was_whole = now, is_whole
         return True
 
     def _look(self) -> dict[str, _State]:
