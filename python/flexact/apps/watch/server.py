@@ -230,21 +230,20 @@ class Server(ThreadingHTTPServer):
     # Elsewhere than here it would let two servers have one port.
     allow_reuse_address = os.name == "posix"
 
-    def __init__(self, path: str, stage: Stage, port: int | None = None) -> None:
+    def __init__(self, path: str, stage: Stage, edit: Post, port: int | None = None) -> None:
         """Take a port.
 
         Args:
             path: The file that is watched.
             stage: What is shown.
+            edit: Answers what a page sends.
             port: The port; by default one that is free, if it can be the one of the last time.
 
         Raises:
             BatchError: The port cannot be had.
         """
-        self.stage = stage
+        self.stage, self.edit = stage, edit
         self.secrets = Secrets(path)
-        #: By the last part of the address.
-        self.posts: dict[str, Post] = {}
         #: The open connections, the oldest first, each with whether it may ask.
         self._lines: dict[socket.socket, bool] = {}
         self._lock = threading.Lock()
@@ -351,8 +350,7 @@ class Handler(BaseHTTPRequestHandler):
         rest = self._admitted(writes=True)
         if rest is None:
             return
-        post = self.server.posts.get(rest)
-        if post is None:
+        if rest != "edit":
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
             return
         try:
@@ -363,7 +361,7 @@ class Handler(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "that is too much")
             return
         try:
-            status, answer = post(self.rfile.read(length))
+            status, answer = self.server.edit(self.rfile.read(length))
         except Exception as error:
             status = HTTPStatus.INTERNAL_SERVER_ERROR
             answer = {"error": f"this went wrong, and nothing was changed: {error!r}"}

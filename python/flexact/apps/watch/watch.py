@@ -132,9 +132,8 @@ class Watch:
         self._work = f"{self.name} is {'running' if is_script else 'being analysed'}"
         self._renewed, self._printed = renewed, printed
         self.stage = Stage(self.name)
-        self.server = Server(path, self.stage, port)
         self.session = Session(Path(path), self.stage)
-        self.server.posts["edit"] = self.session.post
+        self.server = Server(path, self.stage, self.session.post, port)
         self.crew = Crew(fresh=is_script)
         self._saved = Saved(path)
         self._lock = threading.Lock()
