@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from ...core import calls
+from ...util import machine
 from ...util.loading import VERSION, load
-from ...util.machine import available, processors
 from ...util.text import harmless
 
 #: Extras that users have no need of.
@@ -58,8 +58,8 @@ def of_machine(paths: bool = False) -> list[tuple[str, str]]:
 def _system() -> Iterator[tuple[str, str]]:
     yield "Python", f"{platform.python_version()} ({platform.python_implementation()})"
     yield "platform", f"{platform.system()} {platform.release()}, {platform.machine()}"
-    yield "processors", f"{processors()}{_processor()}"
-    left = available()
+    yield "processors", f"{machine.processors()}{_processor()}"
+    left = machine.available()
     yield "memory", f"{left / 1e9:.3g} GB left" if math.isfinite(left) else _NO_BOUND
     yield "numpy", str(np.__version__)
 
