@@ -15,16 +15,14 @@ import flexact
 from flexact.apps.cli.analyse import FORMS, LOGS
 from flexact.apps.cli.command import parser_of
 from flexact.apps.cli.main import main
-from flexact.apps.convert.text import JSON, YAML
+from flexact.apps.convert.files import JSON, YAML
 from flexact.apps.editor.completion import complete_at
-from flexact.apps.editor.deck import Deck
-from flexact.apps.editor.document import Document, Position
+from flexact.apps.editor.deck import Deck, Document, Position
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import folds_of, outline_of
-from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
+from flexact.apps.editor.session import advice_on, opinion_on, problems_of
 from flexact.apps.watch.edit_session import Session
-from flexact.apps.watch.messages import Job, Shown
-from flexact.apps.watch.scene import Stage
+from flexact.apps.watch.scene import Shown, Stage
 from flexact.apps.watch.worker import answer_of
 from flexact.costs.cost import COSTS
 from flexact.show.drawing import QUANTITIES
@@ -168,7 +166,7 @@ def _in_python() -> Iterator[Output]:
 def _watch(deck: Path, folder: Path) -> str:
     """The scene of the deck, then that of a click, as the page has them."""
     told: list[Any] = []
-    answer = answer_of(Job(str(deck), is_script=False), told.append)
+    answer = answer_of(str(deck), told.append)
     stage = Stage(deck.name)
     session = Session(deck, stage)
     words = [session.renewed(answer), json.dumps(stage.scene.event(), allow_nan=False)]

@@ -12,9 +12,9 @@ from typing import Any, NoReturn
 import numpy as np
 
 import flexact
+from flexact.apps.convert.files import text_of
 from flexact.apps.convert.mesh_files import MeshError, mesh_of, model_of_mesh
 from flexact.apps.convert.tables import model_of, tables_of
-from flexact.apps.convert.text import text_of
 from flexact.deck.diagnostics import Diagnostic, Place, Severity
 from flexact.deck.rendering import render_problems
 

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 
 from flexact.apps.editor.actions import mends_of
 from flexact.apps.editor.completion import complete_at
-from flexact.apps.editor.deck import Deck
-from flexact.apps.editor.document import Document, Position, Range
+from flexact.apps.editor.deck import Deck, Document, Position, Range
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import (
     RenameError,
@@ -21,7 +20,7 @@ from flexact.apps.editor.outline import (
     references_at,
     rename_at,
 )
-from flexact.apps.editor.problems import problems_of
+from flexact.apps.editor.session import problems_of
 
 _SCRAPS = (
     *("\n", "\r\n", "\r", "\t", " ", "%", "#", "*", ";", "\ufeff", "\x00", "\x0b", "\x0c", "\x1a"),

@@ -23,11 +23,10 @@ from flexact.analysis.naming import angle_in_words, length_in_words
 from flexact.analysis.verdict_words import but_only, verdict_in_short
 from flexact.apps.checks.findings import findings_about
 from flexact.apps.cli.main import main
-from flexact.apps.editor.deck import Deck
-from flexact.apps.editor.document import Document
-from flexact.apps.editor.problems import opinion_on
+from flexact.apps.editor.deck import Deck, Document
+from flexact.apps.editor.session import opinion_on
 from flexact.apps.watch.edit_session import Session
-from flexact.apps.watch.messages import summary_of
+from flexact.apps.watch.scene import summary_of
 from flexact.show.notebook.output import html_of
 from flexact.show.page import entry_of, page
 from flexact.show.page.content import verdict_of_side

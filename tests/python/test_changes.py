@@ -8,8 +8,7 @@ import pytest
 from test_watch import EXACT, GUIDE
 
 import flexact
-from flexact.apps.watch.messages import ResultSummary, summary_of
-from flexact.apps.watch.scene import changed_words
+from flexact.apps.watch.scene import ResultSummary, changed_words, summary_of
 
 FREE = GUIDE.replace("DYNX 3  2\n", "")
 

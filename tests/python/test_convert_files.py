@@ -17,10 +17,10 @@ from reference_decks import text_of as deck_of
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.convert.files import bytes_of, read_any
+from flexact.apps.convert.files import bytes_of, read_any, read_tables, text_of
 from flexact.apps.convert.mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh
 from flexact.apps.convert.tables import TablesError, tables_of
-from flexact.apps.convert.text import PackageError, read_tables, text_of
+from flexact.util.errors import BatchError
 
 BAR = "TRUSS 1 1 2 % bar\nX 2 1 0 0\nFIX 1\nFIX 2 2 3\n"
 WRONG_JSON = b"""\
@@ -129,9 +129,9 @@ def test_a_row_of_json_is_a_line() -> None:
 
 def test_without_pyyaml_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "yaml", None)
-    with pytest.raises(PackageError, match="PyYAML"):
+    with pytest.raises(BatchError, match="PyYAML"):
         read_tables(b"nodes: []", "tables", ".yaml")
-    with pytest.raises(PackageError, match="pip install PyYAML"):
+    with pytest.raises(BatchError, match="pip install PyYAML"):
         text_of({}, ".yaml")
     assert text_of({}, ".json") == "{}\n"
 

@@ -16,8 +16,8 @@ from json_schema import schema
 from reference_decks import NAMES, text_of, truth_of
 
 import flexact
+from flexact.apps.convert.table_input import ELEMENT_FIELDS, NODE_FIELDS, OPTIONS
 from flexact.apps.convert.tables import TablesError, model_of, tables_of
-from flexact.apps.convert.values import ELEMENT_FIELDS, NODE_FIELDS, OPTIONS
 from flexact.deck.diagnostics import Diagnostic
 
 SCHEMA = jsonschema.Draft202012Validator(schema("tables"))

@@ -11,8 +11,7 @@ import flexact
 from flexact.analysis.change import Change
 from flexact.analysis.differences import statements_in
 from flexact.apps.checks.findings import Lines
-from flexact.apps.editor.deck import Deck
-from flexact.apps.editor.document import Document
+from flexact.apps.editor.deck import Deck, Document
 from flexact.core.elements import Class
 from flexact.deck.comments import comments_of
 from flexact.deck.keywords import Block

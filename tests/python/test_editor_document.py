@@ -6,9 +6,8 @@ import re
 
 import pytest
 
-from flexact.apps.editor.deck import Deck
-from flexact.apps.editor.document import Document, Position, split
-from flexact.apps.editor.problems import problems_of
+from flexact.apps.editor.deck import Deck, Document, Position, split
+from flexact.apps.editor.session import problems_of
 
 _CODECS = {"utf-8": "utf-8", "utf-16": "utf-16-le", "utf-32": "utf-32-le"}
 _WIDTHS = {"utf-8": 1, "utf-16": 2, "utf-32": 4}

@@ -11,8 +11,7 @@ from reference_decks import NAMES, text_of
 import flexact
 from flexact.apps.editor.actions import edits_between, edits_of, mends_of, remedies_at
 from flexact.apps.editor.completion import complete_at
-from flexact.apps.editor.deck import WARPING, Deck, keys_in
-from flexact.apps.editor.document import Document, Edit, Position
+from flexact.apps.editor.deck import WARPING, Deck, Document, Edit, Position, keys_in
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import (
     RenameError,
@@ -22,7 +21,7 @@ from flexact.apps.editor.outline import (
     references_at,
     rename_at,
 )
-from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
+from flexact.apps.editor.session import advice_on, opinion_on, problems_of
 from flexact.core.elements import element_kinds
 from flexact.deck.keywords import Block
 
@@ -72,10 +71,9 @@ def test_statements_are_those_that_the_core_reads(name: str) -> None:
     index, arrays = deck(text).index, model.data.arrays
     assert sorted(index.made["element"]) == sorted(arrays.element_number.tolist())
     for i, number in enumerate(arrays.element_number.tolist()):
-        kind = index.kind_of_element(number)
-        assert kind is element_kinds()[arrays.element_kind[i] - 1]
         made = index.element(number)
         assert made is not None
+        assert made.element is element_kinds()[arrays.element_kind[i] - 1]
         named = {number for (what, number), _ in keys_in(made) if what == "node"}
         nodes = arrays.element_node[:, i]
         numbers = set(arrays.node_number[nodes[nodes > 0] - 1].tolist())
@@ -160,7 +158,7 @@ def test_a_node_gets_another_number() -> None:
 
 
 def labels(text: str, line: int, character: int) -> list[str]:
-    return [one.label for one in complete_at(deck(text), Position(line, character)).offers]
+    return [one.label for one in complete_at(deck(text), Position(line, character))[1]]
 
 
 def test_what_may_stand_there_is_offered() -> None:
@@ -172,7 +170,7 @@ def test_what_may_stand_there_is_offered() -> None:
     # Slots of positions take positions, and a free number.
     assert labels(GUIDE, 0, 8) == ["1", "3", "5", "7", "9"]
     assert labels(GUIDE, 0, 5) == ["4"]
-    offers = complete_at(deck(GUIDE.replace("2 5 6", "2 5 6 ")), Position(10, 14)).offers
+    offers = complete_at(deck(GUIDE.replace("2 5 6", "2 5 6 ")), Position(10, 14))[1]
     assert [one.label for one in offers] == ["1", "3", "4"]
     assert offers[1].detail == "in-plane bending at its clamp"
     assert labels(GUIDE, 4, 30) == [] and labels("* TR\n", 0, 4) == []
@@ -181,7 +179,7 @@ def test_what_may_stand_there_is_offered() -> None:
 
 
 def test_snippets_name_the_operands() -> None:
-    offers = {one.label: one for one in complete_at(deck(), Position(6, 0)).offers}
+    offers = {one.label: one for one in complete_at(deck(), Position(6, 0))[1]}
     assert offers["BEAM"].snippet == "BEAM ${1:e} ${2:p} ${3:op} ${4:q} ${5:oq}"
     assert offers["HINGE"].snippet.endswith("${4:ax} ${5:ay} ${6:az}")
     assert offers["END"].snippet == "" and "RLSE e" in offers["RLSE"].about
@@ -219,7 +217,7 @@ def test_blocks_fold() -> None:
 )
 def test_the_help_of_a_problem_is_a_mend(text: str, title: str, mended: str | None) -> None:
     mine = deck(text)
-    problem = next(one for one in problems_of(mine) if mends_of(mine, one))
+    problem = next(one for one in problems_of(mine) if list(mends_of(mine, one)))
     ((said, edit),) = mends_of(mine, problem)
     assert said == title
     made = applied(mine.document, [edit])
@@ -231,7 +229,7 @@ def test_of_two_classes_either_goes() -> None:
     text = GUIDE.replace("FIX 6", "FIX 6\nFIX 3 1 2")
     mine = deck(text)
     problem = next(one for one in problems_of(mine) if one.code == "class-conflict")
-    mends = mends_of(mine, problem)
+    mends = list(mends_of(mine, problem))
     assert {title for title, _ in mends} == {
         "take 2 out of FIX in line 11",
         "take DYNX 3 2 out, line 14",
@@ -251,18 +249,18 @@ def test_a_step_of_the_advice_edits_the_deck(ending: str, start: str) -> None:
     advice = advice_on(opinion)
     assert advice is not None
     first = remedies_at(mine, advice, 0, 0)
-    assert first and first[0].makes_exact
-    for remedy in first:
-        edits = edits_of(mine, advice, remedy.step, remedy.choice)
+    assert first and first[0][0].endswith(": exactly constrained")
+    for title, step, choice in first:
+        edits = edits_of(mine, advice, step, choice)
         made = applied(mine.document, edits)
         assert made.startswith(f"{start}BEAM 1  1 2 3 4  0 1 0     % sheet 1{ending}")
         assert made.count("\r") == (made.count(ending) if "\r" in ending else 0)
         after = opinion_on(deck(made))
         assert after is not None and after.words.startswith("exactly constrained") == (
-            remedy.makes_exact
+            title.endswith(": exactly constrained")
         )
     mine_too = remedies_at(mine, advice, 10, 10)
-    assert mine_too and all("sheet 1" in one.title or "1" in one.title for one in mine_too)
+    assert mine_too and all("sheet 1" in title or "1" in title for title, _, _ in mine_too)
     assert remedies_at(mine, advice, 15, 15) != remedies_at(mine, advice, 5, 5)
 
 

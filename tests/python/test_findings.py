@@ -16,7 +16,7 @@ from sarif_schema import assert_sarif
 from small_decks import BROKEN, COLLINEAR, DECKS, json_lines, write
 
 from flexact.analysis.certainty import Doubt, DoubtKind
-from flexact.apps.checks.sarif import CODES
+from flexact.apps.checks.outputs import CODES
 from flexact.apps.cli.main import main
 
 ROOT = Path(__file__).parents[2]

@@ -27,8 +27,9 @@ session = Session(Path("deck.dat"))
 session.renew(flexact.analyse(flexact.read_text(Path(sys.argv[1]).read_text())))
 choice = session.told()["proposals"][0]["items"][0]["choices"][0]["set"]
 def do(**what):
-    reply = session.answered(json.dumps(what).encode())
-    return f"{what['do']} {int(reply.status)} {reply.changed}"
+    before = session.history.now
+    status, _ = session.answered(json.dumps(what).encode())
+    return f"{what['do']} {int(status)} {session.history.now != before}"
 print(do(do="set", set=choice), do(do="undo"), do(do="redo"), sep="\\n")
 session.broken()
 for what in ("undo", "redo", "reset", "tell"):

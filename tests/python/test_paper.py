@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.apps.checks.comparison import differences
-from flexact.apps.checks.stored_answer import answer_of, read_answer
+from flexact.apps.checks.comparison import answer_bytes, answer_in, answer_of, differences
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"
@@ -36,7 +35,7 @@ def test_a_deck_gives_its_reference(name: str) -> None:
     reference = REFERENCE / f"{name}.json"
     assert reference.is_file(), f"{name}.dat has no reference"
     answer = answer_of(flexact.analyse(DECKS / f"{name}.dat"))
-    assert differences(read_answer(reference), answer) == ()
+    assert differences(answer_in(answer_bytes(reference), reference), answer) == ()
 
 
 def test_every_reference_has_a_deck() -> None:

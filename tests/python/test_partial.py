@@ -12,7 +12,7 @@ from flexact import analyse
 from flexact.apps.cli import command as verbs
 from flexact.apps.cli.command import parser_of
 from flexact.apps.cli.main import main
-from flexact.apps.watch.messages import Job, Shown
+from flexact.apps.watch.scene import Shown
 from flexact.apps.watch.worker import answer_of
 from flexact.util.errors import FlexactError
 from flexact.util.partial import STRICT, attempted
@@ -78,8 +78,8 @@ PARTS = {
     "show.notebook.output.motion_in_parts": {"rows"},
     "show.notebook.output.describe": set(),
     "show.mesh.content.select_motion": set(),
-    "apps.watch.messages.motion_in_parts": set(),
-    "apps.watch.messages.stress_in_parts": set(),
+    "apps.watch.scene.motion_in_parts": set(),
+    "apps.watch.scene.stress_in_parts": set(),
 }
 
 
@@ -101,7 +101,7 @@ def test_an_output_goes_on_without_a_part(
         if part != "show.saving.picture_bytes" or suffix != "png":
             result.save(tmp_path / f"made.{suffix}")
     assert main(["analyse", str(deck), "-o", str(tmp_path / "files")]) == 0
-    shown = answer_of(Job(str(deck), is_script=False), lambda _: None)
+    shown = answer_of(str(deck), lambda _: None)
     assert isinstance(shown, Shown)
     said = {
         "page": (tmp_path / "made.html").read_text("utf-8"),

@@ -15,17 +15,18 @@ from large_results import changed, first_of
 from small_decks import COLLINEAR
 
 import flexact
-from flexact.apps.checks import stored_answer
-from flexact.apps.checks.comparison import WITHIN, differences
-from flexact.apps.checks.stored_answer import (
+from flexact.apps.checks import comparison
+from flexact.apps.checks.comparison import (
     VECTORS,
-    Images,
-    Projector,
+    WITHIN,
+    Kept,
     StoredAnswer,
     StoredAnswerError,
+    answer_bytes,
+    answer_in,
     answer_of,
+    differences,
     fixed_vectors,
-    read_answer,
     text_of,
 )
 from flexact.apps.cli.main import main
@@ -50,7 +51,7 @@ def stored(text: str) -> StoredAnswer:
 def with_motions(vectors: np.ndarray, labels: tuple[str, ...] = PLANE) -> StoredAnswer:
     """An answer whose motions are the span of the rows."""
     basis = np.linalg.qr(vectors.T)[0]
-    return dataclasses.replace(stored(COLLINEAR), motions=Projector(labels, basis @ basis.T))
+    return dataclasses.replace(stored(COLLINEAR), motions=Kept(labels, basis @ basis.T))
 
 
 def heads(reported: Iterable[str]) -> list[str]:
@@ -67,7 +68,7 @@ def test_an_answer_comes_back_to_the_last_bit(tmp_path: Path) -> None:
     answer = stored(RAISED.replace("X 2", "X 2 0.1 0.3"))
     path = tmp_path / "answer.json"
     path.write_text(text_of(answer))
-    again = read_answer(path)
+    again = answer_in(answer_bytes(path), path)
     assert text_of(again) == text_of(answer)
     np.testing.assert_array_equal(again.singular_values, answer.singular_values)
 
@@ -153,9 +154,9 @@ def test_singular_values_are_compared_by_the_largest() -> None:
 def as_images(answer: StoredAnswer) -> StoredAnswer:
     """The same answer, its projectors replaced by what they make of the fixed vectors."""
 
-    def images(kept: stored_answer.Kept) -> Images:
-        assert isinstance(kept, Projector)
-        return Images(kept.labels, kept.matrix @ fixed_vectors(kept.labels))
+    def images(kept: Kept | None) -> Kept:
+        assert kept is not None and kept.is_whole
+        return Kept(kept.labels, kept.images(), is_whole=False)
 
     return dataclasses.replace(
         answer, motions=images(answer.motions), self_stresses=images(answer.self_stresses)
@@ -166,18 +167,19 @@ def test_a_large_projector_is_kept_by_its_images(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     small = stored(COLLINEAR)
-    monkeypatch.setattr(stored_answer, "LARGEST_PROJECTOR", 0)
+    monkeypatch.setattr(comparison, "LARGEST_PROJECTOR", 0)
     large = stored(COLLINEAR)
     for kept, wanted in (
         (large.motions, as_images(small).motions),
         (large.self_stresses, as_images(small).self_stresses),
     ):
-        assert isinstance(kept, Images) and isinstance(wanted, Images)
+        assert kept is not None and wanted is not None
+        assert not kept.is_whole and not wanted.is_whole
         assert kept.labels == wanted.labels
         np.testing.assert_allclose(kept.values, wanted.values, atol=1e-15)
     path = tmp_path / "answer.json"
     path.write_text(text_of(large))
-    assert text_of(read_answer(path)) == text_of(large)
+    assert text_of(answer_in(answer_bytes(path), path)) == text_of(large)
     rows = json.loads(text_of(large))["self_stresses"]["images"]
     assert [row[0] for row in rows] == ["1:1", "2:1"]
     assert {len(row) for row in rows} == {1 + VECTORS}
@@ -213,7 +215,7 @@ def test_a_space_that_is_not_known_as_a_whole_is_not_compared(tmp_path: Path) ->
     assert answer.motions is None
     path = tmp_path / "answer.json"
     path.write_text(text_of(answer))
-    assert read_answer(path).motions is None
+    assert answer_in(answer_bytes(path), path).motions is None
     other = with_motions(np.eye(3)[:1])
     assert differences(answer, other) == differences(other, answer) == ()
 
@@ -249,7 +251,7 @@ def test_stored_answers_are_as_their_schema_says() -> None:
     now = json.loads(text_of(stored(COLLINEAR)))
     assert_valid_as(STORED, now)
     labels = tuple(f"{k}:x" for k in range(1, 4))
-    images = Images(labels, fixed_vectors(labels))
+    images = Kept(labels, fixed_vectors(labels), is_whole=False)
     for kept in (images, None):
         answer = dataclasses.replace(stored(COLLINEAR), motions=kept)
         assert_valid_as(STORED, json.loads(text_of(answer)))
@@ -333,7 +335,7 @@ def test_what_is_no_stored_answer_is_reported(
     text = content if isinstance(content, str) else json.dumps(content)
     path.write_text(text, encoding="utf-8", errors="surrogateescape")
     with pytest.raises(StoredAnswerError) as error:
-        read_answer(path)
+        answer_in(answer_bytes(path), path)
     assert str(path) in str(error.value) and named in str(error.value)
     assert isinstance(error.value, flexact.FlexactError)
     assert main(["regress", str(deck), "--against", str(tmp_path)]) == 1

@@ -14,7 +14,7 @@ from dask_cluster import running_cluster
 from junit_schema import read_junit
 from small_decks import COLLINEAR
 
-from flexact.apps.checks.comparison import Case, Finding, Question
+from flexact.apps.checks import comparison
 from flexact.apps.cli.main import main
 from flexact.sweeps import pool as local_pool
 
@@ -137,14 +137,14 @@ def test_where_junit_cannot_be_written_nothing_is_begun(folder: Path, capsys: An
 def test_a_deck_that_kills_its_worker_fails_alone(
     folder: Path, capsys: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole = Question._found
+    whole = comparison._found
 
-    def deadly(self: Question, case: Case, watch: Any) -> Finding:
-        if "same" in case.name:
+    def deadly(case: comparison.Case, *asked: Any) -> comparison.Comparison:
+        if "same" in case[0]:
             os.kill(os.getpid(), signal.SIGKILL)
-        return whole(self, case, watch)
+        return whole(case, *asked)
 
-    monkeypatch.setattr(Question, "_found", deadly)
+    monkeypatch.setattr(comparison, "_found", deadly)
     out, err = compared("-j", "2", code=2, out=capsys)
     assert heads(out) == ["a/numbers", "c/verdict"]
     assert err.count("signal 9") == 2

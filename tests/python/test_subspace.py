@@ -14,7 +14,7 @@ from flexact.analysis.sparse_basis import (
     row_norms,
     support_of,
 )
-from flexact.apps.checks.stored_answer import fixed_vectors, project
+from flexact.apps.checks.comparison import fixed_vectors, project
 from flexact.core.arrays import Basis, FloatArray
 
 SIZE = 60

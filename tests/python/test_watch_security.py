@@ -560,12 +560,11 @@ def test_a_frame_of_absurd_length_is_refused() -> None:
 def test_where_no_process_can_be_started_the_next_save_tries_again(
     deck: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    class Failing:
-        def __init__(self) -> None:
-            raise OSError(errno.EMFILE, "Too many open files")
+    def failing(*_: object, **__: object) -> None:
+        raise OSError(errno.EMFILE, "Too many open files")
 
     with monkeypatch.context() as patch:
-        patch.setattr(crew, "Worker", Failing)
+        patch.setattr(subprocess, "Popen", failing)
         made = crew.Crew(fresh=True)
         for _ in range(2):
             with pytest.raises(crew.WorkerError, match="too many open files"):

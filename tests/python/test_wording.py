@@ -37,8 +37,13 @@ import flexact
 from flexact import Analysis, Model, analyse
 from flexact.advice.describe import describe
 from flexact.analysis.decomposition import Asked
-from flexact.apps.checks.comparison import differences
-from flexact.apps.checks.stored_answer import StoredAnswerError, answer_of, read_answer
+from flexact.apps.checks.comparison import (
+    StoredAnswerError,
+    answer_bytes,
+    answer_in,
+    answer_of,
+    differences,
+)
 from flexact.apps.cli.main import main
 from flexact.core import calls
 from flexact.core.arrays import model_arrays
@@ -296,11 +301,12 @@ def test_messages_of_files(as_stored: AsStored, tmp_path: Path) -> None:
         with pytest.raises(OutputError) as error:
             attempt()
         said.append(f"OutputError: {error.value}")
-    whole = read_answer(ROOT / "tests/reference/paper/twelve_trusses.json")
+    stored = ROOT / "tests/reference/paper/twelve_trusses.json"
+    whole = answer_in(answer_bytes(stored), stored)
     assert whole.numbers["rank"] == 11
     for text in ("", "{}", '{"format": 2}', analyse(ring(3)).to_json()):
         with pytest.raises(StoredAnswerError) as wrong:
-            read_answer(write(tmp_path / "answer.json", text))
+            answer_in(text.encode(), write(tmp_path / "answer.json", text))
         said.append(f"StoredAnswerError: {wrong.value}")
     as_stored("\n".join(said).replace(str(tmp_path), "FOLDER"), GOLDEN / "messages" / "files.txt")
 

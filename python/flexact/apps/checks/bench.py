@@ -8,51 +8,41 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ...analysis.decomposition import Asked
 from ...analysis.result import Result, result_of
-from ...core import calls
-from ...core.arrays import FloatArray, packed
+from ...core.arrays import FloatArray
 from ...core.elements import Class
 from ...model.data import ModelData
-from ...model.reading import read_bytes
+from ...model.handles import Node
+from ...model.jacobian import jacobian
+from ...model.model import Model
 from ...util.errors import FlexactError
 from ...util.loading import load
 from ...util.text import harmless
 
 
-def full_matrix(data: ModelData) -> FloatArray:
+def full_matrix(model: Model) -> FloatArray:
     """D(c): derivatives of fixed and independent deformations to dependent coordinates."""
-    arrays = data.arrays
-    elements = arrays.element_number.size
-    whole = calls.assemble(packed(arrays), np.asfortranarray(arrays.node_value), np.zeros(elements))
-    deformation = arrays.deformation_class.T.ravel()
-    held = (deformation == Class.FIXED) | (deformation == Class.INDEPENDENT)
-    dependent = arrays.coordinate_class.T.ravel() == Class.DEPENDENT
-    used = held[whole.row_of] & dependent[whole.column_of]
-    row = (np.cumsum(held) - 1)[whole.row_of[used]]
-    column = (np.cumsum(dependent) - 1)[whole.column_of[used]]
-    full = np.zeros((int(held.sum()), int(dependent.sum())))
-    np.add.at(full, (row, column), whole.value[used])
-    return full
+    a = model.data.arrays
+    rows, columns = (
+        each.T[each.T != Class.NONE] for each in (a.deformation_class, a.coordinate_class)
+    )
+    held = np.isin(rows, (Class.FIXED, Class.INDEPENDENT))
+    full = jacobian(model).toarray()[held][:, columns == Class.DEPENDENT]
+    return np.ascontiguousarray(full)
 
 
-class Mechanism(NamedTuple):
-    """A deck, and what its construction says of it."""
-
-    name: str
-    deck: bytes
-    motions: int
-    self_stresses: int
-
-
+#: A mechanism, and what its construction says of it: its name, the numbers of its motions and of
+#: its self-stresses.
+Mechanism = tuple[Model, str, int, int]
 #: Between neighbouring stages, the length of a leaf of a folded sheet, and a step in height [m].
 _PITCH, _LEAF, _HEIGHT = 0.3, 0.1, 0.02
 #: Steps of the lattice of bars [m]: no two are at right angles, so that all is coupled.
-_STEPS = ((1.0, 0.2, 0.1), (0.1, 1.0, 0.2), (0.2, 0.1, 1.0))
+_STEPS = np.array([(1.0, 0.2, 0.1), (0.1, 1.0, 0.2), (0.2, 0.1, 1.0)])
 
 
 def stages(side: int) -> Mechanism:
@@ -63,25 +53,31 @@ def stages(side: int) -> Mechanism:
     neighbour below along y; the first ones are held by the ground. Stage after stage, six
     constraints hold six coordinates. What a folded sheet can do inside is declared.
     """
-    deck = _Deck()
+    model = Model()
+
+    def held(place: tuple[float, float, float]) -> Node:
+        """A point of the ground."""
+        node = model.node(place)
+        model.fix(node)
+        return node
+
     ground = {}
-    centre = {(i, j): deck.point(_at(i, j)) for i in range(side) for j in range(side)}
+    centre = {(i, j): model.node(_at(i, j)) for i in range(side) for j in range(side)}
     for k in range(side):
-        ground[-1, k] = deck.point(_at(-1, k), held=True)
-        ground[k, -1] = deck.point(_at(k, -1), held=True)
+        ground[-1, k] = held(_at(-1, k))
+        ground[k, -1] = held(_at(k, -1))
     for (i, j), here in centre.items():
         x, y, z = _at(i, j)
         for dx, dy in ((1.0, 0.0), (-0.5, 0.8660254), (-0.5, -0.8660254)):
-            fold = deck.point((x + _LEAF * dx, y + _LEAF * dy, z))
-            foot = (x + _LEAF * (dx - dy), y + _LEAF * (dy + dx), z)
-            along, across = (-dy, dx, 0.0), (dx, dy, 0.0)
-            deck.beam(deck.point(foot, held=True), fold, across, "2 5", "6")
-            deck.beam(fold, here, along, "2 5 6")
+            fold = model.node(x + _LEAF * dx, y + _LEAF * dy, z)
+            foot = held((x + _LEAF * (dx - dy), y + _LEAF * (dy + dx), z))
+            model.independent(model.beam(foot, fold, (dx, dy, 0.0), (2, 5)), 6)
+            model.beam(fold, here, (-dy, dx, 0.0), (2, 5, 6))
         beside = centre.get((i - 1, j)) or ground[i - 1, j]
         below = centre.get((i, j - 1)) or ground[i, j - 1]
-        deck.beam(beside, here, (0.0, 1.0, 0.0), "2 3 4 5")
-        deck.beam(below, here, (1.0, 0.0, 0.0), "2 3 4 5 6")
-    return Mechanism(f"{side * side} stages on folded sheets", deck.text(), 0, 0)
+        model.beam(beside, here, (0.0, 1.0, 0.0), (2, 3, 4, 5))
+        model.beam(below, here, (1.0, 0.0, 0.0), (2, 3, 4, 5, 6))
+    return model, f"{side * side} stages on folded sheets", 0, 0
 
 
 def bars(side: int) -> Mechanism:
@@ -91,70 +87,32 @@ def bars(side: int) -> Mechanism:
     first ones. One bar is left out at the last joint, a motion; and one more joins two joints that
     are held already, a self-stress.
     """
-    lines: list[str] = []
+    model = Model()
     # Joints of the lattice, and those on the ground before its first ones.
     every = product(range(-1, side), repeat=3)
-    joints = (index for index in every if sum(c < 0 for c in index) <= 1)
-    number = {index: node for node, index in enumerate(joints, start=1)}
-    rest: list[str] = []
-    for index, node in number.items():
-        place = (sum(c * s[axis] for c, s in zip(index, _STEPS, strict=True)) for axis in range(3))
-        rest.append(f"X {node} {' '.join(map(repr, place))}")
+    joints = [index for index in every if sum(c < 0 for c in index) <= 1]
+    node = {
+        index: model.node(
+            [sum(c * s[k] for c, s in zip(index, _STEPS, strict=True)) for k in range(3)]
+        )
+        for index in joints
+    }
+    for index in joints:
         if min(index) < 0:
-            rest.append(f"FIX {node}")
+            model.fix(node[index])
             continue
         for axis in range(3):
             i, j, k = index
             before = (i - (axis == 0), j - (axis == 1), k - (axis == 2))
             if not (axis == 2 and index == (side - 1,) * 3):
-                lines.append(f"TRUSS {len(lines) + 1} {number[before]} {node}")
-    one, other = number[0, 0, 0], number[1, 1, 0]
-    lines.append(f"TRUSS {len(lines) + 1} {one} {other}")
-    text = "\n".join([*lines, *rest, "END", "END", ""])
-    return Mechanism(f"{side**3} joints on bars", text.encode(), 1, 1)
+                model.truss(node[before], node[index])
+    model.truss(node[0, 0, 0], node[1, 1, 0])
+    return model, f"{side**3} joints on bars", 1, 1
 
 
 def _at(i: int, j: int) -> tuple[float, float, float]:
     """Where a stage is; no two neighbours at one height, so that links couple all their motions."""
     return _PITCH * i, _PITCH * j, _HEIGHT * ((2 * i + 3 * j) % 5)
-
-
-class _Deck:
-    """A deck of beams between points, in the making."""
-
-    def __init__(self) -> None:
-        self._elements: list[str] = []
-        self._rest: list[str] = []
-        self._nodes = 0
-
-    def point(self, place: tuple[float, float, float], held: bool = False) -> tuple[int, int]:
-        """A place with its orientation: the numbers of the two nodes."""
-        position, orientation = self._nodes + 1, self._nodes + 2
-        self._nodes = orientation
-        self._rest.append(f"X {position} {place[0]!r} {place[1]!r} {place[2]!r}")
-        if held:
-            self._rest += [f"FIX {position}", f"FIX {orientation}"]
-        return position, orientation
-
-    def beam(
-        self,
-        p: tuple[int, int],
-        q: tuple[int, int],
-        y: tuple[float, float, float],
-        released: str,
-        declared: str = "",
-    ) -> None:
-        """A beam from point to point, with its local y, and what it releases and declares."""
-        e = len(self._elements) + 1
-        words = " ".join(map(repr, y))
-        self._elements.append(f"BEAM {e} {p[0]} {p[1]} {q[0]} {q[1]} {words}")
-        self._rest.append(f"RLSE {e} {released}")
-        if declared:
-            self._rest.append(f"DYNE {e} {declared}")
-
-    def text(self) -> bytes:
-        """The deck."""
-        return "\n".join([*self._elements, *self._rest, "END", "END", ""]).encode()
 
 
 #: By the word that a measurement has.
@@ -186,26 +144,18 @@ def least_times(calls: Sequence[Callable[[], object]]) -> list[float]:
 Progress = Callable[[str, float], None]
 
 
-class Case(NamedTuple):
-    """What is measured: a family of mechanisms, its size, and the method."""
-
-    family: str
-    side: int
-    method: str
-
-
+#: What is measured: a family of mechanisms, its size, and the method.
+Case = tuple[str, int, str]
 #: In half a minute on two cores of 2020 or so, and in a few seconds.
-CASES = (
-    *(Case("stages", side, "svd") for side in (2, 4, 6)),
-    *(Case("bars", side, "svd") for side in (5, 7)),
-    *(Case("stages", side, "sparse") for side in (6, 20, 40)),
-    *(Case("bars", side, "sparse") for side in (7, 14, 20)),
+CASES: tuple[Case, ...] = (
+    *(("stages", side, "svd") for side in (2, 4, 6)),
+    *(("bars", side, "svd") for side in (5, 7)),
+    *(("stages", side, "sparse") for side in (6, 20, 40)),
+    *(("bars", side, "sparse") for side in (7, 14, 20)),
 )
-QUICK = (
-    *(Case("stages", side, "svd") for side in (2, 4)),
-    Case("bars", 5, "svd"),
-    Case("stages", 10, "sparse"),
-    Case("bars", 7, "sparse"),
+QUICK: tuple[Case, ...] = (
+    *(("stages", side, "svd") for side in (2, 4)),
+    *(("bars", 5, "svd"), ("stages", 10, "sparse"), ("bars", 7, "sparse")),
 )
 #: Of the rows and columns up to which numpy's SVD runs beside.
 _MOST_OF_SVD = 1500
@@ -262,31 +212,29 @@ def measure(
         threads: Numbers of threads, ascending.
         progress: Called before each piece of work.
     """
-    work = [_columns(case) ** _POWERS[case.method] for case in cases]
-    for k, case in enumerate(cases):
+    columns = {"stages": lambda side: 24.0 * side**2, "bars": lambda side: 3.0 * side**3}
+    work = [columns[family](side) ** _POWERS[method] for family, side, method in cases]
+    for k, (family, side, method) in enumerate(cases):
         before, whole = sum(work[:k]) / sum(work), work[k] / sum(work)
 
         def part(name: str, done: float, before: float = before, whole: float = whole) -> None:
             """Say how far all is, where this case is so far."""
             progress(name, before + done * whole)
 
-        yield _measured(FAMILIES[case.family](case.side), case.method, threads, part)
-
-
-def _columns(case: Case) -> float:
-    return 24.0 * case.side**2 if case.family == "stages" else 3.0 * case.side**3
+        yield _measured(FAMILIES[family](side), method, threads, part)
 
 
 def _measured(
     mechanism: Mechanism, method: str, threads: Sequence[int], progress: Progress
 ) -> Measurement:
-    data = read_bytes(mechanism.deck, mechanism.name)
+    model, name, *wanted = mechanism
+    data = model.data
     count = data.count
-    made = Measurement(mechanism.name, count.rows, count.columns, method, {}, {})
+    made = Measurement(name, count.rows, count.columns, method, {}, {})
     try:
-        full = full_matrix(data) if max(count.rows, count.columns) <= _MOST_OF_SVD else None
+        full = full_matrix(model) if max(count.rows, count.columns) <= _MOST_OF_SVD else None
         for k, number in enumerate(threads):
-            progress(f"{mechanism.name}, {method}", k / len(threads))
+            progress(f"{name}, {method}", k / len(threads))
             with load("threadpoolctl").threadpool_limits(number):
                 calls: list[Callable[[], object]] = [lambda: _analysed(data, method)]
                 if full is not None:
@@ -298,8 +246,7 @@ def _measured(
     except (FlexactError, MemoryError) as error:
         words = harmless(str(error) or "not enough memory").splitlines()[0]
         return replace(made, seconds={}, svd_seconds={}, error=words)
-    counts = result.under_constrained, result.over_constrained
-    right = counts == (mechanism.motions, mechanism.self_stresses)
+    right = [result.under_constrained, result.over_constrained] == wanted
     return replace(made, method=result.method, counts_are_right=right)
 
 

@@ -20,11 +20,10 @@ from ...analysis.result import Result
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import but_only, margin_line, warnings_of
 from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, decode
-from ...deck.tokens import Tokens, tokens_of
+from ...deck.tokens import tokens_of
 from ...util.records import cached_property
 from ...util.text import harmless
-from ..editor.deck import Index, Key
-from ..editor.document import units
+from ..editor.deck import Index, Key, units
 
 
 def from_root(path: str, environment: Mapping[str, str] = os.environ) -> str:
@@ -56,11 +55,8 @@ class Region(NamedTuple):
     end_column: int
 
 
-class Related(NamedTuple):
-    """Another place of a finding, and what is said of it."""
-
-    region: Region
-    message: str
+#: Another place of a finding, and what is said of it.
+Related = tuple[Region, str]
 
 
 @dataclass(frozen=True)
@@ -100,23 +96,18 @@ class Lines:
         """Keep the text; what is read off it is read when it is asked for."""
         self.source = source
 
-    def text(self, number: int) -> str:
-        """Line 1, 2, ...; empty where there is none."""
-        return decode(self.source.line(number)) if self.source is not None else ""
-
     def region(self, place: Place) -> Region:
         """A place in UTF-16 units."""
-        text = self.text(place.line)
+        text = decode(self.source.line(place.line)) if self.source is not None else ""
         first = max(place.column, 1)
         last = max(place.last_column, first)
         start = units(text[: first - 1], "utf-16") + 1
-        end = start + max(1, units(text[first - 1 : last], "utf-16"))
-        return Region(place.line, start, end)
+        return Region(place.line, start, start + max(1, units(text[first - 1 : last], "utf-16")))
 
     def statement(self, number: int) -> str:
         """The words of a line in capitals, one blank between them, without the comment."""
-        tokens = self._tokens
-        words = tokens[number - 1].words if tokens is not None and number <= len(tokens) else ()
+        tokens = self._index.tokens if self._index is not None else ()
+        words = tokens[number - 1].words if number <= len(tokens) else ()
         return " ".join(word.text for word in words).upper()
 
     def definition(self, key: Key) -> Region | None:
@@ -128,12 +119,8 @@ class Lines:
         return self.region(Place(line + 1, first + 1, max(behind, first + 1)))
 
     @cached_property
-    def _tokens(self) -> Tokens | None:
-        return None if self.source is None else tokens_of(self.source)
-
-    @cached_property
     def _index(self) -> Index | None:
-        return None if self._tokens is None else Index(self._tokens)
+        return None if self.source is None else Index(tokens_of(self.source))
 
 
 #: Code of the finding that says how many more there are.
@@ -169,12 +156,9 @@ def of_diagnostics(
             region = lines.region(Place(item.line, item.column, item.last_column))
             statement = lines.statement(item.line)
         if item.other is not None:
-            is_before = item.other < (item.line, item.column)
-            words = "first here" if is_before else "and here"
-            related.append(Related(lines.region(item.other), words))
-        message = harmless(item.message)
-        if item.label:
-            message = f"{message}: {harmless(item.label)}"
+            words = "first here" if item.other < (item.line, item.column) else "and here"
+            related.append((lines.region(item.other), words))
+        message = harmless(f"{item.message}: {item.label}" if item.label else item.message)
         yield Finding(
             *(deck, item.code, item.severity, message, region, statement),
             tuple(related),
@@ -220,13 +204,20 @@ class _Verdict:
         result, expected = self.result, self.expected or Verdict.EXACT
         if result.verdict is expected:
             if expected is Verdict.EXACT and result.is_marginal:
-                yield self._marginal()
+                head = margin_line(result).head
+                words = f"{verdict_in_words(result).start}. {plain(head)}"
+                yield self._made(MARGINAL, words, self._where(head))
             return
         made = []
         if result.under_constrained and expected not in (Verdict.UNDER, Verdict.BOTH):
             made += list(self._motions())
         if result.over_constrained and expected not in (Verdict.OVER, Verdict.BOTH):
-            made += list(self._self_stresses())
+            modes = (
+                (conflict_in_words(stress), stress_in_parts(stress, _PARTS))
+                for stress in result.self_stresses[:_MOST]
+            )
+            count, ways = result.over_constrained, lines_on_self_stresses(result)
+            made += list(self._modes("self-stress", OVER, count, modes, ways))
         if not made:
             words = f"{verdict_in_words(result).start}; expected {expected.value}"
             made = [self._made(OTHERWISE, words, None)]
@@ -242,15 +233,6 @@ class _Verdict:
         rest = result.under_constrained - (len(result.motions) - len(told) if internal else 0)
         yield from self._modes("motion", UNDER, rest, modes, lines_on_motions(result))
 
-    def _self_stresses(self) -> Iterator[Finding]:
-        result = self.result
-        modes = (
-            (conflict_in_words(stress), stress_in_parts(stress, _PARTS))
-            for stress in result.self_stresses[:_MOST]
-        )
-        ways = lines_on_self_stresses(result)
-        yield from self._modes("self-stress", OVER, result.over_constrained, modes, ways)
-
     def _modes(
         self, what: str, code: str, count: int, modes: Iterable[_Mode], ways: Iterable[Line]
     ) -> Iterator[Finding]:
@@ -260,9 +242,14 @@ class _Verdict:
         for number, (head, parts) in enumerate(modes, start=1):
             some = [*map(plain, parts[:_PARTS]), *["..."] * (len(parts) > _PARTS)]
             words = f"{what} {number}: {f'{plain(head)}: ' if head else ''}{'; '.join(some)}"
-            related = tuple(self._related(parts))
-            region = next((one.region for one in related), None)
-            yield self._made(code, self._counts(code, words), region, related, mend)
+            # Of each part its statement, the first of those that have one the place of all.
+            related: dict[Region, str] = {}
+            for pieces in parts[:_PARTS]:
+                if (region := self._where(pieces)) is not None:
+                    related.setdefault(region, harmless(plain(pieces)))
+            first = next(iter(related), None)
+            places = tuple(related.items())
+            yield self._made(code, self._counts(code, words), first, places, mend)
             mend = ""
         if number and count > number:
             more = counted(count - number, f"more {what}", "", "s" if what == "motion" else "es")
@@ -272,24 +259,8 @@ class _Verdict:
         result = self.result
         under = result.under_constrained if code == UNDER else 0
         over = result.over_constrained if code == OVER else 0
-        stated = counts_in_words(under, over).capitalize() + but_only(
-            result.margin, result.accuracy
-        )
-        return f"{stated}: {words}"
-
-    def _related(self, parts: Sequence[Pieces]) -> Iterator[Related]:
-        """Of each part its statement, the first of those that have one the place of all."""
-        seen = set()
-        for pieces in parts[:_PARTS]:
-            region = self._where(pieces)
-            if region is not None and region not in seen:
-                seen.add(region)
-                yield Related(region, harmless(plain(pieces)))
-
-    def _marginal(self) -> Finding:
-        result = self.result
-        words = f"{verdict_in_words(result).start}. {plain(margin_line(result).head)}"
-        return self._made(MARGINAL, words, self._where(margin_line(result).head))
+        only = but_only(result.margin, result.accuracy)
+        return f"{counts_in_words(under, over).capitalize()}{only}: {words}"
 
     def _where(self, pieces: Pieces) -> Region | None:
         """Where what is named first is defined."""

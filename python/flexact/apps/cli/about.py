@@ -16,9 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from ...core import calls
-from ...util import machine as memory
+from ...util import machine
 from ...util.loading import VERSION, load
-from ...util.machine import processors
 from ...util.text import harmless
 
 #: Extras that users have no need of.
@@ -37,21 +36,30 @@ def about(*, paths: bool = False) -> str:
     """
     lines = [*of_machine(paths), *_packages()]
     if paths:
-        lines += [("interpreter", sys.executable), ("core", _core_file())]
-        lines += [("package", os.path.dirname(os.path.dirname(calls.__file__)))]
+        core = str(load("flexact.core._core").__file__)
+        package = os.path.dirname(os.path.dirname(calls.__file__))
+        lines += [("interpreter", sys.executable), ("core", core), ("package", package)]
     return "\n".join(f"{name:{_WIDTH}} {value}" for name, value in lines)
 
 
 def of_machine(paths: bool = False) -> list[tuple[str, str]]:
     """Names and values of what decides how fast an analysis is: machine, versions, libraries."""
-    return [("flexact", VERSION), *_system(), *_built_in(), _linked(), *_blas(paths)]
+    ordered = "METIS and " if "METIS" in calls.linked() else ""
+    return [
+        *(("flexact", VERSION), *_system()),
+        ("sparse method", f"own factorisation, ordered by {ordered}own dissection"),
+        ("proofs", "own arithmetic"),
+        # The libraries that the core holds or loads, with their licences.
+        ("linked with", ", ".join(f"{name} ({said})" for name, said in calls.linked().items())),
+        *_blas(paths),
+    ]
 
 
 def _system() -> Iterator[tuple[str, str]]:
     yield "Python", f"{platform.python_version()} ({platform.python_implementation()})"
     yield "platform", f"{platform.system()} {platform.release()}, {platform.machine()}"
-    yield "processors", f"{processors()}{_processor()}"
-    left = memory.available()
+    yield "processors", f"{machine.processors()}{_processor()}"
+    left = machine.available()
     yield "memory", f"{left / 1e9:.3g} GB left" if math.isfinite(left) else _NO_BOUND
     yield "numpy", str(np.__version__)
 
@@ -64,21 +72,6 @@ def _processor() -> str:
                 return f", {harmless(line.partition(':')[2].strip())}"
     name = platform.processor()
     return f", {harmless(name)}" if name and name != platform.machine() else ""
-
-
-def _built_in() -> Iterator[tuple[str, str]]:
-    ordered = "METIS and " if "METIS" in calls.linked() else ""
-    yield "sparse method", f"own factorisation, ordered by {ordered}own dissection"
-    yield "proofs", "own arithmetic"
-
-
-def _linked() -> tuple[str, str]:
-    """The libraries that the core holds or loads, with their licences."""
-    return "linked with", ", ".join(f"{name} ({said})" for name, said in calls.linked().items())
-
-
-def _core_file() -> str:
-    return str(load("flexact.core._core").__file__)
 
 
 def _blas(paths: bool) -> Iterator[tuple[str, str]]:

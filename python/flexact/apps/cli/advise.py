@@ -8,7 +8,6 @@ import re
 from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
-from typing import NamedTuple
 
 from ...advice.advice import Advice, advice_of, describe
 from ...advice.json import line_of
@@ -43,28 +42,15 @@ class AskedError(BatchError):
         self.code = code
 
 
-def in_short(error: ModelError) -> AskedError:
-    """What is wrong with what was asked, in a line: it stands in no deck."""
-    first = error.diagnostics[0]
-    return AskedError(f"{first.message}{f'; {first.help}' if first.help else ''}", first.code)
-
-
-class Chosen(NamedTuple):
-    """A step by its number, and which of its choices."""
-
-    step: int
-    choice: int
-
-    def __str__(self) -> str:
-        """As it is asked for, such as "1" or "1.2"."""
-        return f"{self.step}.{self.choice}" if self.choice > 1 else str(self.step)
+#: A step by its number, and which of its choices.
+Chosen = tuple[int, int]
 
 
 def chosen_steps(text: str) -> tuple[Chosen, ...]:
     """Numbers of steps, and maybe of one of their choices behind a point, as an option's type."""
     found = [_STEP.fullmatch(part.strip()) for part in text.split(",")]
-    made = tuple(Chosen(int(one[1]), int(one[2] or 1)) for one in found if one is not None)
-    if len(made) < len(found) or len({one.step for one in made}) < len(made):
+    made = tuple((int(one[1]), int(one[2] or 1)) for one in found if one is not None)
+    if len(made) < len(found) or len({step for step, _ in made}) < len(made):
         raise argparse.ArgumentTypeError(
             "the number of a step is wanted, such as 1, or 1.2 for its second choice, or of "
             f"several, such as 1,8, not {text!r}"
@@ -126,18 +112,19 @@ def _written(
         said = f"shown in {name}; {_there(advice)}"
     else:
         # Of a page by default the first step, or what makes it exact.
-        asked = steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
+        asked = steps or tuple((k, 1) for k in advice.exact_by or (1,))
         # Those up to what is taken are enough.
-        there = tuple(islice(advice.numbered(progress), max(one.step for one in asked)))
-        for one in asked:
-            if one.step > len(there):
-                raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
-        taken = [there[one.step - 1] for one in asked]
-        change = together(there[one.step - 1].chosen(one.choice) for one in asked)
+        there = tuple(islice(advice.numbered(progress), max(step for step, _ in asked)))
+        for step, _ in asked:
+            if step > len(there):
+                raise AskedError(f"there is no step {step}: {_there(advice)}", "no-such-step")
+        taken = [there[step - 1] for step, _ in asked]
+        change = together(there[step - 1].chosen(choice) for step, choice in asked)
         after = taken[0].after if len(taken) == 1 else tried(advice.analysis, change)
-        words = f"step{'s' * (len(taken) > 1)} {listed([str(one) for one in asked])}"
+        names = [f"{step}.{choice}" if choice > 1 else str(step) for step, choice in asked]
+        words = f"step{'s' * (len(taken) > 1)} {listed(names)}"
         if kind in PAGES:
-            pieces = tuple(piece for step in taken for piece in (*step.pieces, " "))
+            pieces = tuple(piece for one in taken for piece in (*one.pieces, " "))
             content = load(pages).page_of(advice, change, pieces)
             said = f"{words} shown in {name}, {after.outcome}"
         else:
@@ -180,7 +167,10 @@ def advise_decks(chosen: argparse.Namespace) -> ExitCode:
                     if target is not None:
                         written = _written(advice, target, chosen.apply, bar.show_work)
             except ModelError as error:
-                raise in_short(error) from None
+                # It stands in no deck.
+                first = error.diagnostics[0]
+                hint = f"; {first.help}" if first.help else ""
+                raise AskedError(f"{first.message}{hint}", first.code) from None
             words = ""
             if chosen.json:
                 words = load("json").dumps(

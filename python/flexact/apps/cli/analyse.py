@@ -6,40 +6,35 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
 from ...analysis.result import Result
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
 from ...deck.rendering import DeckError
-from ...model.reading import read_deck
+from ...model.data import ModelData
 from ...show.writers import TABLES
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.loading import load
 from ...util.partial import attempted
 from ...util.text import harmless
-from . import decks as failures
-from . import terminal as colour
 from .decks import (
     ACCURACY_AND_BEYOND,
     DECISION,
     DECKS,
     is_table,
+    problems_of,
     read_and_analysed,
-    report_problems,
+    report_failure,
     summarise_results,
     summary_argument,
     take,
 )
 from .parser import Verb, argument
 from .targets import folder_or, mesh_argument
-from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, say, text_width
-
-if TYPE_CHECKING:
-    from .export import ResultFiles
-
+from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, painted, say, text_width
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
 
@@ -76,39 +71,31 @@ class Findings:
         self._form = form
         self._kept: list[Any] = []
 
-    def checked(self, deck: DeckFile) -> Outcome:
-        """Read a deck, and write its problems."""
-        model = read_deck(deck)
-        report_problems(model)
-        module = load("flexact.apps.checks.findings")
-        self._add(module.findings_of(deck.name, model.problems, model.source))
-        return Outcome(deck.name, ExitCode.ANALYSED, "without errors")
+    def checked(self, deck: DeckFile, model: ModelData) -> None:
+        """Write the problems of a deck that was read."""
+        self._add("findings_of", deck, model.problems, model.source)
 
     def analysed(self, deck: DeckFile, result: Result, expected: Verdict | None) -> None:
         """Write what is found in a deck that was analysed."""
-        module = load("flexact.apps.checks.findings")
-        self._add(module.findings_about(deck.name, result, expected))
+        self._add("findings_about", deck, result, expected)
 
     def failed(self, deck: DeckFile, error: Exception) -> None:
         """Write why a deck failed."""
         source = error.source if isinstance(error, DeckError) else None
-        module = load("flexact.apps.checks.findings")
-        self._add(module.findings_of(deck.name, failures.problems_of(error), source))
+        self._add("findings_of", deck, problems_of(error), source)
 
-    def _add(self, findings: list[Any]) -> None:
+    def _add(self, function: str, deck: DeckFile, *about: object) -> None:
+        found = getattr(load("flexact.apps.checks.findings"), function)(deck.name, *about)
         if self._form == SARIF:
-            self._kept += findings
-            return
-        lines = map(load("flexact.apps.checks.outputs").annotation, findings)
-        if text := "\n".join(lines):
+            self._kept += found
+        elif text := "\n".join(map(load("flexact.apps.checks.outputs").annotation, found)):
             give(text)
 
     def finish(self, code: ExitCode) -> ExitCode:
         """Write what waits until all decks are done; gives back the code."""
         if self._form == SARIF:
-            ended_well = code is not ExitCode.OTHER
-            module = load("flexact.apps.checks.sarif")
-            log = module.log_of(self._kept, int(code), ended_well=ended_well)
+            log_of = load("flexact.apps.checks.outputs").log_of
+            log = log_of(self._kept, int(code), ended_well=code is not ExitCode.OTHER)
             give(load("json").dumps(log, indent=1))
         return code
 
@@ -127,14 +114,18 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
         raise BatchError(f"-o {chosen.output} is a table, which --summary writes; or name a folder")
     decks = find_decks(chosen.decks)
     findings = None if chosen.format == TEXT else Findings(chosen.format)
-    files: ResultFiles | None = None
+    form, plan = "", {}
     if chosen.output and not is_table(chosen.output):
-        module = load("flexact.apps.cli.export")
-        files = module.ResultFiles(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
+        plan_results = load("flexact.apps.cli.export").plan_results
+        form, plan = plan_results(decks, chosen.output, chosen.mesh or "vtu")
     wanted = VERDICTS.get(chosen.expect)
 
     def written(deck: DeckFile, result: Result) -> Exception | None:
-        return files.write(deck, result) if files else None
+        writing: Any = load("flexact.apps.cli.export") if plan else None
+        made: Exception | None = writing and writing.write_results(
+            *(result, plan[deck.path], form, chosen.log)
+        )
+        return made
 
     def judged(deck: DeckFile, result: Result, failure: Exception | None) -> Outcome:
         """What the verdict asks for, once the files are written, or why they are not."""
@@ -143,7 +134,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
         code = ExitCode.DIFFERENT if is_wrong else ExitCode.ANALYSED
         if failure is None:
             return Outcome(deck.name, code, word)
-        failures.report_failure(deck, failure)
+        report_failure(deck, failure)
         return Outcome(deck.name, ExitCode.OTHER, word, "results not written")
 
     def step(deck: DeckFile) -> Outcome:
@@ -152,7 +143,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
             result = read_and_analysed(deck, chosen, bar)
             bar.show("writing")
             failure = written(deck, result)
-            words, is_data = ("", True) if findings else _words(result, chosen, files is not None)
+            words, is_data = ("", True) if findings else _words(result, chosen, bool(plan))
         if findings:
             findings.analysed(deck, result, wanted)
         else:
@@ -203,7 +194,7 @@ def _coloured(words: str, analysis: Result) -> str:
     style = "bad"
     if analysis.verdict is Verdict.EXACT:
         style = "unsure" if analysis.is_marginal else "good"
-    return re.sub(verdict, lambda found: colour.painted(found[0], style), words, count=1)
+    return re.sub(verdict, lambda found: painted(found[0], style), words, count=1)
 
 
 VERB = Verb(

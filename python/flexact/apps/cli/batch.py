@@ -5,10 +5,8 @@ from __future__ import annotations
 
 import argparse
 import base64
-import contextlib
 import hashlib
 import os
-import sys
 import time
 from array import array
 from collections import Counter
@@ -47,7 +45,7 @@ from ...util.text import harmless
 from .decks import ACCURACY, DECISION, DECKS
 from .parser import Verb, argument
 from .targets import WORKERS, folder, mesh_argument, plan_table
-from .terminal import ExitCode, complain, is_watched, say, size_of_terminal
+from .terminal import ExitCode, complain, drawn, is_watched, say
 
 if TYPE_CHECKING:
     from ...show.page import Entry
@@ -74,7 +72,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     plan_table(table, decks)
     outputs = Outputs(decks, chosen.files, chosen.mesh or "vtu", chosen.report)
     asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, outputs.has_pages)
+    work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, chosen.report is not None)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
     # One thread of BLAS, where the work is done in this process, as in those of a pool.
     is_here = chosen.dask is None and (chosen.workers or processors()) == 1
@@ -145,28 +143,17 @@ def _differences(then: dict[str, Any], now: dict[str, Any]) -> list[str]:
         if pair[0] != pair[1]
     ]
     if decks != now["decks"]:
-        made.append(_of_decks(decks, now["decks"]))
+        new, gone = sorted({*now["decks"]} - {*decks}), sorted({*decks} - {*now["decks"]})
+        words = [f"{len(decks)} decks then, {len(now['decks'])} now"] if new or gone else []
+        words += [f"{new[0]} is new"] if new else []
+        words += [f"{gone[0]} is not among them any more"] if gone else []
+        made.append(", ".join(words) or "the decks stand in another order")
     return made
 
 
-def _of_decks(then: list[str], now: list[str]) -> str:
-    new, gone = sorted({*now} - {*then}), sorted({*then} - {*now})
-    if not new and not gone:
-        return "the decks stand in another order"
-    words = [f"{len(then)} decks then, {len(now)} now"]
-    words += [f"{new[0]} is new"] if new else []
-    words += [f"{gone[0]} is not among them any more"] if gone else []
-    return ", ".join(words)
-
-
-class Item(NamedTuple):
-    """A deck that is to be done."""
-
-    name: str
-    place: str
-    """Of its page, beside the index and without its suffix."""
-    raw: bytes
-    """Its text: workers need not have its file."""
+#: A deck that is to be done: its name, the place of its page, beside the index and without its
+#: suffix, and its text: workers need not have its file.
+Item = tuple[str, str, bytes]
 
 
 class Answer(NamedTuple):
@@ -177,9 +164,8 @@ class Answer(NamedTuple):
     is_wanted: bool
     """Whether it is what --where asks for."""
     files: tuple[bytes, ...] = ()
-    page: bytes = b""
-    entry: Entry | None = None
-    """In the index of the pages."""
+    page: DeckPage | None = None
+    """With its entry in the index of the pages."""
 
 
 class Work:
@@ -219,15 +205,16 @@ class Work:
 
     def __call__(self, item: Item) -> Answer:
         """Analyse a deck, and make what is wanted of it."""
-        return self._answer(deck_row(item.raw, item.name, self._asked, self._want), item)
+        name, place, raw = item
+        return self._answer(deck_row(raw, name, self._asked, self._want), name, place)
 
     def failed(self, error: Exception, deck: DeckFile) -> Answer:
         """What is said of a deck that could not be done."""
         row = failed_row(error, deck.name, self._want)
-        return self._answer(row, Item(deck.name, deck.relative.as_posix(), b""))
+        return self._answer(row, deck.name, deck.relative.as_posix())
 
-    def _answer(self, row: DeckRow, item: Item) -> Answer:
-        is_wanted = self._test({**row.values, "deck": item.name})
+    def _answer(self, row: DeckRow, name: str, place: str) -> Answer:
+        is_wanted = self._test({**row.values, "deck": name})
         files: tuple[bytes, ...] = ()
         page: DeckPage | None = None
         if is_wanted:
@@ -238,16 +225,14 @@ class Work:
                 if self._has_pages:
                     report = load("flexact.apps.cli.report")
                     if row.result is not None:
-                        page = report.page_of(row.result, item.place, indexed=True)
+                        page = report.page_of(row.result, place, indexed=True)
                     else:
-                        page = report.broken_page_of(row.error, item.name, item.place)
+                        page = report.broken_page_of(row.error, name, place)
             except Exception as error:
-                row.values["error"] = f"{item.name}: its files could not be made: {why(error)}"
+                row.values["error"] = f"{name}: its files could not be made: {why(error)}"
                 files = ()
         values = tuple(row.values[column.name] for column in self.columns[1:])
-        if page is None:
-            return Answer(values, is_wanted, files)
-        return Answer(values, is_wanted, files, page.content, page.entry)
+        return Answer(values, is_wanted, files, page)
 
 
 class Outputs:
@@ -274,8 +259,8 @@ class Outputs:
         self._pages: dict[str, tuple[Path, ...]] = {}
         self._index: Path | None = None
         if files is not None:
-            made = load("flexact.apps.cli.export").ResultFiles(decks, files, mesh_format)
-            self.mesh_format, self._files = made.format, made.plan
+            plan_results = load("flexact.apps.cli.export").plan_results
+            self.mesh_format, self._files = plan_results(decks, files, mesh_format)
         if report is not None:
             # Processes that are forked have it then.
             pages = load("flexact.apps.cli.report")
@@ -283,11 +268,6 @@ class Outputs:
             self._index = self._pages[pages.INDEX.path][0]
             if not load("flexact.show.picture").has_packages():
                 complain(pages.WITHOUT_PICTURES)
-
-    @property
-    def has_pages(self) -> bool:
-        """Whether pages are wanted."""
-        return self._index is not None
 
     def put(self, deck: DeckFile, answer: Answer) -> dict[str, Any]:
         """Write what was made of a deck.
@@ -298,19 +278,19 @@ class Outputs:
         Raises:
             OutputError: A file cannot be written.
         """
-        contents = [*answer.files, *([answer.page] if answer.page else [])]
-        targets = self._targets(deck, bool(answer.files), bool(answer.page))
+        page, entry = answer.page or (b"", None)
+        contents = [*answer.files, *([page] if page else [])]
+        targets = self._targets(deck, bool(answer.files), bool(page))
         if contents:
             write_together(dict(zip(targets, contents, strict=True)))
         record: dict[str, Any] = {}
         if answer.files:
             record["files"] = [len(content) for content in answer.files]
-        if answer.page:
-            record["page"] = [len(answer.page)]
-        if answer.entry is not None:
-            picture = answer.entry.picture
+        if entry is not None:
+            picture = entry.picture
             packed = None if picture is None else base64.b64encode(picture).decode("ascii")
-            record["entry"] = {**asdict(answer.entry), "picture": packed}
+            record["page"] = [len(page)]
+            record["entry"] = {**asdict(entry), "picture": packed}
         return record
 
     def _targets(self, deck: DeckFile, has_files: bool, has_page: bool) -> list[Path]:
@@ -371,9 +351,6 @@ class _Entries:
             packed = record.get("entry")
             yield _unpacked(packed) if packed else page.unread_entry(deck.relative.as_posix())
 
-    def __contains__(self, entry: object) -> bool:
-        return any(entry == each for each in self)
-
 
 def _is_entry(packed: object) -> bool:
     """Whether `_unpacked` makes an entry of it that an index can show."""
@@ -411,17 +388,14 @@ class BatchBar:
         """Draw the bar, if somebody watches."""
         if is_watched():
             with suppress(ImportError, OSError):
-                tqdm = import_module("tqdm").tqdm
-                tqdm.monitor_interval = 0  # no thread of its own: processes are forked
                 count = {"total": self._total, "initial": self._before, "unit": " decks"}
-                form = {"file": sys.stderr, "leave": False, "bar_format": _BAR}
-                self._bar = tqdm(**count, **form, **size_of_terminal())
+                self._bar = drawn(**count, bar_format=_BAR)
         return self
 
     def __exit__(self, *_: object) -> None:
         """Wipe the bar."""
         if self._bar is not None:
-            with contextlib.suppress(OSError):
+            with suppress(OSError):
                 self._bar.close()
 
     def count(self, has_error: bool) -> None:
@@ -479,21 +453,17 @@ class BatchRun:
         if self._place[index] == _NOT_DONE:
             return False
         deck, record = self._decks[index], self._journal.read(self._place[index])
-        return (
-            record.get("of") == _content(deck)[1]
-            and self._is_row(record.get("row"))
-            and type(record.get("wanted")) is bool
-            and self._outputs.are_there(deck, record)
-        )
-
-    def _is_row(self, row: object) -> bool:
-        """Whether it is a row as those are that this run writes."""
-        kinds = [column.kind for column in self._work.columns[1:]]
+        kinds, row = [column.kind for column in self._work.columns[1:]], record.get("row")
         if not isinstance(row, list) or len(row) != len(kinds):
             return False
-        return all(
-            cell is None or type(cell) is kind or (kind is float and type(cell) is int)
-            for cell, kind in zip(row, kinds, strict=True)
+        return (
+            record.get("of") == _content(deck)[1]
+            and all(
+                cell is None or type(cell) is kind or (kind is float and type(cell) is int)
+                for cell, kind in zip(row, kinds, strict=True)
+            )
+            and type(record.get("wanted")) is bool
+            and self._outputs.are_there(deck, record)
         )
 
     @property
@@ -552,7 +522,7 @@ class BatchRun:
                 continue
             self._sent[sent] = index, digest
             sent += 1
-            yield Item(deck.name, deck.relative.as_posix(), raw)
+            yield deck.name, deck.relative.as_posix(), raw
 
     def _finish(self, index: int, digest: str, answer: Answer) -> None:
         """Write what was made of a deck, and then that it is done."""
@@ -576,7 +546,11 @@ class BatchRun:
         write_table(table, self._work.columns, self._rows(counts))
         self._outputs.keep()
         self._journal.remove()
-        return _summary(counts, self._rows_written, self._work.where, table, index)
+        total, rows, where = counts.total(), self._rows_written, self._work.where
+        found = ", ".join(f"{count} {words}" for words, count in counts.most_common())
+        some = f", {rows} row{'s' * (rows != 1)} where {where}" if where else ""
+        lines = [f"{total} deck{'s' * (total != 1)}: {found}", f"table in {table}{some}"]
+        return "\n".join(map(harmless, [*lines, *([f"index in {index}"] if index else [])]))
 
     def _rows(self, counts: Counter[str]) -> Iterator[tuple[Cell, ...]]:
         """The wanted rows in the order of the decks; what came of all is counted."""
@@ -604,15 +578,6 @@ def _content(deck: DeckFile) -> tuple[bytes, str, Exception | None]:
     except (DeckError, FolderError) as error:
         return b"", first_error(error, ""), error
     return raw, hashlib.blake2b(raw, digest_size=16).hexdigest(), None
-
-
-def _summary(counts: Counter[str], rows: int, where: str, table: Path, index: str) -> str:
-    total = counts.total()
-    decks = f"{total} deck{'s' * (total != 1)}"
-    found = ", ".join(f"{count} {words}" for words, count in counts.most_common())
-    some = f", {rows} row{'s' * (rows != 1)} where {where}" if where else ""
-    lines = [f"{decks}: {found}", f"table in {table}{some}"]
-    return "\n".join(map(harmless, [*lines, *([f"index in {index}"] if index else [])]))
 
 
 VERB = Verb(

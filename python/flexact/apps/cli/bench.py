@@ -22,12 +22,15 @@ ratio that of the first column to it."""
 
 def bench(chosen: argparse.Namespace) -> ExitCode:
     """Measure, and say what was measured as it comes."""
-    module, words = load("flexact.apps.checks.bench"), load("flexact.apps.checks.bench")
-    machine = [*load("flexact.apps.cli.about").of_machine(), *_load()]
+    module = load("flexact.apps.checks.bench")
+    machine = load("flexact.apps.cli.about").of_machine()
+    with contextlib.suppress(AttributeError, OSError):
+        # Times are longer where the machine is busy; not all systems say how busy it is.
+        machine.append(("load before", f"{os.getloadavg()[0]:.1f}"))
     threads = (1,) if processors() < 2 else (1, 2)
     if not chosen.json:
         say("\n".join(f"{name:15} {value}" for name, value in machine))
-        say(f"\n{words.head(threads)}")
+        say(f"\n{module.head(threads)}")
     found = []
     with Bar("bench", "") as bar:
         cases = module.QUICK if chosen.quick else module.CASES
@@ -35,31 +38,18 @@ def bench(chosen: argparse.Namespace) -> ExitCode:
             found.append(made)
             if not chosen.json:
                 bar.clear()
-                say(words.line(made, threads))
+                say(module.line(made, threads))
     if chosen.json:
-        _give(machine, found, chosen.quick)
+        head = {"format": FORMAT, "flexact": VERSION, "quick": chosen.quick}
+        pairs = [{"name": name, "value": value} for name, value in machine]
+        made = [each.to_dict() for each in found]
+        give(load("json").dumps({**head, "machine": pairs, "measurements": made}))
     else:
         say(f"\n{_NOTES}")
     if not all(made.counts_are_right for made in found):
         complain("flexact: error: counts differ from those of the construction: please report it")
         return ExitCode.DIFFERENT
     return ExitCode.ANALYSED
-
-
-def _load() -> list[tuple[str, str]]:
-    """How busy the machine is with other work, where the system says so: times are longer then."""
-    if not hasattr(os, "getloadavg"):
-        return []
-    with contextlib.suppress(OSError):
-        return [("load before", f"{os.getloadavg()[0]:.1f}")]
-    return []
-
-
-def _give(machine: list[tuple[str, str]], found: list[object], quick: bool) -> None:
-    head = {"format": FORMAT, "flexact": VERSION, "quick": quick}
-    pairs = [{"name": name, "value": value} for name, value in machine]
-    made = [each.to_dict() for each in found]  # type: ignore[attr-defined]
-    give(load("json").dumps({**head, "machine": pairs, "measurements": made}))
 
 
 VERB = Verb(

@@ -11,9 +11,17 @@ from ...model.reading import read_deck
 from ...util.decks import DeckFile, find_decks
 from ...util.loading import load
 from ...util.text import harmless
-from . import decks as failures
 from .analyse import FORMAT, TEXT, Findings, require_one_form
-from .decks import DECKS, Cells, failed, report_problems, summary_argument, tabulate, take
+from .decks import (
+    DECKS,
+    Cells,
+    failed,
+    problems_of,
+    report_problems,
+    summary_argument,
+    tabulate,
+    take,
+)
 from .parser import Verb, argument
 from .terminal import ExitCode, Outcome, give, say
 
@@ -24,16 +32,29 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
     decks = find_decks(chosen.decks)
     if chosen.summary:
         return tabulate(decks, ("errors", "warnings", "notes"), _counted)
-    if chosen.json:
+    findings = None if chosen.format == TEXT else Findings(chosen.format)
 
-        def say_failure(deck: DeckFile, error: Exception) -> None:
-            _give(deck, failures.problems_of(error))
+    def give_problems(deck: DeckFile, error: Exception) -> None:
+        give_as_json(deck, problems_of(error))
 
-        return take(decks, _object, on_failure=say_failure)
-    if chosen.format == TEXT:
-        return take(decks, _check)
-    findings = Findings(chosen.format)
-    return findings.finish(take(decks, findings.checked, on_failure=findings.failed))
+    def give_as_json(deck: DeckFile, problems: Problems) -> None:
+        made = load("flexact.apps.checks.outputs").dictionary_of(deck.name, problems)
+        give(load("json").dumps(made))
+
+    def step(deck: DeckFile) -> Outcome:
+        model = read_deck(deck)
+        report_problems(model)
+        if findings is not None:
+            findings.checked(deck, model)
+        elif chosen.json:
+            give_as_json(deck, model.problems)
+        else:
+            say(f"{harmless(deck.name)}: no errors")
+        return _without_errors(deck)
+
+    if findings is not None:
+        return findings.finish(take(decks, step, on_failure=findings.failed))
+    return take(decks, step, on_failure=give_problems if chosen.json else None)
 
 
 def _counted(deck: DeckFile) -> tuple[Cells, Outcome]:
@@ -48,26 +69,8 @@ def _counted(deck: DeckFile) -> tuple[Cells, Outcome]:
     return Cells(counts, behind=first.message if first else ""), _without_errors(deck)
 
 
-def _check(deck: DeckFile) -> Outcome:
-    report_problems(read_deck(deck))
-    say(f"{harmless(deck.name)}: no errors")
-    return _without_errors(deck)
-
-
 def _without_errors(deck: DeckFile) -> Outcome:
     return Outcome(deck.name, ExitCode.ANALYSED, "without errors")
-
-
-def _object(deck: DeckFile) -> Outcome:
-    model = read_deck(deck)
-    report_problems(model)
-    _give(deck, model.problems)
-    return _without_errors(deck)
-
-
-def _give(deck: DeckFile, problems: Problems) -> None:
-    made = load("flexact.apps.checks.outputs").dictionary_of(deck.name, problems)
-    give(load("json").dumps(made))
 
 
 VERB = Verb(

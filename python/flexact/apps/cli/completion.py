@@ -6,44 +6,41 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from ...util.decks import SUFFIX
 from .parser import VERBS, Verb, argument
 from .terminal import ExitCode, give
 
+#: A verb, empty for the command itself; its options; and its argument, if it takes one.
+VerbWords = tuple[str, list[argparse.Action], argparse.Action | None]
+#: What the values of options and arguments are, by what help calls them.
+_KINDS = {"DECK": "deck", "DIR": "folder", **dict.fromkeys(("FILE", "PAGE", "TABLE"), "file")}
 
-class OptionWords(NamedTuple):
-    """An option."""
 
-    names: tuple[str, ...]
-    """Such as -o and --output."""
-    about: str
+def words_of(verb: str, parser: argparse.ArgumentParser) -> VerbWords:
+    """The words of a verb; of the command itself where it is empty."""
+    actions = [
+        action
+        for action in parser._actions
+        if not isinstance(action, argparse._SubParsersAction) and action.help != argparse.SUPPRESS
+    ]
+    options = [action for action in actions if action.option_strings]
+    return verb, options, next((each for each in actions if not each.option_strings), None)
+
+
+def _about(option: argparse.Action) -> str:
     """What help says of it."""
-    has_value: bool
-    choices: tuple[str, ...]
+    return (option.help or "") % {"prog": "flexact", "default": option.default}
+
+
+def _choices(action: argparse.Action | None) -> tuple[str, ...]:
     """Values that it may have; empty where there are no few."""
-    kind: str
-    """Of its value: file, folder, deck, or nothing."""
-    value: str
-    """What help calls its value."""
+    return () if action is None else tuple(map(str, action.choices or ()))
 
 
-class VerbWords(NamedTuple):
-    """A verb."""
-
-    name: str
-    about: str
-    options: tuple[OptionWords, ...]
-    choices: tuple[str, ...]
-    """What its argument may be; empty where there are no few."""
-    kind: str
-    """Of its arguments, as of an option's value."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of all options."""
-        return tuple(name for option in self.options for name in option.names)
+def _kind(action: argparse.Action | None) -> str:
+    """What a value names: a deck, a file, a folder, or nothing that stands in folders."""
+    return "" if action is None else _KINDS.get(str(action.metavar), "")
 
 
 _BASH_HEAD = """\
@@ -98,23 +95,21 @@ complete -F _flexact flexact
 
 def bash_script(command: VerbWords, verbs: Sequence[VerbWords]) -> str:
     """A script that bash evaluates."""
-    head = _BASH_HEAD % (SUFFIX, "|".join(verb.name for verb in verbs))
-    lines = []
-    for verb in (command, *verbs):
-        for option in verb.options:
-            if option.has_value:
-                patterns = "|".join(f"{verb.name},{name}" for name in option.names)
-                if option.choices:
-                    what = f"values='{' '.join(option.choices)}'"
-                else:
-                    what = f"kind={option.kind or 'none'}"
+    known = tuple(verb for verb, *_ in verbs)
+    head = _BASH_HEAD % (SUFFIX, "|".join(known))
+    lines, tail = [], []
+    for verb, options, takes in (command, *verbs):
+        for option in options:
+            if option.nargs != 0:
+                patterns = "|".join(f"{verb},{name}" for name in option.option_strings)
+                choices = _choices(option)
+                what = f"values='{' '.join(choices)}'" if choices else ""
+                what = what or f"kind={_kind(option) or 'none'}"
                 lines.append(f"        {patterns}) {what} ;;\n")
-    tail = []
-    for verb in (command, *verbs):
-        values = verb.choices if verb.name else tuple(each.name for each in verbs)
+        names = " ".join(name for option in options for name in option.option_strings)
+        values = " ".join(_choices(takes) if verb else known)
         tail.append(
-            f"        '{verb.name}') options='{' '.join(verb.names)}'; "
-            f"values='{' '.join(values)}'; kind={verb.kind} ;;\n"
+            f"        '{verb}') options='{names}'; values='{values}'; kind={_kind(takes)} ;;\n"
         )
     return f"{head}{''.join(lines)}{_BASH_TAIL % ''.join(tail)}"
 
@@ -149,71 +144,66 @@ fi
 
 def zsh_script(command: VerbWords, verbs: Sequence[VerbWords]) -> str:
     """A script that zsh evaluates, or loads as the function _flexact."""
-    commands = " ".join(_quoted(f"{verb.name}:{verb.about}") for verb in verbs)
-    made = [_ZSH_HEAD % (" ".join(_zsh_options(command)), commands)]
-    for verb in verbs:
-        rest = f"*:{verb.kind or 'argument'}:{_zsh_values(verb.choices, verb.kind)}"
-        words = [*_zsh_options(verb), _quoted(rest)]
-        made.append(f"                {verb.name})\n                    _arguments \\\n")
+    commands = " ".join(_quoted(f"{verb}:{VERBS[verb]}") for verb, *_ in verbs)
+    made = [_ZSH_HEAD % (" ".join(_zsh_options(command[1])), commands)]
+    for verb, options, takes in verbs:
+        rest = f"*:{_kind(takes) or 'argument'}:{_zsh_values(takes)}"
+        words = [*_zsh_options(options), _quoted(rest)]
+        made.append(f"                {verb})\n                    _arguments \\\n")
         made += [f"                        {word} \\\n" for word in words[:-1]]
         made.append(f"                        {words[-1]}\n                    ;;\n")
     return f"{''.join(made)}{_ZSH_TAIL}"
 
 
-def _zsh_options(verb: VerbWords) -> Iterator[str]:
-    for option in verb.options:
-        about = re.sub(r"([\[\]\\:])", r"\\\1", option.about)
-        for name in option.names:
-            word = f"*{name}" + ("=" if option.has_value and name.startswith("--") else "")
-            word += f"[{about}]"
-            if option.has_value:
-                value = option.value.replace("\\", "").replace(":", "\\:")
-                word += f":{value}:{_zsh_values(option.choices, option.kind)}"
-            yield _quoted(word)
+def _zsh_options(options: Sequence[argparse.Action]) -> Iterator[str]:
+    for option in options:
+        about = re.sub(r"([\[\]\\:])", r"\\\1", _about(option))
+        has_value = option.nargs != 0
+        value = str(option.metavar or option.dest).replace("\\", "").replace(":", "\\:")
+        for name in option.option_strings:
+            word = f"*{name}{'=' * (has_value and name.startswith('--'))}[{about}]"
+            yield _quoted(f"{word}:{value}:{_zsh_values(option)}" if has_value else word)
 
 
-def _zsh_values(choices: Sequence[str], kind: str) -> str:
-    if choices:
+def _zsh_values(action: argparse.Action | None) -> str:
+    if choices := _choices(action):
         return f"({' '.join(choices)})"
-    return {"deck": f'_files -g "*{SUFFIX}"', "file": "_files", "folder": "_files -/"}.get(
-        kind, " "
-    )
+    known = {"deck": f'_files -g "*{SUFFIX}"', "file": "_files", "folder": "_files -/"}
+    return known.get(_kind(action), " ")
 
 
 def fish_script(command: VerbWords, verbs: Sequence[VerbWords]) -> str:
     """A script that fish sources."""
-    every = " ".join(verb.name for verb in verbs)
-    first = f"not __fish_seen_subcommand_from {every}"
+    first = f"not __fish_seen_subcommand_from {' '.join(verb for verb, *_ in verbs)}"
     lines = ["# Completion of flexact for fish.", "complete -c flexact -f"]
-    lines += [_fish(first, option) for option in command.options]
-    for verb in verbs:
-        about = _quoted_for_fish(verb.about)
-        lines.append(f"complete -c flexact -n {_quoted(first)} -a {verb.name} -d {about}")
-        here = f"__fish_seen_subcommand_from {verb.name}"
-        lines += [_fish(here, option) for option in verb.options]
-        if values := _fish_values(verb.choices, verb.kind):
+    lines += [_fish(first, option) for option in command[1]]
+    for verb, options, takes in verbs:
+        about = _quoted_for_fish(VERBS[verb])
+        lines.append(f"complete -c flexact -n {_quoted(first)} -a {verb} -d {about}")
+        here = f"__fish_seen_subcommand_from {verb}"
+        lines += [_fish(here, option) for option in options]
+        if values := _fish_values(takes):
             lines.append(f"complete -c flexact -n {_quoted(here)} -k {values}")
     return "\n".join(lines) + "\n"
 
 
-def _fish(condition: str, option: OptionWords) -> str:
+def _fish(condition: str, option: argparse.Action) -> str:
+    names = option.option_strings
     words = ["complete -c flexact -n", _quoted(condition)]
-    for name in option.names:
-        words.append(f"-l {name[2:]}" if name.startswith("--") else f"-s {name[1:]}")
-    if option.has_value:
-        words += ["-x", _fish_values(option.choices, option.kind)]
-    words += ["-d", _quoted_for_fish(option.about)]
+    words += [f"-l {name[2:]}" if name.startswith("--") else f"-s {name[1:]}" for name in names]
+    words += ["-x", _fish_values(option)] if option.nargs != 0 else []
+    words += ["-d", _quoted_for_fish(_about(option))]
     return " ".join(word for word in words if word)
 
 
-def _fish_values(choices: Sequence[str], kind: str) -> str:
-    if choices:
+def _fish_values(action: argparse.Action | None) -> str:
+    if choices := _choices(action):
         return f"-a {_quoted(' '.join(choices))}"
     made = {
         "deck": f"(__fish_complete_suffix {SUFFIX})",
         "file": "(__fish_complete_path)",
         "folder": "(__fish_complete_directories)",
-    }.get(kind)
+    }.get(_kind(action))
     return f"-a {_quoted(made)}" if made else ""
 
 
@@ -228,8 +218,6 @@ def _quoted_for_fish(text: str) -> str:
 
 SCRIPTS = {"bash": bash_script, "zsh": zsh_script, "fish": fish_script}
 SHELLS = tuple(SCRIPTS)
-#: What the values of options and arguments are, by what help calls them.
-_KINDS = {"DECK": "deck", "DIR": "folder", **dict.fromkeys(("FILE", "PAGE", "TABLE"), "file")}
 
 
 def complete(chosen: argparse.Namespace) -> ExitCode:
@@ -238,36 +226,6 @@ def complete(chosen: argparse.Namespace) -> ExitCode:
     # Those of the command itself.
     give(SCRIPTS[chosen.shell](words_of("", chosen.parser_of("")), verbs).removesuffix("\n"))
     return ExitCode.ANALYSED
-
-
-def words_of(verb: str, parser: argparse.ArgumentParser) -> VerbWords:
-    """The words of a verb; of the command itself where it is empty."""
-    options: list[OptionWords] = []
-    choices: tuple[str, ...] = ()
-    takes = ""
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction) or action.help == argparse.SUPPRESS:
-            continue
-        if not action.option_strings:
-            choices = tuple(map(str, action.choices or ()))
-            takes = takes or _kind(action)
-            continue
-        options.append(
-            OptionWords(
-                tuple(action.option_strings),
-                (action.help or "") % {"prog": "flexact", "default": action.default},
-                action.nargs != 0,
-                tuple(map(str, action.choices or ())),
-                _kind(action),
-                str(action.metavar or action.dest),
-            )
-        )
-    return VerbWords(verb, VERBS.get(verb, ""), tuple(options), choices, takes)
-
-
-def _kind(action: argparse.Action) -> str:
-    """What a value names: a deck, a file, a folder, or nothing that stands in folders."""
-    return _KINDS.get(str(action.metavar), "")
 
 
 VERB = Verb(

@@ -10,14 +10,23 @@ from typing import Any
 from ...deck.rendering import ProblemsError, render
 from ...util.decks import STDIN, DeckFile, find_decks
 from ...util.errors import BatchError, FlexactError
-from ...util.outputs import STDOUT
+from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
-from ..convert.files import Format, bytes_of, form_of_content, format_of, read_any, read_content
+from ..convert.files import (
+    DECK,
+    MESH,
+    TABLES,
+    bytes_of,
+    form_of_content,
+    format_of,
+    read_any,
+    read_content,
+)
 from ..convert.mesh_files import KINDS
 from ..convert.tables import FLEXIBLE
 from .decks import report_problems
 from .parser import Verb, argument
-from .targets import plan_text, write_text
+from .targets import write_text
 from .terminal import ExitCode, complain, say
 
 
@@ -38,7 +47,7 @@ def points(text: str) -> tuple[int, ...]:
     return tuple(made)
 
 
-def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
+def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
     """How the file is to be taken.
 
     Raises:
@@ -46,14 +55,14 @@ def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
     """
     made: dict[str, Any] = {}
     for option, name, value, wanted in (
-        ("--as", "kind", chosen.kind, Format.MESH),
-        ("--fix", "fixed", chosen.fix or None, Format.MESH),
-        ("--flexible", "flexible", chosen.flexible, Format.TABLES),
+        ("--as", "kind", chosen.kind, MESH),
+        ("--fix", "fixed", chosen.fix or None, MESH),
+        ("--flexible", "flexible", chosen.flexible, TABLES),
     ):
         if value is None:
             continue
         if form is not wanted:
-            kind = {Format.MESH: "a mesh", Format.TABLES: "tables"}[wanted]
+            kind = {MESH: "a mesh", TABLES: "tables"}[wanted]
             raise BatchError(f"{option} is for {kind}, and {chosen.file} is none")
         made[name] = value
     return made
@@ -88,10 +97,11 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     given = format_of(chosen.file) if source.content is None else form_of_content(source.content)
     named = target
     if target == STDOUT:
-        named = Path("tables.json" if given is Format.DECK else "deck.dat")
+        named = Path("tables.json" if given is DECK else "deck.dat")
     format_of(named)
     options = _options(chosen, given)
-    plan_text(source, target)
+    if target != STDOUT:
+        plan_file(source, target)
     try:
         if source.content is None:
             model = read_any(chosen.file, **options)

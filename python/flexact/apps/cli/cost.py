@@ -83,8 +83,13 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                         made.save(target)
             except BatchError:
                 raise
-            except ProblemsError as error:
-                raise _in_short(error) from None
+            except ModelError as error:
+                # What was asked for and is not there, in a line.
+                told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
+                raise BatchError("\n".join(told)) from None
+            except ProblemsError:
+                # Of a deck with errors all of them.
+                raise
             except FlexactError as error:
                 raise BatchError(str(error)) from error
         if to_stdout:
@@ -107,14 +112,6 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
 
 def _point(text: str | None) -> int | str | None:
     return int(text) if text is not None and re.fullmatch(r"\d{1,9}", text) else text
-
-
-def _in_short(error: ProblemsError) -> FlexactError:
-    """What was asked for and is not there, in a line; of a deck with errors all of them."""
-    if not isinstance(error, ModelError):
-        return error
-    told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
-    return BatchError("\n".join(told))
 
 
 VERB = Verb(

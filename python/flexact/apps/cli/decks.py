@@ -11,9 +11,8 @@ import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
@@ -40,7 +39,6 @@ from .terminal import (
     Outcome,
     ResultsError,
     columns_of,
-    columns_to_fill,
     complain,
     end_progress,
     exit_code,
@@ -212,24 +210,18 @@ def take(
         return outcome
 
     outcomes = list(each_of(decks, step, failed))
-    if text := summarise(outcomes):
+    if len(outcomes) > 1:
+        counts = Counter(outcome.result for outcome in outcomes)
+        parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
+        lines = [f"{len(outcomes)} decks: {parts}"]
+        lines += [
+            f"  {outcome.remark or REMARKS[outcome.code]}: {harmless(outcome.deck)}"
+            for outcome in outcomes
+            if outcome.code is not ExitCode.ANALYSED
+        ]
+        text = "\n".join(lines)
         complain(text) if as_json or on_failure else say(text)
     return exit_code(outcomes)
-
-
-def summarise(outcomes: Sequence[Outcome]) -> str:
-    """How many decks gave what, and which of them want attention; empty for a single deck."""
-    if len(outcomes) < 2:
-        return ""
-    counts = Counter(outcome.result for outcome in outcomes)
-    parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
-    lines = [f"{len(outcomes)} decks: {parts}"]
-    lines += [
-        f"  {outcome.remark or REMARKS[outcome.code]}: {harmless(outcome.deck)}"
-        for outcome in outcomes
-        if outcome.code is not ExitCode.ANALYSED
-    ]
-    return "\n".join(lines)
 
 
 #: From this number of rows and columns on, people wait for the decomposition.
@@ -354,6 +346,8 @@ def announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:
         )
 
 
+#: A terminal of fewer columns is taken for one of so many.
+_NARROWEST = 32
 #: From so many columns of the terminal on there is a place for everything.
 _WIDE, _WIDER = 64, 100
 #: Columns that are left out where there are fewer.
@@ -399,32 +393,27 @@ class SummaryTable:
 
     def __init__(self, columns: Sequence[str], names: Sequence[str]) -> None:
         """Lay out the columns behind that of the decks, whose names are known."""
-        self.width = columns_to_fill()
-        wide = self.width is None or self.width >= _WIDE
-        self._wider = self.width is None or self.width >= _WIDER
-        self._gap = " " * (2 if wide else 1)
-        self._columns = {name: _WIDTHS[name][wide] for name in columns if wide or name not in _LESS}
+        # That stated, that of the terminal, or any number.
+        seen = columns_of(sys.stdout)
+        self.width = max(seen, _NARROWEST) if seen else math.inf
+        is_wide, self._wider = self.width >= _WIDE, self.width >= _WIDER
+        self._gap = " " * (2 if is_wide else 1)
+        self._columns = {
+            name: _WIDTHS[name][is_wide] for name in columns if is_wide or name not in _LESS
+        }
         if self._wider and "margin" in self._columns:
             self._columns["margin"] = _WIDE_MARGIN
         self.folder, ending = "", ""
         longest = max(text_columns(name) for name in ("deck", *names))
-        self._name = longest
-        if self.width is not None:
-            others = sum(self._columns.values()) + len(self._gap) * len(self._columns)
-            room = max(self.width - others, _SHORTEST)
-            if longest > room:
-                # What all names have in common tells none from another.
-                self.folder, ending = _in_common(names)
-                longest -= text_columns(self.folder) + len(ending)
-            self._name = max(min(longest, room), len("deck"))
+        others = sum(self._columns.values()) + len(self._gap) * len(self._columns)
+        room = max(self.width - others, _SHORTEST)
+        if longest > room:
+            # What all names have in common tells none from another.
+            self.folder, ending = _in_common(names)
+            longest -= text_columns(self.folder) + len(ending)
+        self._name = max(int(min(longest, room)), len("deck"))
         self._names = {name: name[len(self.folder) :].removesuffix(ending) for name in names}
 
-    @property
-    def place(self) -> str:
-        """Where the decks are, in words, if the lines do not say so."""
-        return f" in {self.folder.rstrip('/' + os.sep)}" if self.folder else ""
-
-    @property
     def head(self) -> str:
         """The first line."""
         return self._line("deck", {name: name for name in self._columns})
@@ -437,13 +426,14 @@ class SummaryTable:
             made, behind = self._line(name, {first: cells.first}, (first,)), cells.error
         if behind:
             made += self._gap + behind
-        return made if self.width is None else shortened(made, self.width)
+        return made if self.width == math.inf else shortened(made, int(self.width))
 
     def filled(self, words: str) -> str:
         """A sentence below the table."""
-        if self.width is None:
+        if self.width == math.inf:
             return words
-        return textwrap.fill(words, self.width, subsequent_indent="  ", break_on_hyphens=False)
+        wide = int(self.width)
+        return textwrap.fill(words, wide, subsequent_indent="  ", break_on_hyphens=False)
 
     def _line(
         self,
@@ -463,9 +453,7 @@ def _in_common(names: Sequence[str]) -> tuple[str, str]:
     """The folder that all names lie in, with its stroke, and their common suffix."""
     if len(names) < 2:
         return "", ""
-    first, last = min(names), max(names)
-    alike = (a == b for a, b in zip(first, last, strict=False))
-    start = first[: sum(takewhile(bool, alike))]
+    start = os.path.commonprefix(names)  # noqa: RUF071 - the folder is cut from it
     folder = start[: max(start.rfind("/"), start.rfind(os.sep)) + 1]
     suffixes = {os.path.splitext(name)[1] for name in names}
     return folder, suffixes.pop() if len(suffixes) == 1 else ""
@@ -497,7 +485,7 @@ def tabulate(
         step: What is done with a deck; it may raise what `take` takes.
     """
     table = SummaryTable(columns, [harmless(deck.name) for deck in decks])
-    say(table.head)
+    say(table.head())
     outcomes = []
     for deck, (cells, outcome) in zip(decks, each_of(decks, step, failed), strict=True):
         say(table.line(harmless(deck.name), cells))
@@ -509,7 +497,8 @@ def tabulate(
         for result, count in counts.most_common()
     )
     many = len(outcomes)
-    say(table.filled(f"{many} deck{'s' * (many != 1)}{table.place}: {parts}"))
+    place = f" in {table.folder.rstrip('/' + os.sep)}" if table.folder else ""
+    say(table.filled(f"{many} deck{'s' * (many != 1)}{place}: {parts}"))
     for outcome in outcomes:
         if outcome.code is ExitCode.DIFFERENT:
             say(f"  not as expected: {harmless(outcome.deck)}")
@@ -562,23 +551,21 @@ def summarise_results(
 
     code = tabulate(decks, _TOLD, step)
     if target is not None:
-        columns = _columns()
+        # Those that `batch` has too go by the same names.
+        known = load("flexact.sweeps.columns")
+        names = ("verdict", "under_constrained", "over_constrained", "certainty", "margin")
+        of = {column.name: column for column in known.COLUMNS}
+        columns = (
+            *(load("flexact.sweeps.batch").DECK, *(of[name] for name in names[:3])),
+            known.Column("degrees_of_freedom", int, "declared degrees of freedom", "verdict"),
+            *(of["certainty"], of["margin"], of["margin_angle"], known.ERROR),
+        )
         # A folder that gives no decks has not come to a step.
         found = ((deck, rows.get(deck.name, {"error": str(deck.error)})) for deck in decks)
         lines = ([deck.name, *(row.get(c.name) for c in columns[1:])] for deck, row in found)
         load("flexact.sweeps.columns").write_table(target, columns, lines)
         say(f"table in {harmless(str(target))}")
     return code
-
-
-def _columns() -> tuple[Any, ...]:
-    """The columns of the table as a file: those that `batch` has too go by the same names."""
-    rows, known = load("flexact.sweeps.batch"), load("flexact.sweeps.columns")
-    names = ("verdict", "under_constrained", "over_constrained", "certainty", "margin")
-    of = {column.name: column for column in known.COLUMNS}
-    freedoms = known.Column("degrees_of_freedom", int, "declared degrees of freedom", "verdict")
-    counts = (*(of[name] for name in names[:3]), freedoms)
-    return (rows.DECK, *counts, of["certainty"], of["margin"], of["margin_angle"], known.ERROR)
 
 
 def _cells(result: Result) -> Cells:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from ...analysis.json import text_of
@@ -13,18 +12,18 @@ from ...analysis.naming import motion_in_words
 from ...analysis.result import Result
 from ...show.drawing.selection import select_motion
 from ...show.mesh import Meshes
-from ...show.mesh.collection import ENDINGS, MESHES, STEM, folder_of
+from ...show.mesh.collection import ENDINGS, MESHES
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.spacar_log import log_text, spacar_log
-from ...show.writers import PLAYING, write
+from ...show.writers import write
 from ...util.decks import DeckFile
 from ...util.interruption import unwinding
-from ...util.outputs import plan_file, plan_files, write_together
+from ...util.outputs import plan_files, write_together
 from ...util.partial import attempted
 from ...util.text import harmless
 from .decks import DECISION, foreseen, read_and_analysed, take
 from .parser import Group, Verb
-from .targets import SHOWN_MOTION, deck_arguments, one_deck
+from .targets import SHOWN_MOTION, deck_arguments, one_deck, plan_shown
 from .terminal import Bar, ExitCode, Outcome, complain, say
 
 
@@ -34,9 +33,7 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
     target: Path = chosen.output
     with unwinding():
         MESHES.require(target)
-    plan_file(deck, target)
-    if target.suffix.lower() == PLAYING:
-        plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
+    plan_shown(deck, target, ENDINGS)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -65,32 +62,31 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
     return take([deck], step)
 
 
-class ResultFiles:
-    """Where each deck's results go, found before anything is computed.
+def plan_results(
+    decks: Sequence[DeckFile], folder: Path, mesh_format: str
+) -> tuple[str, dict[str, tuple[Path, ...]]]:
+    """The format of meshes, and where each deck's results go, before anything is computed.
 
     Raises:
         OutputError: Two decks would write one file, or the folder cannot take files.
         MeshFormatError: There is no such mesh format.
     """
+    with unwinding():
+        form = find_format(mesh_format)
+    return form, plan_files(decks, folder, (".json", ".log", f".{form}"))
 
-    def __init__(
-        self, decks: Sequence[DeckFile], folder: Path, mesh_format: str, log: str | None = None
-    ) -> None:
-        """Plan the files of all decks; `log` is the form of the logs, None that of Flexact."""
-        self._log = log
+
+def write_results(
+    result: Result, files: Sequence[Path], mesh_format: str, log: str | None
+) -> Exception | None:
+    """Write the results of a deck, or say why not: that is no reason to keep the verdict back."""
+    try:
+        contents = contents_of(result, mesh_format, log)
         with unwinding():
-            self.format = find_format(mesh_format)
-        self.plan = plan_files(decks, folder, (".json", ".log", f".{self.format}"))
-
-    def write(self, deck: DeckFile, result: Result) -> Exception | None:
-        """Write the results, or say why not: that is no reason to keep the verdict back."""
-        try:
-            contents = contents_of(result, self.format, self._log)
-            with unwinding():
-                write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
-        except Exception as error:
-            return foreseen(error)
-        return None
+            write_together(dict(zip(files, contents, strict=True)))
+    except Exception as error:
+        return foreseen(error)
+    return None
 
 
 def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tuple[bytes, ...]:

@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             ends at once.
 
     Returns:
-        The exit code; see ``outcome.ExitCode``. 128 and the number of a signal if one came.
+        The exit code; see ``terminal.ExitCode``. 128 and the number of a signal if one came.
     """
     if arguments is None:
         end_at_once()
@@ -29,19 +29,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code: int = load("flexact.apps.cli.command").run(arguments)
         return code
     except (MemoryError, ImportError) as error:
-        return _not_started(error)
+        # What is missing, memory or a library; numpy writes a page about it.
+        lines = [line for line in map(str.strip, str(error).splitlines()) if line]
+        is_memory = isinstance(error, MemoryError)
+        why = "not enough memory" if is_memory else "a library cannot be loaded"
+        more = f": {lines[-1]}" if lines else ""
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            sys.stderr.write(f"flexact: {why}{more}\n")
+        return 2
     except KeyboardInterrupt as stop:
         number = getattr(stop, "number", signal.SIGINT)
         if arguments is None:
             end_by(number)
         return 128 + int(number)
-
-
-def _not_started(error: MemoryError | ImportError) -> int:
-    """Say what is missing, memory or a library; numpy writes a page about it."""
-    lines = [line for line in map(str.strip, str(error).splitlines()) if line]
-    why = "not enough memory" if isinstance(error, MemoryError) else "a library cannot be loaded"
-    more = f": {lines[-1]}" if lines else ""
-    with contextlib.suppress(OSError, ValueError, AttributeError):
-        sys.stderr.write(f"flexact: {why}{more}\n")
-    return 2

@@ -41,18 +41,15 @@ VERBS = {
 }
 
 
-class Argument(NamedTuple):
-    """An argument or an option, as `argparse.add_argument` takes it."""
-
-    names: tuple[str, ...]
-    settings: dict[str, Any]
+#: An argument or an option, as `argparse.add_argument` takes it: its names and its settings.
+Argument = tuple[tuple[str, ...], dict[str, Any]]
 
 
 class Group(NamedTuple):
     """Arguments under a title; without one, arguments of which one at most is given."""
 
     title: str
-    arguments: Sequence[Argument | Group]
+    arguments: tuple[Argument | Group, ...]
 
 
 class Verb(NamedTuple):
@@ -71,7 +68,7 @@ class Verb(NamedTuple):
 
 def argument(*names: str, **settings: Any) -> Argument:
     """An argument or an option, as `argparse.add_argument` takes it."""
-    return Argument(names, settings)
+    return names, settings
 
 
 #: How every verb speaks.
@@ -177,20 +174,6 @@ _PLAIN = (
 )
 
 
-def usage_error(message: str, parser: argparse.ArgumentParser) -> str:
-    """What argparse says, as people know it from elsewhere.
-
-    Args:
-        message: Of argparse.
-        parser: Of the command or of a verb.
-    """
-    what, near, kind = _meant(message, parser)
-    tip = [f"  tip: a similar {kind} exists: '{near}'"] if near else []
-    usage = parser.format_usage().strip()
-    parts = (f"error: {what}", *tip, f"U{usage[1:]}")
-    return "\n\n".join((*parts, f"For more information, try '{parser.prog} --help'."))
-
-
 def _meant(message: str, parser: argparse.ArgumentParser) -> tuple[str, str, str]:
     """What is wrong, what is near to it, which may be empty, and what kind of thing that is."""
     if found := _UNKNOWN.fullmatch(message):
@@ -228,8 +211,13 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the usage, what may have been meant, and how to get help."""
-        told = usage_error(harmless(message), self)
-        self.exit(ExitCode.OTHER, f"{told}\n")
+        what, near, kind = _meant(harmless(message), self)
+        tip = [f"  tip: a similar {kind} exists: '{near}'"] if near else []
+        parts = (f"error: {what}", *tip, f"U{self.format_usage().strip()[1:]}")
+        self.exit(
+            ExitCode.OTHER,
+            "\n\n".join((*parts, f"For more information, try '{self.prog} --help'.\n")),
+        )
 
     def parse_known_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
@@ -323,8 +311,9 @@ def _shell_lines(line: str, width: int, indent: str) -> str:
 
 
 def _add(parser: argparse._ActionsContainer, each: Argument | Group) -> None:
-    if isinstance(each, Argument):
-        parser.add_argument(*each.names, **each.settings)
+    if not isinstance(each, Group):
+        names, settings = each
+        parser.add_argument(*names, **settings)
         return
     group = (
         parser.add_argument_group(each.title)
@@ -349,18 +338,13 @@ def fill(parser: argparse.ArgumentParser, verb: Verb) -> None:
     if verb.negative is not None:
         # There is no public way to say so before Python 3.14.
         parser._negative_number_matcher = verb.negative
-    _set_usage(parser)
-
-
-def _set_usage(parser: argparse.ArgumentParser) -> None:
-    """Let the usage be one line: what must be stated, and [OPTIONS] for the rest."""
-    words = ["%(prog)s", "[OPTIONS]"]
+    # The usage is one line: what must be stated, and [OPTIONS] for the rest.
+    usage = ["%(prog)s", "[OPTIONS]"]
     for action in parser._actions:
         name = str(action.metavar or action.dest).replace("%", "%%")
         if action.option_strings and action.required:
-            words.append(f"{action.option_strings[0]} {name}")
+            usage.append(f"{action.option_strings[0]} {name}")
         elif not action.option_strings:
-            many = "..." if action.nargs in ("+", "*") else ""
-            shown = f"{name}{many}"
-            words.append(f"[{shown}]" if action.nargs in ("?", "*") else shown)
-    parser.usage = " ".join(words)
+            shown = f"{name}{'...' if action.nargs in ('+', '*') else ''}"
+            usage.append(f"[{shown}]" if action.nargs in ("?", "*") else shown)
+    parser.usage = " ".join(usage)

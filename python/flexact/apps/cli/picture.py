@@ -32,7 +32,9 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and draw it."""
     deck, target = one_deck(chosen), chosen.output
     with unwinding():
-        _check(chosen)
+        check_suffix(target.suffix)
+        check_packages(target.suffix)
+        check_view(chosen.view)
     plan_file(deck, target)
 
     def step(deck: DeckFile) -> Outcome:
@@ -57,13 +59,6 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
         return Outcome(deck.name, ExitCode.ANALYSED, "drawn")
 
     return take([deck], step)
-
-
-def _check(chosen: argparse.Namespace) -> None:
-    """Find out what is wrong with the choice before anything is analysed."""
-    check_suffix(chosen.output.suffix)
-    check_packages(chosen.output.suffix)
-    check_view(chosen.view)
 
 
 VERB = Verb(

@@ -10,6 +10,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +23,8 @@ from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import OutputError, plan_file, plan_files, write_together
 from ...util.text import harmless
-from ..checks.comparison import Finding, Question, State, answer_place, case_of, reasons
-from . import decks as failures
-from .decks import DECKS, METHOD, announce_wait, tolerance
+from ..checks.comparison import Comparison, State, answer_place, case_of, finding_of
+from .decks import DECKS, METHOD, announce_wait, report, tolerance
 from .parser import Verb, argument
 from .targets import WORKERS, file, folder
 from .terminal import Bar, ExitCode, Outcome, end_progress, exit_code, say, show_progress
@@ -32,7 +32,7 @@ from .terminal import Bar, ExitCode, Outcome, end_progress, exit_code, say, show
 #: So many decks of a kind are named; what came of each stands above.
 _MOST_NAMED = 20
 
-_Found = Sequence[tuple[DeckFile, Finding]]
+_Found = Sequence[tuple[DeckFile, Comparison]]
 
 
 def summary(found: _Found, chosen: argparse.Namespace) -> str:
@@ -41,28 +41,24 @@ def summary(found: _Found, chosen: argparse.Namespace) -> str:
     parts = [f"{counts[state]} {state.value}" for state in State if counts[state]]
     lines = [f"{len(found)} decks: {', '.join(parts)}"]
     for state in (State.DIFFERENT, State.FAILED, State.MISSING):
-        lines += _of(state, [pair for pair in found if pair[1].state is state])
+        if not counts[state]:
+            continue
+        some = [pair for pair in found if pair[1].state is state]
+        worst = sorted(some, key=lambda pair: (-pair[1].gravity, -len(pair[1].differences)))
+        order = ", the worst first" if state is State.DIFFERENT else ""
+        lines.append(f"{state.value[0].upper()}{state.value[1:]}{order}:")
+        lines += [f"  {harmless(deck.name)}{_why(each)}" for deck, each in worst[:_MOST_NAMED]]
+        if len(worst) > _MOST_NAMED:
+            lines.append(f"  and {len(worst) - _MOST_NAMED} more")
     if counts[State.DIFFERENT] or counts[State.MISSING]:
         lines += ["To store the new answers, once they are right:", f"  {_command(chosen)}"]
     return "\n".join(lines)
 
 
-def _of(state: State, found: _Found) -> Iterator[str]:
-    if not found:
-        return
-    worst = sorted(found, key=lambda pair: (-pair[1].gravity, -len(pair[1].differences)))
-    first = state.value[0].upper() + state.value[1:]
-    yield f"{first}{', the worst first' if state is State.DIFFERENT else ''}:"
-    for deck, finding in worst[:_MOST_NAMED]:
-        yield f"  {harmless(deck.name)}{_why(finding)}"
-    if len(worst) > _MOST_NAMED:
-        yield f"  and {len(worst) - _MOST_NAMED} more"
-
-
-def _why(finding: Finding) -> str:
+def _why(finding: Comparison) -> str:
     if finding.state is State.MISSING:
         return ""
-    first, *others = reasons(finding)
+    first, *others = finding.reasons
     more = f"; {len(others)} more" if others and finding.state is State.DIFFERENT else ""
     return f": {first}{more}"
 
@@ -116,24 +112,25 @@ def _require_place(junit: Path, decks: Sequence[DeckFile], answers: Path) -> Non
 
 def _findings(
     decks: Sequence[DeckFile], chosen: argparse.Namespace
-) -> Iterator[tuple[DeckFile, Finding]]:
+) -> Iterator[tuple[DeckFile, Comparison]]:
     """What comes of each deck, in their order; a folder that gives none fails."""
-    question = Question(chosen.method, chosen.within, chosen.store)
+    asked = {"method": chosen.method, "tolerance": chosen.within, "stores": chosen.store}
     good = [deck for deck in decks if deck.error is None]
-    results: Iterator[tuple[Finding, str]]
+    results: Iterator[tuple[Comparison, str]]
     if chosen.dask is None and (len(good) == 1 or chosen.workers == 1):
-        results = ((_watched(deck, chosen, question), "") for deck in good)
+        results = ((_watched(deck, chosen, asked), "") for deck in good)
     else:
-        results = in_order(question, (case_of(deck, chosen.against) for deck in good), chosen)
+        cases = (case_of(deck, chosen.against) for deck in good)
+        results = in_order(partial(finding_of, **asked), cases, chosen)
     for deck in decks:
         if deck.error is not None:
-            yield deck, Finding(State.FAILED, error=deck.error)
+            yield deck, Comparison(State.FAILED, error=deck.error)
             continue
         finding, failure = next(results)
-        yield deck, Finding(State.FAILED, error=AnalysisError(failure)) if failure else finding
+        yield deck, Comparison(State.FAILED, error=AnalysisError(failure)) if failure else finding
 
 
-def _watched(deck: DeckFile, chosen: argparse.Namespace, question: Question) -> Finding:
+def _watched(deck: DeckFile, chosen: argparse.Namespace, asked: dict[str, Any]) -> Comparison:
     """What comes of a deck, while a bar says how far it is."""
 
     def watch(model: ModelData) -> Progress | None:
@@ -143,10 +140,10 @@ def _watched(deck: DeckFile, chosen: argparse.Namespace, question: Question) -> 
 
     with Bar(deck.name, deck.path) as bar:
         bar.show("reading")
-        return question(case_of(deck, chosen.against), watch)
+        return finding_of(case_of(deck, chosen.against), watch=watch, **asked)
 
 
-def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, ExitCode]:
+def _said(deck: DeckFile, finding: Comparison, answers: Path) -> tuple[Comparison, ExitCode]:
     """Say what came of a deck, and store it if it is to be."""
     name, place = harmless(deck.name), answer_place(deck, answers)
     if finding.state is State.STORED:
@@ -154,13 +151,13 @@ def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, Exi
             with unwinding():
                 write_together({place: finding.text.encode()})
         except OutputError as error:
-            finding = Finding(State.FAILED, error=error, seconds=finding.seconds)
+            finding = Comparison(State.FAILED, error=error, seconds=finding.seconds)
         else:
             say(f"{name}: stored in {harmless(str(place))}")
             # All findings are kept, but not the texts of large answers.
             finding = replace(finding, text="")
     if finding.error is not None:
-        return finding, failures.report(deck, finding.error, as_json=False).code
+        return finding, report(deck, finding.error, as_json=False).code
     if finding.state is State.DIFFERENT:
         head = f"{name}: differs from {harmless(str(place))}"
         say("\n".join((head, *(f"  {harmless(line)}" for line in finding.differences))))

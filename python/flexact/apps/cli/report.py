@@ -6,10 +6,9 @@ from __future__ import annotations
 import argparse
 import os
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 from ...analysis.differences import Side, SideError, broken_side, change_of, side_of, stored_side
 from ...analysis.result import Result
@@ -37,8 +36,19 @@ from ...util.interruption import unwinding
 from ...util.outputs import OutputError, plan_file, plan_files, require_replaceable, write_together
 from ...util.partial import attempted
 from ...util.text import harmless
-from . import decks as failures
-from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, analysed, opened, read_and_analysed, take
+from .decks import (
+    ACCURACY_AND_BEYOND,
+    DECISION,
+    DECKS,
+    NOT_READ,
+    analysed,
+    foreseen,
+    opened,
+    outcome_of,
+    read_and_analysed,
+    report_failure,
+    take,
+)
 from .parser import Verb, argument
 from .targets import folder_or
 from .terminal import Bar, ExitCode, Outcome, complain, end_progress, exit_code, say, show_progress
@@ -56,11 +66,8 @@ WITHOUT_PICTURES = (
 )
 
 
-class DeckPage(NamedTuple):
-    """A page, and its place in the index."""
-
-    content: bytes
-    entry: Entry
+#: A page, and its place in the index.
+DeckPage = tuple[bytes, Entry]
 
 
 def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
@@ -75,21 +82,19 @@ def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
         content = page_bytes(result, place if indexed else None)
     with unwinding():
         picture = small_picture(result) if indexed else None
-    return DeckPage(content, entry_of(result, place, f"{place}.html", picture))
+    return content, entry_of(result, place, f"{place}.html", picture)
 
 
 def broken_page_of(
     error: Exception, name: str, place: str, *, indexed: bool = True
 ) -> DeckPage | None:
     """The page of a deck with errors; None where its file could not be read."""
-    if isinstance(error, ProblemsError):
-        codes = {item.code for item in error.diagnostics}
-        if codes & failures.NOT_READ:
-            return None
+    items = error.diagnostics if isinstance(error, ProblemsError) else ()
+    if {item.code for item in items} & NOT_READ:
+        return None
     made = broken_page(error, name)
-    if indexed:
-        made = with_way_back(made, place)
-    return DeckPage(as_bytes(made), broken_entry(error, place, f"{place}.html", name))
+    made = with_way_back(made, place) if indexed else made
+    return as_bytes(made), broken_entry(error, place, f"{place}.html", name)
 
 
 COMPARE = (
@@ -105,13 +110,9 @@ COMPARE = (
 )
 
 
-@dataclass(frozen=True)
-class _Found:
-    """One side of a pair, and what is drawn of it."""
-
-    side: Side
-    result: Result | None = None
-    code: ExitCode = ExitCode.ANALYSED
+#: One side of a pair, the result that is drawn of it, and the code that it asks for.
+_Found = tuple[Side | None, Result | None, ExitCode]
+_MISSING: _Found = (None, None, ExitCode.ANALYSED)
 
 
 def compare(chosen: argparse.Namespace) -> ExitCode:
@@ -201,12 +202,12 @@ class _Comparison:
         """Two decks: both drawings beside each other, where both can be analysed."""
         found = [self._found(deck) for deck in (first, second)]
         pair = self._pair(self.runs[1], *found)
-        before, after = (each.result for each in found)
+        before, after = (result for _, result, _ in found)
         if pair.change is not None and before is not None and after is not None:
-            stills = [_still(each) for each in (before, after)]
+            stills = (_still(before), _still(after))
             page = before_and_after(
                 *(before, after, ()),
-                stills=(stills[0], stills[1]),
+                stills=stills,
                 runs=self.runs,
                 changes=changes_part(pair.change),
             )
@@ -220,37 +221,30 @@ class _Comparison:
         pairs = []
         for number, name in enumerate(names, start=1):
             show_progress(number, len(names), name)
-            found = list(self._both(before.get(name), after.get(name)))
-            pairs.append(self._pair(name, *found))
+            first, second = before.get(name), after.get(name)
+            one = other = _MISSING if first is None else self._found(first)
+            if first is None or second is None or not _is_same(first.path, second.path):
+                other = _MISSING if second is None else self._found(second)
+            pairs.append(self._pair(name, one, other))
         end_progress()
         return self._finish(pairs, compare_page(pairs, self.runs))
 
-    def _both(self, first: DeckFile | None, second: DeckFile | None) -> Iterator[_Found | None]:
-        one = None if first is None else self._found(first)
-        yield one
-        if first is not None and second is not None and _is_same(first.path, second.path):
-            yield one
-        else:
-            yield None if second is None else self._found(second)
-
-    def _pair(self, name: str, one: _Found | None, other: _Found | None) -> Pair:
+    def _pair(self, name: str, one: _Found, other: _Found) -> Pair:
         """What is said of a deck, and what the command makes of it."""
-        sides = [None if each is None else each.side for each in (one, other)]
-        change = None
-        if sides[0] is not None and sides[1] is not None:
-            change = change_of(sides[0], sides[1])
-        pair = Pair(name, sides[0], sides[1], change)
-        results = [None if each is None else each.result for each in (one, other)]
-        if pair.kind == "same":
-            results[0] = None
-        pictures = [None if result is None else small_picture(result) for result in results]
+        (before, *_), (after, *_) = one, other
+        change = None if before is None or after is None else change_of(before, after)
+        pair = Pair(name, before, after, change)
+        first, second = (
+            None if result is None else small_picture(result)
+            for result in (None if pair.kind == "same" else one[1], other[1])
+        )
         if pair.kind in ("changed", "gone", "new"):
             say(_in_a_line(pair, self.runs))
-        codes = [each.code for each in (one, other) if each is not None]
+        codes = [one[2], other[2]]
         if self.chosen.expect and pair.kind != "same":
             codes.append(ExitCode.DIFFERENT)
         self.outcomes += [Outcome(name, code, pair.kind) for code in codes]
-        return replace(pair, pictures=(pictures[0], pictures[1]))
+        return replace(pair, pictures=(first, second))
 
     def _found(self, deck: DeckFile) -> _Found:
         """One side, however it is to be had."""
@@ -261,17 +255,17 @@ class _Comparison:
                 except OSError as unread:
                     words = f"{deck.path}: cannot be read: {unread.strerror}"
                     raise BatchError(words) from unread
-                return _Found(stored_side(raw, deck.name))
+                return stored_side(raw, deck.name), None, ExitCode.ANALYSED
             with Bar(deck.name, deck.path) as bar:
                 result = analysed(deck, opened(deck, bar), self.chosen, bar)
-                return _Found(side_of(result), result)
+                return side_of(result), result, ExitCode.ANALYSED
         except Exception as unforeseen:
-            error = failures.foreseen(unforeseen)
+            error = foreseen(unforeseen)
             is_pair = not os.path.isdir(self.chosen.decks[0])
             if is_pair and isinstance(error, (SideError, BatchError)):
                 raise BatchError(str(error)) from error
-            failures.report_failure(deck, error)
-            return _Found(broken_side(error), code=failures.outcome_of(deck, error).code)
+            report_failure(deck, error)
+            return broken_side(error), None, outcome_of(deck, error).code
 
     def _finish(self, pairs: Sequence[Pair], page: str) -> ExitCode:
         target: Path = self.chosen.output
@@ -336,8 +330,9 @@ def report_decks(chosen: argparse.Namespace) -> ExitCode:
     entries = {deck.path: unread_entry(deck.relative.as_posix()) for deck in decks}
 
     def put(deck: DeckFile, page: DeckPage) -> None:
-        write_together({plan[deck.path][0]: page.content})
-        entries[deck.path] = page.entry
+        content, entry = page
+        write_together({plan[deck.path][0]: content})
+        entries[deck.path] = entry
 
     def step(deck: DeckFile) -> Outcome:
         """Analyse one deck and write its page."""
@@ -352,13 +347,13 @@ def report_decks(chosen: argparse.Namespace) -> ExitCode:
         except BatchError:
             raise
         except Exception as unforeseen:
-            error = failures.foreseen(unforeseen)
+            error = foreseen(unforeseen)
             broken = broken_page_of(error, deck.name, place, indexed=indexed)
             try:
                 if broken is not None:
                     put(deck, broken)
             except OutputError:
-                failures.report_failure(deck, error)
+                report_failure(deck, error)
                 raise
             raise error from None
         word, target = verdict_word(result), plan[deck.path][0]

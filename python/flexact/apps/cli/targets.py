@@ -7,13 +7,22 @@ import argparse
 import os
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ...show.writers import PAGES, PICTURES, PLAYING, TABLES
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, OutputError, plan_file, require_replaceable, write_together
+from ...util.loading import load
+from ...util.outputs import (
+    STDOUT,
+    OutputError,
+    plan_file,
+    plan_files,
+    require_replaceable,
+    write_together,
+)
 from .parser import Argument, Group, argument
 from .terminal import put
 
@@ -32,32 +41,34 @@ _MAKERS = {
 }
 
 
-def folder(text: str) -> Path:
-    """A folder, as an option's type; see `folder_or`."""
-    return folder_or()(text)
-
-
 def folder_or(*files: str) -> Callable[[str], Path]:
     """An option's type: a folder, or a file of one of these suffixes.
 
     A name that looks like a file's is none of a folder, unless there is such a folder already, or
     it ends with a slash.
     """
+    wanted = (
+        f"a file {' or '.join(files)}, or a folder is wanted" if files else "a folder is wanted"
+    )
 
     def checked(text: str) -> Path:
         path = Path(text)
         if path == STDOUT:
-            raise argparse.ArgumentTypeError(f"{_wanted(files)}, and - is standard output")
+            raise argparse.ArgumentTypeError(f"{wanted}, and - is standard output")
         suffix = path.suffix
         if suffix.lower() in files or not _FILE.fullmatch(suffix) or _is_folder(text):
             return path
         maker = _MAKERS.get(suffix.lower())
         raise argparse.ArgumentTypeError(
-            f"{text} looks like a file, and {_wanted(files)}"
+            f"{text} looks like a file, and {wanted}"
             f"{f'; {maker}' if maker else ''}; for a folder of this name write {text}/"
         )
 
     return checked
+
+
+#: A folder, as an option's type.
+folder = folder_or()
 
 
 def _is_folder(text: str) -> bool:
@@ -66,10 +77,6 @@ def _is_folder(text: str) -> bool:
         return ends or os.path.isdir(text)
     except ValueError:
         return False
-
-
-def _wanted(files: tuple[str, ...]) -> str:
-    return f"a file {' or '.join(files)}, or a folder is wanted" if files else "a folder is wanted"
 
 
 def file(text: str) -> Path:
@@ -93,10 +100,17 @@ def plan_deck(deck: DeckFile, target: Path) -> None:
     plan_file(deck, target)
 
 
-def plan_text(deck: DeckFile, target: Path) -> None:
-    """As `plan_file`, of a file that may be stdout."""
-    if target != STDOUT:
-        plan_file(deck, target)
+def plan_shown(deck: DeckFile, target: Path, endings: Sequence[str]) -> None:
+    """As `plan_file`, with the files of a cycle that plays beside it.
+
+    Raises:
+        OutputError: One of them may not be written.
+    """
+    plan_file(deck, target)
+    if target.suffix.lower() == PLAYING:
+        collection = load("flexact.show.mesh.collection")
+        steps = replace(deck, relative=Path(collection.STEM))
+        plan_files([steps], collection.folder_of(target), endings)
 
 
 def plan_table(table: Path, decks: Sequence[DeckFile]) -> None:

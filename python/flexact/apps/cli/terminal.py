@@ -9,10 +9,11 @@ import errno
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from importlib import import_module
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TextIO
 
 from ...util.errors import reason_of
@@ -89,31 +90,10 @@ _MARKS = re.compile(r"^( *\| *)([\^]+|-+)( .*)?$")
 _HELP = re.compile(r"^( *= )(help|note)(?=:)")
 
 
-def is_wanted(stream: TextIO | None, choice: str, environment: Mapping[str, str]) -> bool:
-    """Whether a stream is to be coloured.
-
-    `--color` decides; else NO_COLOR, if it is not empty, forbids colour (no-color.org), and
-    CLICOLOR_FORCE or FORCE_COLOR wants it; else it is for terminals that are not dumb.
-    """
-    if choice != "auto":
-        return choice == "always"
-    if environment.get("NO_COLOR"):
-        return False
-    if any(environment.get(name, "0") not in ("", "0") for name in _FORCING):
-        return True
-    seen = stream is not None and stream.isatty()
-    return seen and environment.get("TERM") != "dumb"
-
-
 def painted(text: str, style: str) -> str:
     """A text in a colour; each row by itself, so that a pager shows it."""
     rows = text.split("\n")
     return "\n".join(f"\x1b[{_STYLES[style]}m{row}\x1b[0m" if row else row for row in rows)
-
-
-def painted_problems(text: str) -> str:
-    """Diagnostics as they were rendered, with kinds, places and carets in colour."""
-    return "\n".join(map(_painted_row, text.split("\n")))
 
 
 def _painted_row(row: str) -> str:
@@ -142,38 +122,34 @@ class ResultsError(Exception):
     """Results cannot be written to stdout, so that going on has no use."""
 
 
-@dataclass
-class _Manner:
-    """How the present run speaks, as was chosen.
-
-    Attributes:
-        colour: Of `colour.CHOICES`.
-        quiet: Whether words are left out, so that errors and the exit code are left.
-        verbose: How much is told of what is done.
-    """
-
-    colour: str = "auto"
-    quiet: bool = False
-    verbose: int = 0
-
-
-_MANNER = _Manner()
+#: How the present run speaks, as was chosen: one of `CHOICES`; whether words are left out, so that
+#: errors and the exit code are left; and how much is told of what is done.
+_MANNER = SimpleNamespace(colour="auto", quiet=False, verbose=0)
 
 
 def speak(colour: str = "auto", quiet: bool = False, verbose: int = 0) -> None:
     """Choose how the run speaks that begins."""
-    _MANNER.colour, _MANNER.quiet, _MANNER.verbose = colour, quiet, verbose
+    vars(_MANNER).update(colour=colour, quiet=quiet, verbose=verbose)
 
 
 def is_verbose() -> bool:
     """Whether somebody wants to know what is done, and how long it takes."""
-    return _MANNER.verbose > 0
+    return bool(_MANNER.verbose)
 
 
 def is_coloured(stream: TextIO | None) -> bool:
-    """Whether a stream is to be coloured."""
-    wanted = is_wanted(stream, _MANNER.colour, os.environ)
-    return wanted and (_obeys_escapes(stream) or _MANNER.colour == "always")
+    """Whether a stream is to be coloured.
+
+    `--color` decides; else NO_COLOR, if it is not empty, forbids colour (no-color.org), and
+    CLICOLOR_FORCE or FORCE_COLOR wants it; else it is for terminals that are not dumb.
+    """
+    if _MANNER.colour != "auto":
+        return bool(_MANNER.colour == "always")
+    if os.environ.get("NO_COLOR"):
+        return False
+    is_forced = any(os.environ.get(name, "0") not in ("", "0") for name in _FORCING)
+    is_seen = stream is not None and stream.isatty() and os.environ.get("TERM") != "dumb"
+    return (is_forced or is_seen) and _obeys_escapes(stream)
 
 
 def _obeys_escapes(stream: TextIO | None) -> bool:
@@ -185,9 +161,9 @@ def _obeys_escapes(stream: TextIO | None) -> bool:
     return obeys
 
 
-def text_width(usual: int = USUAL, stream: TextIO | None = None) -> int:
+def text_width(usual: int = USUAL) -> int:
     """Columns for words: those of the terminal, as many as are read with ease; else `usual`."""
-    seen = columns_of(sys.stdout if stream is None else stream)
+    seen = columns_of(sys.stdout)
     return usual if seen is None else max(_LEAST, min(seen, USUAL))
 
 
@@ -210,13 +186,10 @@ def _fitted(text: str, stream: TextIO | None) -> str:
     return text if seen is None else refitted(text, max(_LEAST, seen))
 
 
-def say(text: str, style: str = "") -> None:
+def say(text: str) -> None:
     """Print what results are in words, as wide as the terminal; errors as for `give`."""
     if not _MANNER.quiet:
-        text = _fitted(text, sys.stdout)
-        if style and is_coloured(sys.stdout):
-            text = painted(text, style)
-        give(text)
+        give(_fitted(text, sys.stdout))
 
 
 def give(text: str) -> None:
@@ -263,17 +236,12 @@ def _results() -> Iterator[None]:
 def complain(text: str) -> None:
     """Print problems and remarks, behind the results that came before them."""
     if text:
-        _clear_progress()
+        end_progress()
         text = _fitted(text, sys.stderr)
         if is_coloured(sys.stderr):
-            text = painted_problems(text)
+            # Diagnostics as they were rendered, with kinds, places and carets in colour.
+            text = "\n".join(map(_painted_row, text.split("\n")))
         _to_stderr(f"{text}\n")
-
-
-def remark(text: str) -> None:
-    """Print what is done, where somebody wants to know."""
-    if is_verbose():
-        complain(text)
 
 
 def show_progress(number: int, total: int, deck: str) -> None:
@@ -284,10 +252,6 @@ def show_progress(number: int, total: int, deck: str) -> None:
 
 def end_progress() -> None:
     """Wipe the line of progress."""
-    _clear_progress()
-
-
-def _clear_progress() -> None:
     if _is_watched():
         _to_stderr("\r\x1b[K")
 
@@ -325,16 +289,6 @@ def discard(stream: TextIO | None) -> None:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())  # type: ignore[union-attr]
         os.close(nowhere)
-
-
-#: A terminal of fewer columns is taken for one of so many.
-_NARROWEST = 32
-
-
-def columns_to_fill() -> int | None:
-    """How many columns a table may have: those stated, those of the terminal, or any number."""
-    wide = columns_of(sys.stdout)
-    return max(wide, _NARROWEST) if wide else None
 
 
 def padded(text: str, width: int, *, right: bool = False) -> str:
@@ -387,6 +341,7 @@ LARGE_FILE = 2**20
 LARGE_MODEL = 20_000
 
 _WIDTH, _ROWS = 80, 24
+_BAR = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
 
 
 class Bar:
@@ -421,7 +376,7 @@ class Bar:
         text = f"{self._deck}: {stage}"
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None:
-                self._bar = _drawn(text)
+                self._bar = drawn(total=1.0, desc=text, bar_format=_BAR)
             stages = ("reading", *load("flexact.core.calls").STAGES, "writing")
             self._bar.n = max(self._bar.n, (stages.index(stage) + done) / len(stages))
             self._bar.set_description_str(text)
@@ -435,7 +390,7 @@ class Bar:
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None or done <= self._bar.n:
                 self.clear()
-                self._bar = _drawn(text)
+                self._bar = drawn(total=1.0, desc=text, bar_format=_BAR)
             self._bar.set_description_str(text, refresh=False)
             self._bar.n = done
             self._bar.refresh()
@@ -447,19 +402,14 @@ class Bar:
                 self._bar.clear()
 
 
-def _drawn(text: str) -> Any:
+def drawn(**settings: Any) -> Any:
+    """A bar of tqdm on stderr, as wide as the terminal."""
     tqdm = import_module("tqdm").tqdm
-    tqdm.monitor_interval = 0  # no thread of its own: the core's calls say when to draw
-    form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
-    size = size_of_terminal()
-    return tqdm(total=1.0, file=sys.stderr, leave=False, desc=text, bar_format=form, **size)
-
-
-def size_of_terminal() -> dict[str, int]:
-    """Columns and rows that a bar may take."""
+    # No thread of its own: the core's calls say when to draw, and processes are forked.
+    tqdm.monitor_interval = 0
     # Some terminals say that they have no columns and no rows.
     width = os.get_terminal_size(sys.stderr.fileno()).columns or _WIDTH
-    return {"ncols": width - 1, "nrows": _ROWS}
+    return tqdm(file=sys.stderr, leave=False, ncols=width - 1, nrows=_ROWS, **settings)
 
 
 def is_watched() -> bool:

@@ -5,22 +5,19 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
-from ...show.mesh.collection import STEM, folder_of
-from ...show.writers import PLAYING
 from ...tracing.output import ENDINGS, TRACES, csv_bytes, lines
 from ...tracing.trace import STEPS, trace
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, plan_file, plan_files
+from ...util.outputs import STDOUT
 from ...util.quantities import QuantityError, quantity
 from ...util.text import harmless
 from .decks import DECISION, read_and_analysed, take
 from .parser import Group, Verb, argument
-from .targets import DECK, SHOWN_MOTION, number, one_deck, write_text
+from .targets import DECK, SHOWN_MOTION, number, one_deck, plan_shown, write_text
 from .terminal import Bar, ExitCode, Outcome, complain, say
 
 
@@ -38,7 +35,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and trace the motion."""
     deck, target = one_deck(chosen), chosen.output
     if target is not None and target != STDOUT:
-        _plan(deck, target)
+        plan_shown(deck, target, ENDINGS)
         with unwinding():
             TRACES.require(target)
 
@@ -80,13 +77,6 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
         return Outcome(deck.name, ExitCode.ANALYSED, "traced")
 
     return take([deck], step)
-
-
-def _plan(deck: DeckFile, target: Path) -> None:
-    """Find out what is wrong with the file before anything is analysed."""
-    plan_file(deck, target)
-    if target.suffix.lower() == PLAYING:
-        plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
 
 
 VERB = Verb(

@@ -46,7 +46,7 @@ def _step(deck: DeckFile, chosen: argparse.Namespace) -> Outcome:
         error = foreseen(unforeseen)
         broken = broken_page_of(error, deck.name, place)
         if broken is not None:
-            _show(deck, broken.content, "cannot be analysed", chosen)
+            _show(deck, broken[0], "cannot be analysed", chosen)
         raise error from None
     _show(deck, content, verdict_word(analysis), chosen)
     return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))

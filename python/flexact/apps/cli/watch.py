@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 
 from ...deck.rendering import DeckError
@@ -15,10 +15,9 @@ from ...util.decks import STDIN, DeckFile, FolderError
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.text import harmless
-from ..watch.messages import Answer, Broken
-from ..watch.watch import SCRIPT, Watch
-from . import decks as failures
-from .decks import ACCURACY, DECISION
+from ..watch.scene import SCRIPT, Answer, Broken
+from ..watch.watch import Watch
+from .decks import ACCURACY, DECISION, report
 from .parser import Verb, argument
 from .targets import NO_BROWSER, one_deck
 from .terminal import ExitCode, complain, say
@@ -50,7 +49,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
         # What cannot be read now is more likely to be a slip than a deck to come.
         file_bytes(path)
     except (DeckError, FolderError) as error:
-        return failures.report(deck, error, as_json=False).code
+        return report(deck, error, as_json=False).code
     name = harmless(path)
 
     def renewed(words: str, answer: Answer) -> None:
@@ -64,7 +63,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
 
     decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     with unwinding():
-        watched = Watch(path, renewed, _printed, chosen.port, decision)
+        watched = Watch(path, renewed, partial(print, end="", flush=True), chosen.port, decision)
         with closing(watched):
             say(f"{name} is shown at {watched.server.address}")
             if not chosen.no_browser and not watched.opens():
@@ -76,11 +75,6 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
 def harmless_lines(text: str) -> str:
     """Text of several lines in which nothing can move a cursor."""
     return "\n".join(harmless(line, keep_tabs=True) for line in text.split("\n"))
-
-
-def _printed(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()
 
 
 VERB = Verb(

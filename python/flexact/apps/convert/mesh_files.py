@@ -23,9 +23,8 @@ from ...model.model import Model
 from ...util.errors import BatchError, require_kind
 from ...util.text import harmless
 from .model_tables import tables_with_remarks
-from .table_input import Entry
+from .table_input import LETTERS, Entry, Remarks
 from .tables import model_of
-from .values import AXES, Remarks
 
 #: What a line can be.
 KINDS = ("beam", "truss", "plbeam", "pltruss")
@@ -243,7 +242,7 @@ def _node(data: Mapping[str, Any], point: int, is_fixed: bool) -> Entry:
         elif not entry.get("fix"):
             value: Any = True if stem.startswith("fix") else 0.0
             wanted = np.broadcast_to(row != 0.0, 3)
-            entry.update({f"{stem}{AXES[k]}": value for k in range(3) if wanted[k]})
+            entry.update({f"{stem}{LETTERS[k]}": value for k in range(3) if wanted[k]})
     return entry
 
 
@@ -361,7 +360,7 @@ def _require_lines(tables: Mapping[str, Any], planar: bool) -> None:
 def _of_nodes(nodes: Sequence[Entry], name: str) -> np.ndarray:
     whole = [field for field, names in _WHOLE.items() if name in names]
     rows = [
-        [any(map(entry.get, whole)) or f"{POINT_DATA[name]}{axis}" in entry for axis in AXES]
+        [any(map(entry.get, whole)) or f"{POINT_DATA[name]}{axis}" in entry for axis in LETTERS]
         for entry in nodes
     ]
     return np.array(rows, float).reshape(-1, 3)

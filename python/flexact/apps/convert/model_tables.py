@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -14,64 +14,58 @@ from ...deck.comments import comments_of
 from ...model.attributes import CrossSection
 from ...model.data import ModelData
 from ...model.draft import Shape
-from .table_input import Entry, density_of, is_ordinary, moduli_of
-from .values import AXES as LETTERS
-from .values import ELEMENT_FIELDS, LOADS, NODE_FIELDS, NODES_A_POINT, Remarks
+from .table_input import (
+    LETTERS,
+    LOADS,
+    NODE_FIELDS,
+    NODES_A_POINT,
+    OWN_FIELDS,
+    Entry,
+    Remarks,
+    density_of,
+    is_ordinary,
+    moduli_of,
+)
+
+#: Index of the position and of the orientation of a point, -1 where it has none; or the two points
+#: of an element, by numbers from 1.
+Pairs = tuple[tuple[int, int], ...]
 
 
-class Points(NamedTuple):
-    """Points by number from 1, in the order in which the elements name them.
-
-    Attributes:
-        nodes: Index of the position and of the orientation of each; -1 where it has none.
-        ends: The two points of each element.
-    """
-
-    nodes: tuple[tuple[int, int], ...]
-    ends: tuple[tuple[int, int], ...]
-
-
-def _shared(points: Points, which: int) -> dict[int, int]:
+def _shared(points: Pairs, which: int) -> dict[int, int]:
     """Points that share their position (0), or orientation (1), with the first that has it."""
     first: dict[int, int] = {}
     made = {}
-    for point, nodes in enumerate(points.nodes, start=1):
+    for point, nodes in enumerate(points, start=1):
         if nodes[which] >= 0 and first.setdefault(nodes[which], point) != point:
             made[point] = first[nodes[which]]
     return made
 
 
-def points_of(arrays: ModelArrays) -> Points:
-    """The points of a sound model."""
+def points_of(arrays: ModelArrays) -> tuple[Pairs, Pairs]:
+    """The points of a sound model as the elements name them, and the two ends of each element."""
     slots = (arrays.element_node.T - 1).tolist()
-    pairs: dict[tuple[int, int], None] = {}
-    for nodes in slots:
-        for end in (nodes[:2], nodes[2:]):
-            if min(end) >= 0:
-                pairs[end[0], end[1]] = None
     of_position: dict[int, tuple[int, int]] = {}
     of_orientation: dict[int, tuple[int, int]] = {}
-    for pair in pairs:
-        of_position.setdefault(pair[0], pair)
-        of_orientation.setdefault(pair[1], pair)
+    for p, turned_p, q, turned_q in slots:
+        for pair in ((p, turned_p), (q, turned_q)):
+            if min(pair) >= 0:
+                of_position.setdefault(pair[0], pair)
+                of_orientation.setdefault(pair[1], pair)
     _add_turned(arrays, slots, of_orientation)
-    ends = []
-    for nodes in slots:
-        both = []
-        for position, orientation in (nodes[:2], nodes[2:]):
-            if min(position, orientation) >= 0:
-                pair = position, orientation
-            elif position >= 0:
-                pair = of_position.setdefault(position, (position, -1))
-            else:
-                pair = of_orientation[orientation]
-            both.append(pair)
-        ends.append(both)
     order: dict[tuple[int, int], int] = {}
-    for both in ends:
-        for pair in both:
-            order.setdefault(pair, len(order) + 1)
-    return Points(tuple(order), tuple((order[p], order[q]) for p, q in ends))
+
+    def point(position: int, orientation: int) -> int:
+        """The number of the point where an element ends."""
+        pair = position, orientation
+        if position < 0:
+            pair = of_orientation[orientation]
+        elif orientation < 0:
+            pair = of_position.setdefault(position, pair)
+        return order.setdefault(pair, len(order) + 1)
+
+    ends = tuple((point(*nodes[:2]), point(*nodes[2:])) for nodes in slots)
+    return tuple(order), ends
 
 
 def _add_turned(
@@ -100,15 +94,15 @@ def _add_turned(
         waiting = left
 
 
-def _places(data: ModelData, points: Points) -> list[list[float]]:
+def _places(data: ModelData, points: Pairs) -> list[list[float]]:
     """Coordinates of each point."""
     width = 2 if data.planar else 3
     values = data.arrays.node_value.T[:, :width].tolist()
-    return [values[p] if p >= 0 else [0.0] * width for p, _ in points.nodes]
+    return [values[p] if p >= 0 else [0.0] * width for p, _ in points]
 
 
 def _points_said(
-    data: ModelData, points: Points, kinds: list[ElementKind], remarks: Remarks
+    data: ModelData, points: Pairs, ends: Pairs, kinds: list[ElementKind], remarks: Remarks
 ) -> list[Entry]:
     """What is said of each point."""
     same_pos, same_orien = _shared(points, 0), _shared(points, 1)
@@ -116,13 +110,13 @@ def _points_said(
     # Else a hinge between points at one place joins them there.
     hinged = {
         max(p, q)
-        for (p, q), kind in zip(points.ends, kinds, strict=True)
+        for (p, q), kind in zip(ends, kinds, strict=True)
         if kind.keyword == "HINGE"
         and places[p - 1] == places[q - 1]
         and same_pos.get(p, p) != same_pos.get(q, q)
     }
     made: list[Entry] = []
-    for point, (position, orientation) in enumerate(points.nodes, start=1):
+    for point, (position, orientation) in enumerate(points, start=1):
         entry: Entry = {}
         if point in same_pos or point in hinged:
             entry["same_pos"] = same_pos.get(point, point)
@@ -175,7 +169,7 @@ def _masses(data: ModelData, own: tuple[int, int], remarks: Remarks) -> Entry:
         numbers = given[~np.isnan(given)].tolist()
         given_as: Any = numbers[0] if size == 1 else numbers + [0.0] * (6 - len(numbers))
         try:
-            fits = len(numbers) <= size and NODE_FIELDS[name].check(given_as) is not None
+            fits = len(numbers) <= size and NODE_FIELDS[name](given_as) is not None
         except ValueError:
             fits = False
         if not fits:
@@ -269,7 +263,8 @@ def _section(data: ModelData, i: int, kind: ElementKind, remarks: Remarks) -> En
 
 def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
     """The tables of a sound model, and what they do not hold."""
-    remarks, points = Remarks(), points_of(data.arrays)
+    remarks = Remarks()
+    points, ends = points_of(data.arrays)
     every = element_kinds()
     kinds = [every[kind - 1] for kind in data.arrays.element_kind.tolist()]
     sets = _sets(data, kinds, remarks)
@@ -277,8 +272,8 @@ def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
     releases = [(np.flatnonzero(modes) + 1).tolist() for modes in is_released.T]
     made: dict[str, Any] = {
         "nodes": _places(data, points),
-        "elements": [list(ends) for ends in points.ends],
-        "nprops": _points_said(data, points, kinds, remarks),
+        "elements": [list(both) for both in ends],
+        "nprops": _points_said(data, points, ends, kinds, remarks),
         "eprops": sets,
     }
     if any(releases):
@@ -286,20 +281,19 @@ def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
     if data.loads is not None and data.loads.gravity.any():
         made.setdefault("opt", {})["gravity"] = data.loads.gravity.tolist()
     _note_the_rest(data, points, remarks)
-    for fields, entries in ((NODE_FIELDS, made["nprops"]), (ELEMENT_FIELDS, sets)):
-        for entry in entries:
-            remarks.own.update(name for name in entry if fields[name].is_own)
+    for entry in (*made["nprops"], *sets):
+        remarks.own.update(name for name in entry if name in OWN_FIELDS)
     if data.planar:
         remarks.own["nodes with x and y"] = len(made["nodes"])
     return made, remarks
 
 
-def _note_the_rest(data: ModelData, points: Points, remarks: Remarks) -> None:
+def _note_the_rest(data: ModelData, points: Pairs, remarks: Remarks) -> None:
     a = data.arrays
     elements = a.element_number.size
     numbered = a.element_number.tolist() == list(range(1, elements + 1)) and all(
         node < 0 or a.node_number[node] == NODES_A_POINT * (point - 1) + slot
-        for point, nodes in enumerate(points.nodes, start=1)
+        for point, nodes in enumerate(points, start=1)
         for slot, node in enumerate(nodes, start=1)
     )
     if not numbered:

@@ -1,35 +1,341 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables as they are given, checked and brought into one form."""
+"""Tables as they are given, checked and brought into one form.
+
+A check gives the value as it is used, or raises ValueError in words.
+"""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ...core.elements import Member, NodeKind
+from ...core.elements import Member, NodeKind, element_kinds
 from ...core.raw import ElementKind
+from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
+from ...deck.rendering import ProblemsError
 from ...model.attributes import CrossSection
 from ...model.draft import Shape
 from ...model.names import nearest
 from ...model.sections import Make, Material, constants_of, mass, stiffness
+from ...util.records import cached_property
 from ...util.text import in_short
-from .values import (
-    ELEMENT_FIELDS,
-    LARGEST,
-    NODE_FIELDS,
-    OPTIONS,
-    RELEASE_FIELDS,
-    Field,
-    Found,
-    is_unset,
-    number,
-    vector,
-    whole,
+
+#: Fourth powers of sizes, times moduli, are numbers.
+LARGEST = 1e30
+
+
+def _require(is_right: bool, wanted: str) -> None:
+    if not is_right:
+        raise ValueError(wanted)
+
+
+def flag(value: Any) -> bool:
+    """True or false; also 1 and 0."""
+    is_number = isinstance(value, (bool, int, float))
+    _require(is_number and value in (0, 1), "true or false is wanted")
+    return bool(value)
+
+
+def number(value: Any) -> float:
+    """A finite number."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    _require(is_number, "a number is wanted")
+    try:
+        made = float(value)
+    except OverflowError:
+        made = math.inf
+    _require(math.isfinite(made), "the number is not finite")
+    return made
+
+
+def whole(value: Any) -> int:
+    """A whole number, also one like 2.0."""
+    made = number(value)
+    _require(made == int(made), "a whole number is wanted")
+    return int(made)
+
+
+def positive(value: Any) -> float:
+    """A number above zero, neither tiny nor huge."""
+    made = number(value)
+    _require(1.0 / LARGEST < made < LARGEST, f"a number between 0 and {LARGEST:g} is wanted")
+    return made
+
+
+def not_negative(value: Any) -> float:
+    """A number from zero on."""
+    return 0.0 if number(value) == 0.0 else positive(value)
+
+
+def count(value: Any) -> int:
+    """A whole number from 1 on."""
+    made = whole(value)
+    _require(1 <= made < 10**6, "a whole number from 1 on is wanted")
+    return made
+
+
+def part(value: Any) -> float:
+    """A number from 0 to 1."""
+    made = number(value)
+    _require(0.0 <= made <= 1.0, "a number from 0 to 1 is wanted")
+    return made
+
+
+def text(value: Any) -> str:
+    """A text on one line."""
+    _require(isinstance(value, str), "a text is wanted")
+    return " ".join(value.split())
+
+
+def texts(value: Any) -> tuple[str, ...]:
+    """A text, or several."""
+    return tuple(text(each) for each in (value if isinstance(value, list) else [value]))
+
+
+def vector(*sizes: int) -> Callable[[Any], tuple[float, ...]]:
+    """What checks for so many finite numbers."""
+
+    def check(value: Any) -> tuple[float, ...]:
+        given = value if isinstance(value, (list, tuple)) else [value]
+        _require(len(given) in sizes, f"{' or '.join(map(str, sizes))} numbers are wanted")
+        return tuple(number(each) for each in given)
+
+    return check
+
+
+def direction(value: Any) -> tuple[float, ...]:
+    """A vector that is not zero."""
+    made = vector(3)(value)
+    _require(any(made), "the vector is zero")
+    return made
+
+
+def numbers_from_one(value: Any) -> tuple[int, ...]:
+    """Numbers from 1 on, each once; a single one may stand without brackets."""
+    made = tuple(count(each) for each in (value if isinstance(value, (list, tuple)) else [value]))
+    _require(len(set(made)) == len(made), "a number stands there twice")
+    return made
+
+
+def deformations(value: Any) -> tuple[int, ...]:
+    """Numbers of deformations from 1 to 6, each once."""
+    made = numbers_from_one(value)
+    _require(max(made, default=1) <= 6, "deformations have numbers from 1 to 6")
+    return made
+
+
+def shape(value: Any) -> str:
+    """The kind of a cross-section."""
+    _require(value in ("rect", "circ"), "'rect' or 'circ' is wanted")
+    return str(value)
+
+
+def sizes(value: Any) -> tuple[float, ...]:
+    """Width and thickness, or a diameter."""
+    return tuple(positive(each) for each in vector(1, 2)(value))
+
+
+#: Colours by name; by number from 1 in this order.
+COLOURS = {
+    "blue": (0.62, 0.76, 0.86),
+    "grey": (0.78, 0.78, 0.78),
+    "darkblue": (0.0, 0.45, 0.7),
+    "darkgrey": (0.44, 0.44, 0.44),
+    "green": (0.5, 0.76, 0.56),
+    "darkgreen": (0.35, 0.54, 0.4),
+}
+
+
+def colour(value: Any) -> tuple[float, ...]:
+    """Red, green and blue from 0 to 1, or to 255 where one exceeds 1; a name, or its number."""
+    if isinstance(value, str):
+        _require(value in COLOURS, f"one of {', '.join(COLOURS)} is wanted, or three numbers")
+        return COLOURS[value]
+    if not isinstance(value, (list, tuple)):
+        words = f"the colours have numbers from 1 to {len(COLOURS)}"
+        _require(1 <= whole(value) <= len(COLOURS), words)
+        return tuple(COLOURS.values())[whole(value) - 1]
+    made = vector(3)(value)
+    largest = 255.0 if max(made) > 1.0 else 1.0
+    return tuple(part(each / largest) for each in made)
+
+
+def kind(value: Any) -> str:
+    """The keyword of an element, in small letters."""
+    known = [each.keyword.lower() for each in element_kinds()]
+    made = value.lower() if isinstance(value, str) else ""
+    _require(made in known, f"one of {', '.join(known)} is wanted")
+    return made
+
+
+def moments(value: Any) -> tuple[float, ...]:
+    """Six moments of inertia, none of them huge."""
+    made = vector(6)(value)
+    _require(max(map(abs, made)) < LARGEST, f"numbers below {LARGEST:g} are wanted")
+    return made
+
+
+LETTERS = ("x", "y", "z")
+#: Nodes of a deck by point: a position, an orientation, and a warping node, which is not used.
+NODES_A_POINT = 3
+
+
+#: Gives the value of a field as it is used, or raises ValueError in words.
+Check = Callable[[Any], Any]
+PRESCRIBED = "values of prescribed motions"
+#: Fields that only Flexact knows, and those that are for a simulation.
+OWN_FIELDS = frozenset(("fix_rx", "fix_ry", "fix_rz", "name", "same_pos", "same_orien", "type"))
+_SIMULATION = ("transfer_in", "transfer_out")
+
+#: Of each node.
+NODE_FIELDS: dict[str, Check] = {
+    **{name: flag for name in ("fix", "fix_pos", "fix_orien")},
+    **{f"fix_{axis}": flag for axis in LETTERS},
+    **{f"fix_r{axis}": flag for axis in LETTERS},
+    "fix_warp": flag,
+    **{f"displ{start}_{axis}": number for start in ("", "_initial") for axis in LETTERS},
+    **{f"rot{start}_{axis}": number for start in ("", "_initial") for axis in LETTERS},
+    **{f"rot{start}": vector(4) for start in ("", "_initial")},
+    "mass": not_negative,
+    "mominertia": moments,
+    **{f"{load}{start}": vector(3) for load in ("force", "moment") for start in ("", "_initial")},
+    "transfer_in": texts,
+    "transfer_out": texts,
+    "name": text,
+    "same_pos": count,
+    "same_orien": count,
+}
+#: Of each set of elements.
+ELEMENT_FIELDS: dict[str, Check] = {
+    "elems": numbers_from_one,
+    "emod": positive,
+    "smod": positive,
+    "dens": not_negative,
+    "cshape": shape,
+    "dim": sizes,
+    "orien": direction,
+    "nbeams": count,
+    "flex": deformations,
+    "color": colour,
+    "opacity": part,
+    "hide": flag,
+    "warping": flag,
+    "cw": flag,
+    "type": kind,
+    "name": text,
+}
+#: Of the releases, element by element.
+RELEASE_FIELDS = {"def": deformations}
+#: What SPACAR Light calls the loads of a deck: XF, on which a simulation starts, and DELXF.
+LOADS = {"force": "_initial", "increment": ""}
+#: Options; of these releases and gravity are used, and none of the others is looked at.
+OPTIONS = (
+    *("rls", "filename", "gravity", "silent", "calcbuck", "showinputonly", "loadsteps", "mode"),
+    *("transfer", "calccompl", "customvis", "customdyn", "customkin", "spavisual", "rigidstress"),
+    "stressperelement",
 )
+
+
+def is_unset(value: Any) -> bool:
+    """Whether a field is there and empty, as MATLAB writes those of other entries."""
+    return value is None or (isinstance(value, Sequence) and len(value) == 0)
+
+
+LEFT_OUT, LOST, OWN_FIELD = "left-out", "lost", "own-field"
+
+
+@dataclass
+class Remarks:
+    """Counts of what is left out, and of fields that only Flexact knows.
+
+    Attributes:
+        left_out: What the verdict does not depend on.
+        lost: What it depends on.
+        own: Fields of tables.
+    """
+
+    left_out: Counter[str] = field(default_factory=Counter)
+    lost: Counter[str] = field(default_factory=Counter)
+    own: Counter[str] = field(default_factory=Counter)
+
+    def leave_out(self, what: str, times: int = 1) -> None:
+        """Note something that the other format does not hold."""
+        if times:
+            self.left_out[what] += times
+
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """A warning of each thing that is lost, a note of each that is left out."""
+        words = "lost, though the verdict depends on it: "
+        own = ", ".join(f"{name} ({times})" for name, times in self.own.items())
+        said = [
+            *((Severity.WARNING, LOST, f"{words}{what} ({n})") for what, n in self.lost.items()),
+            *((Severity.NOTE, LEFT_OUT, f"{what} ({n})") for what, n in self.left_out.items()),
+            (Severity.NOTE, OWN_FIELD, f"fields that SPACAR Light does not know: {own}"),
+        ]
+        return tuple(Diagnostic(*each) for each in said[: None if own else -1])
+
+
+class TablesError(ProblemsError, ValueError):
+    """Tables that are no model; each problem begins with its place, such as nprops[3].fix."""
+
+
+#: The text that tables were read from, and what finds where each value stands in it.
+Text = tuple[Source, Callable[[], Mapping[str, Place]]]
+
+
+class Found:
+    """Problems as they are found."""
+
+    def __init__(self, text: Text | None, name: str) -> None:
+        """Nothing yet."""
+        self._source = None if text is None else text[0]
+        self._find_spans: Callable[[], Mapping[str, Place]] = dict if text is None else text[1]
+        self._name = name if self._source is None else self._source.name
+        self._items: list[Diagnostic] = []
+        self._said: set[str] = set()
+
+    @cached_property
+    def _spans(self) -> Mapping[str, Place]:
+        try:
+            return self._find_spans()
+        except RecursionError:
+            # What stands in each other so deeply has no places.
+            return {}
+
+    def error(self, place: str, message: str, hint: str = "") -> None:
+        """Note, once, that something is wrong at a place, such as nprops[3].fix."""
+        words = f"{place}: {message}" if place else message
+        if words in self._said:
+            return
+        self._said.add(words)
+        # Where the value stands, or what holds it; zeros where that is not known.
+        while place and place not in self._spans:
+            place = place[: max(place.rfind("."), place.rfind("["), 0)]
+        span = self._spans.get(place, Place(0, 0, 0))
+        self._items.append(Diagnostic(Severity.ERROR, "bad-table", words, *span, help=hint))
+
+    def checked(self, place: str, check: Callable[[Any], Any], value: Any) -> Any:
+        """The value as it is used; None where the check says what is wrong with it."""
+        try:
+            return check(value)
+        except ValueError as error:
+            self.error(place, f"{error}, not {in_short(value)}")
+            return None
+
+    def require_none(self) -> None:
+        """Raise if anything was found.
+
+        Raises:
+            TablesError: everything.
+        """
+        if self._items:
+            raise TablesError(Problems.of(self._items), self._name, self._source)
+
 
 _TABLES = ("nodes", "elements", "nprops", "eprops", "rls", "opt", "name")
 Entry = dict[str, Any]
@@ -142,7 +448,7 @@ def _take_ends(made: Tables, given: Any, found: Found) -> None:
 
 
 def _entries(
-    given: Any, name: str, fields: Mapping[str, Field], found: Found
+    given: Any, name: str, fields: Mapping[str, Check], found: Found
 ) -> list[tuple[int, Any]]:
     """Number and fields of each entry: of a list, of an object by numbers, or of a single one."""
     if is_unset(given):
@@ -165,7 +471,7 @@ def _entries(
 
 
 def _fields(
-    given: Any, name: str, fields: Mapping[str, Field], made: Tables, found: Found
+    given: Any, name: str, fields: Mapping[str, Check], made: Tables, found: Found
 ) -> dict[int, Entry]:
     """The checked fields of entries that have any, by number."""
     into: dict[int, Entry] = {}
@@ -180,13 +486,13 @@ def _fields(
             if key not in fields:
                 found.error(f"{place}.{key}", f"there is no such field{_meant(key, fields)}")
             elif not is_unset(value):
-                value = found.checked(f"{place}.{key}", fields[key].check, value)
+                value = found.checked(f"{place}.{key}", fields[key], value)
                 if value is None:
                     made.faulty.add(place)
                     continue
                 into.setdefault(i, {})[key] = value
-                if fields[key].left_out and value is not False:
-                    made.left_out[f"{fields[key].left_out}: {name}.{key}"] += 1
+                if key in _SIMULATION:
+                    made.left_out[f"what is for a simulation: {name}.{key}"] += 1
     return into
 
 

@@ -15,19 +15,346 @@ spacar.nl and github.com/precision-utwente/spalight, by M. Nijenhuis and M. Nave
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 
-from ...core.elements import Class
+from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
+from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic
+from ...model.data import ModelData
+from ...model.draft import NO_VECTOR, Draft
+from ...model.draft_arrays import data_of as data_of_draft
 from ...model.model import Model
+from ...model.names import one_line
 from ...util.errors import require_kind
 from .model_tables import tables_with_remarks
-from .table_input import tables_given
-from .table_model import data_of
-from .values import Found, TablesError, Text
+from .table_input import (
+    LETTERS,
+    LOADS,
+    NODES_A_POINT,
+    PRESCRIBED,
+    Entry,
+    Found,
+    Remarks,
+    Tables,
+    TablesError,
+    Text,
+    mass_of,
+    shape_of,
+    stiffness_of,
+    tables_given,
+    warped,
+)
+
+
+def _numbers(
+    tables: Tables, name: str, offset: int, joined: dict[int, int], found: Found
+) -> dict[int, int]:
+    made: dict[int, int] = {}
+    for point, place in enumerate(tables.places, start=1):
+        where = f"nprops[{point}].{name}"
+        other = tables.nodes.get(point, {}).get(name, joined.get(point, point))
+        if other > point:
+            found.error(where, f"an earlier node is wanted, not {other}")
+            other = point
+        if name == "same_pos" and tables.places[other - 1] != place:
+            found.error(where, f"node {other} stands elsewhere")
+        made[point] = made.get(other, NODES_A_POINT * (point - 1) + offset)
+    return made
+
+
+def _hinged(tables: Tables) -> dict[int, int]:
+    """Of nodes at one place that a hinge joins the later one, with the earlier one."""
+    made = {}
+    for element, (p, q) in enumerate(tables.ends, start=1):
+        kind = tables.entry_of(element).get("type")
+        if kind == "hinge" and tables.places[p - 1] == tables.places[q - 1]:
+            made[max(p, q)] = min(p, q)
+    return made
+
+
+#: What the local y axis of a beam points to where nothing is said.
+_ORIEN = (0.0, 1.0, 0.0)
+
+
+def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
+    """The model of checked tables; what cannot be made is noted in `found`.
+
+    Args:
+        tables: The tables.
+        flexible: What flexible deformations are that are not released.
+        found: Where problems are noted.
+    """
+    making = _Making(tables, flexible, found)
+    making.add_nodes()
+    for element in range(1, len(tables.ends) + 1):
+        making.add_element(element)
+    making.give_nodes()
+    making.note_warping()
+    found.require_none()
+    data = data_of_draft(making.draft, tables.name)
+    return replace(data, besides=(*data.besides, *making.remarks.diagnostics()))
+
+
+class _Making:
+    """A draft that grows from tables."""
+
+    def __init__(self, tables: Tables, flexible: Class, found: Found) -> None:
+        self.tables = tables
+        self.flexible = flexible
+        self.found = found
+        self.draft = Draft(tables.planar)
+        #: Numbers of the position and the orientation of each point; some share one.
+        self.position = _numbers(tables, "same_pos", 1, _hinged(tables), found)
+        self.orientation = _numbers(tables, "same_orien", 2, {}, found)
+        self.remarks = Remarks(left_out=tables.left_out)
+        self.used: set[int] = set()
+        #: Elements with warping by the points at which they end.
+        self.warping_at: dict[int, list[int]] = {}
+        for element, ends in enumerate(tables.ends, start=1):
+            if tables.entry_of(element).get("warping"):
+                for point in ends:
+                    self.warping_at.setdefault(point, []).append(element)
+        self.next_node = NODES_A_POINT * len(tables.places) + 1
+
+    def add_nodes(self) -> None:
+        """Positions; orientations come with the elements that need them."""
+        kind = NodeKind.PLANAR_POSITION if self.tables.planar else NodeKind.POSITION
+        for point, place in enumerate(self.tables.places, start=1):
+            number = self.position[point]
+            self.draft.node_kind[number] = kind
+            self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
+            if name := one_line(self.tables.nodes.get(point, {}).get("name", "")):
+                self.draft.node_names.setdefault(number, name)
+
+    def add_element(self, element: int) -> None:
+        """The beams of an element, or the one element that it is."""
+        entry, (p, q) = self.tables.entry_of(element), self.tables.ends[element - 1]
+        where = f"eprops[{self.tables.set_of.get(element, 0)}]"
+        kind = kind_of(entry.get("type", "plbeam" if self.tables.planar else "beam").upper())
+        if self.tables.planar and NodeKind.POSITION in kind.slots:
+            self.found.error(f"{where}.type", "nodes with x and y have planar elements alone")
+        count = entry.get("nbeams", 1)
+        if count > 1 and kind.member != Member.BEAM:
+            self.found.error(f"{where}.nbeams", "a beam alone is divided")
+            count = 1
+        vector = self._vector(kind, entry, where)
+        for i, slots in enumerate(self._slots(kind, p, q, count)):
+            released = self.tables.released.get(element, ()) if i == count - 1 else ()
+            classes = self._classes(kind, entry.get("flex", ()), released, element)
+            number = self.draft.append_element(kind.number, slots, vector, classes)
+            self._give(number - 1, kind, entry, element, (i, count))
+
+    def _vector(self, kind: ElementKind, entry: Entry, where: str) -> tuple[float, float, float]:
+        x, y, z = entry.get("orien", _ORIEN if kind.member == Member.BEAM else NO_VECTOR)
+        if kind.vector == Vector.NONE:
+            return NO_VECTOR
+        if kind.vector == Vector.REQUIRED and not any((x, y, z)):
+            self.found.error(where, f"a {entry['type']} needs its axis: give orien")
+        return x, y, z
+
+    def _slots(
+        self, kind: ElementKind, p: int, q: int, count: int
+    ) -> Iterator[tuple[int, int, int, int]]:
+        """Nodes of each beam; those between the ends come behind all points."""
+        ends = [(self.position[p], self.orientation[p])]
+        start, end = (np.array(self.tables.places[point - 1]) for point in (p, q))
+        for i in range(1, count):
+            value = (start + (end - start) / count * i).tolist()
+            number = self.next_node
+            self.next_node += NODES_A_POINT
+            self.draft.node_kind[number] = self.draft.node_kind[ends[0][0]]
+            self.draft.node_value[number] = (*value, *(0.0,) * (4 - len(value)))
+            ends.append((number, number + 1))
+        ends.append((self.position[q], self.orientation[q]))
+        for (one, turned), (other, other_turned) in pairwise(ends):
+            slots = [one, turned, other, other_turned]
+            for k, slot in enumerate(kind.slots):
+                if not slot:
+                    slots[k] = 0
+                elif k in (1, 3):
+                    upright = 1.0 if slot == NodeKind.ORIENTATION else 0.0
+                    self.draft.node_kind.setdefault(slots[k], slot)
+                    self.draft.node_value.setdefault(slots[k], (upright, 0.0, 0.0, 0.0))
+            self.used.update(slots)
+            yield slots[0], slots[1], slots[2], slots[3]
+
+    def _classes(
+        self, kind: ElementKind, flex: Iterable[int], released: Iterable[int], element: int
+    ) -> tuple[int, ...]:
+        made = [int(Class.FIXED) if role else int(Class.NONE) for role in kind.role]
+        for mode, value in (
+            *((mode, self.flexible) for mode in flex),
+            *((mode, Class.DEPENDENT) for mode in released),
+        ):
+            if made[mode - 1] == Class.NONE:
+                self.found.error(
+                    f"elements[{element}]",
+                    f"a {kind.keyword.lower()} has no deformation {mode}, only 1 to "
+                    f"{kind.deformations}: correct flex or def",
+                )
+            else:
+                made[mode - 1] = int(value)
+        return tuple(made)
+
+    def _give(
+        self, index: int, kind: ElementKind, entry: Entry, element: int, beam: tuple[int, int]
+    ) -> None:
+        """Name, look, stiffness and mass of one of the beams of an element."""
+        if name := one_line(entry.get("name", "")):
+            if len(entry["elems"]) > 1:
+                name = f"{name} {entry['elems'].index(element) + 1}"
+            if beam[1] > 1:
+                name = f"{name}, part {beam[0] + 1} of {beam[1]}"
+            self.draft.name_element(index, name)
+        shape = shape_of(entry)
+        said = {
+            "shape": shape,
+            "colour": entry.get("color"),
+            "opacity": entry.get("opacity"),
+            "drawn": False if entry.get("hide") else None,
+        }
+        self.draft.say_looks(
+            [index], {key: value for key, value in said.items() if value is not None}
+        )
+        if shape is not None and kind.member in (Member.BAR, Member.BEAM):
+            stiffness = stiffness_of(kind, shape, entry)
+            if stiffness is not None and kind.member == Member.BEAM and not self.tables.planar:
+                p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
+                stiffness = warped(stiffness, math.dist(p, q), self._warp_held(element))
+            self.draft.give_properties(index, stiffness, mass_of(kind, shape, entry))
+        elif shape is not None and "dens" in entry:
+            self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
+
+    def _warp_held(self, element: int) -> int:
+        """At how many ends of an element its warping is held: of what is known alone.
+
+        cw, of older versions, means that of both; else an end that is fixed holds it, and what
+        another element with warping does there is not known.
+        """
+        entry = self.tables.entry_of(element)
+        if entry.get("cshape") != "rect" or not (entry.get("cw") or entry.get("warping")):
+            return 0
+        if entry.get("cw"):
+            return 2
+        ends = self.tables.ends[element - 1]
+        return sum(map(self._holds_warping, ends)) if self._meets(element) is None else 0
+
+    def _holds_warping(self, point: int) -> bool:
+        entry = self.tables.nodes.get(point, {})
+        return bool(entry.get("fix") or entry.get("fix_warp"))
+
+    def _meets(self, element: int) -> tuple[int, int] | None:
+        """Another element with warping at a free end of this one, and where; None without."""
+        for point in self.tables.ends[element - 1]:
+            others = [other for other in self.warping_at.get(point, ()) if other != element]
+            if others and not self._holds_warping(point):
+                return others[0], point
+        return None
+
+    def note_warping(self) -> None:
+        """Say, with its place, what of the warping is left out."""
+        warps = False
+        for element in range(1, len(self.tables.ends) + 1):
+            entry, number = self.tables.entry_of(element), self.tables.set_of.get(element, 0)
+            said = next((name for name in ("cw", "warping") if entry.get(name)), "")
+            warps = warps or bool(said)
+            why = ""
+            if said and (self.tables.planar or "emod" not in entry):
+                why = "it has no stiffness in torsion"
+            elif said == "warping" and (met := self._meets(element)) is not None:
+                why = f"at node {met[1]} it depends on element {met[0]}"
+            if why and entry.get("cshape") != "circ":
+                place = f"eprops[{number}].{said} of element {element}"
+                self.remarks.leave_out(f"warping: {place}: {why}")
+        for point, entry in self.tables.nodes.items():
+            if entry.get("fix_warp") and not warps:
+                self.remarks.leave_out(f"warping: nprops[{point}].fix_warp: no element warps")
+
+    def give_nodes(self) -> None:
+        """Classes, masses and loads of the nodes that elements use, and gravity."""
+        points = {
+            point: (entry, (self.position[point], self.orientation[point]))
+            for point, entry in self.tables.nodes.items()
+            if point <= len(self.tables.places)
+        }
+        for point, (entry, own) in points.items():
+            stated = self._fixed(entry, own)
+            self.remarks.leave_out(PRESCRIBED, int(self._prescribe(point, entry, own, stated)))
+            self.draft.coordinate_class.update(stated)
+        for point, (entry, own) in points.items():
+            for name, number in zip(("mass", "mominertia"), own, strict=True):
+                if self._is_given(point, entry, name, number):
+                    value = entry[name] if isinstance(entry[name], tuple) else (entry[name],)
+                    planar = self.draft.node_kind[number] == NodeKind.ANGLE
+                    self.draft.give_node_mass(number, value[-1:] if planar else value)
+        for point, (entry, own) in points.items():
+            for (stem, number), (kind, end) in product(
+                zip(("force", "moment"), own, strict=True), LOADS.items()
+            ):
+                if self._is_given(point, entry, f"{stem}{end}", number):
+                    axes = AXES[self.draft.node_kind[number]]
+                    table: dict[int, tuple[float, ...]] = getattr(self.draft, kind)
+                    table[number] = self._in_scene(entry[f"{stem}{end}"], axes)
+        gravity = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
+        self.draft.gravity = gravity
+
+    def _axes(self, number: int) -> tuple[int, ...]:
+        """Of a node that an element uses."""
+        return AXES[self.draft.node_kind[number]] if number in self.used else ()
+
+    def _fixed(self, entry: Entry, own: tuple[int, int]) -> dict[tuple[int, int], Class]:
+        """What is fixed of a position and an orientation."""
+        return {
+            (number, axis): Class.FIXED
+            for number, whole, stem in zip(own, ("fix_pos", "fix_orien"), ("", "r"), strict=True)
+            for axis in self._axes(number)
+            if any(entry.get(name) for name in ("fix", whole, f"fix_{stem}{LETTERS[axis]}"))
+        }
+
+    def _prescribe(
+        self, point: int, entry: Entry, own: tuple[int, int], stated: dict[tuple[int, int], Class]
+    ) -> bool:
+        """Make independent what moves as it is told; whether a value was told."""
+        told = False
+        for number, stem in zip(own, ("displ", "rot"), strict=True):
+            axes = self._axes(number)
+            names: dict[str, tuple[int, ...]] = {}
+            for start in (stem, f"{stem}_initial"):
+                names |= {f"{start}_{letter}": (axis,) for axis, letter in enumerate(LETTERS)}
+                names[start] = axes
+            for name in (each for each in names if each in entry):
+                where = f"nprops[{point}].{name}"
+                told = told or bool(np.any(entry[name]))
+                for place in ((number, axis) for axis in names[name]):
+                    if place[1] not in axes:
+                        self.found.error(where, "no element gives the node this coordinate")
+                    elif stated.get(place) == Class.FIXED:
+                        words = "the coordinate is fixed, too: it cannot move as it is told"
+                        self.found.error(where, words)
+                    else:
+                        stated[place] = Class.INDEPENDENT
+        return told
+
+    def _is_given(self, point: int, entry: Entry, name: str, number: int) -> bool:
+        """Whether a field is that of a node which an element uses; else that is said."""
+        if name in entry and number not in self.used:
+            self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
+        return name in entry and number in self.used
+
+    def _in_scene(
+        self, load: tuple[float, ...], axes: tuple[int, ...]
+    ) -> tuple[float, float, float]:
+        """A load without what is out of a plane."""
+        x, y, z = (value if axis in axes else 0.0 for axis, value in enumerate(load))
+        self.remarks.leave_out("loads out of the plane", int((x, y, z) != load))
+        return x, y, z
+
 
 __all__ = ["TablesError", "model_of", "tables_of"]
 
@@ -69,7 +396,7 @@ def model_of(
     require_kind(tables, Mapping, "tables are a mapping")
     if flexible not in FLEXIBLE:
         raise ValueError(f"flexible is one of {', '.join(FLEXIBLE)}, not {flexible!r}")
-    found = Found(text or Text(), name)
+    found = Found(text, name)
     checked = tables_given({key: _plain(value) for key, value in tables.items()}, found)
     found.require_none()
     checked.name = checked.name or name

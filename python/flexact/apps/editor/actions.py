@@ -7,7 +7,6 @@ import difflib
 import re
 from collections.abc import Iterator
 from itertools import islice, takewhile
-from typing import NamedTuple
 
 from ...advice.advice import Advice
 from ...advice.step import Step
@@ -15,9 +14,8 @@ from ...analysis.change import Change
 from ...analysis.naming import plain
 from ...model.editing import edited_deck
 from ...util.text import harmless
-from .deck import ELEMENT, NODE, Deck, Key, keys_in, span
-from .document import Document, Edit, Position, Range, split
-from .problems import Problem
+from .deck import ELEMENT, NODE, Deck, Document, Edit, Key, Position, Range, keys_in, span, split
+from .session import Problem
 
 _MEANT = re.compile(r"^did you mean ([!-~]+)\?$")
 _LONGEST_TITLE = 160
@@ -25,54 +23,40 @@ _LONGEST_TITLE = 160
 _MOST_COMPARED = 4_000_000
 
 
-class Remedy(NamedTuple):
-    """A step of the advice, or one of the choices that symmetry gives it."""
-
-    title: str
-    step: int
-    """From 1."""
-    choice: int
-    """From 1."""
-    makes_exact: bool
+#: A step of the advice, or one of the choices that symmetry gives it: its title, and the numbers of
+#: both, from 1.
+Remedy = tuple[str, int, int]
 
 
-def mends_of(deck: Deck, problem: Problem) -> list[tuple[str, Edit]]:
+def mends_of(deck: Deck, problem: Problem) -> Iterator[tuple[str, Edit]]:
     """Edits that do what the help of a problem says, each with its title."""
-    meant = _MEANT.match(problem.help)
-    if meant is not None:
-        return [(f"write {meant[1]}", Edit(problem.range, meant[1]))]
     at = problem.range.start
     line = deck.tokens[at.line]
-    if problem.code == "missing-end":
+    if (meant := _MEANT.match(problem.help)) is not None:
+        yield f"write {meant[1]}", Edit(problem.range, meant[1])
+    elif problem.code == "missing-end":
         start = Position(at.line, 0)
-        return [("write END before it", Edit(Range(start, start), f"END{deck.document.ending}"))]
-    if problem.code == "bad-comment" and line.text[at.character : at.character + 1] == ";":
-        here = Range.within(at.line, at.character, at.character + 1)
-        return [("write % instead", Edit(here, "%"))]
-    if problem.code == "duplicate-element" and line.element is not None and line.number_of(1):
+        yield "write END before it", Edit(Range(start, start), f"END{deck.document.ending}")
+    elif problem.code == "bad-comment" and line.text[at.character : at.character + 1] == ";":
+        yield "write % instead", Edit(Range.within(at.line, at.character, at.character + 1), "%")
+    elif problem.code == "duplicate-element" and line.element is not None and line.number_of(1):
         free = str(deck.index.free(ELEMENT))
-        return [(f"number it {free}", Edit(span(line, 1), free))]
-    if problem.code == "class-conflict":
-        places = dict.fromkeys((problem.range, *(one.range for one in problem.remarks)))
-        return list(_without_one(deck, places))
-    return []
-
-
-def _without_one(deck: Deck, places: dict[Range, None]) -> Iterator[tuple[str, Edit]]:
-    """Of two statements of a class, one keeps what both say; the other one's word goes."""
-    for range_ in places:
-        line = deck.tokens[range_.start.line]
-        words, place = line.words, line.word_at(range_.start.character)
-        where = f"line {line.number + 1}"
-        if place is None:
-            continue
-        if len(words) <= 3:
-            # Without a component all would be meant: the whole statement goes.
-            title = f"take {' '.join(word.text for word in words)} out, {where}"
-            yield title, Edit(span(line, 0, -1), "")
-        elif place > 1:
-            gap = Range.within(line.number, words[place - 1].behind, words[place].behind)
-            yield f"take {words[place].text} out of {line.name} in {where}", Edit(gap, "")
+        yield f"number it {free}", Edit(span(line, 1), free)
+    elif problem.code == "class-conflict":
+        # Of two statements of a class, one keeps what both say; the other one's word goes.
+        for range_ in dict.fromkeys((problem.range, *(one.range for one in problem.remarks))):
+            line = deck.tokens[range_.start.line]
+            words, place = line.words, line.word_at(range_.start.character)
+            where = f"line {line.number + 1}"
+            if place is None:
+                continue
+            if len(words) <= 3:
+                # Without a component all would be meant: the whole statement goes.
+                title = f"take {' '.join(word.text for word in words)} out, {where}"
+                yield title, Edit(span(line, 0, -1), "")
+            elif place > 1:
+                gap = Range.within(line.number, words[place - 1].behind, words[place].behind)
+                yield f"take {words[place].text} out of {line.name} in {where}", Edit(gap, "")
 
 
 def remedies_at(deck: Deck, advice: Advice, first: int, last: int) -> list[Remedy]:
@@ -98,8 +82,7 @@ def _touched(change: Change) -> set[Key]:
 
 
 def _remedy(step: Step, choice: int, change: Change) -> Remedy:
-    words = harmless(plain(step.pieces))
-    alike = words.partition("; likewise")[0].rstrip(".")
+    alike = harmless(plain(step.pieces)).partition("; likewise")[0].rstrip(".")
     if choice > 1:
         named = ", ".join([f"{kind} {number}" for kind, number in sorted(_touched(change))][:4])
         alike = f"{alike}: likewise at {named}"
@@ -107,7 +90,7 @@ def _remedy(step: Step, choice: int, change: Change) -> Remedy:
     room = _LONGEST_TITLE - len(outcome) - 2
     if len(alike) > room:
         alike = f"{alike[: room - 3]}..."
-    return Remedy(f"{alike}: {outcome}", step.number, choice, outcome == "exactly constrained")
+    return f"{alike}: {outcome}", step.number, choice
 
 
 def edits_of(deck: Deck, advice: Advice, step: int, choice: int) -> list[Edit]:

@@ -22,10 +22,13 @@ from ...deck.keywords import (
 )
 from ...deck.tokens import Line, Tokens
 from ...model.attributes import CrossSection
-from .deck import ELEMENT, NODE, Deck
-from .document import Position, Range
-from .hover import keyword_words
-from .names import components_of_element, components_of_node, designers_words, kind_words
+from .deck import ELEMENT, NODE, Deck, Position, Range
+from .hover import (
+    KIND_WORDS,
+    components_of,
+    designers_words,
+    keyword_words,
+)
 
 #: How many numbers are offered at once.
 _MOST = 200
@@ -95,8 +98,7 @@ def _keywords(block: Block) -> Iterator[Offer]:
         for name in ENDINGS:
             yield Offer(name, "keyword", "ends a block", about=keyword_words(name, block))
     if block is not Block.KINEMATICS and block is not Block.PICTURE:
-        visual = keywords()[Block.PICTURE, "VISUALIZATION"]
-        yield _statement(visual)
+        yield _statement(keywords()[Block.PICTURE, "VISUALIZATION"])
 
 
 def _element(name: str, block: Block) -> Offer:
@@ -134,10 +136,10 @@ def _operands(deck: Deck, line: Line, place: int, typed: str) -> Iterator[Offer]
         for number, kind in index.kinds.items():
             if wanted in (0, kind) and str(number).startswith(typed):
                 comment = index.comment((NODE, number))
-                detail = f"{kind_words(kind)}{f', {comment}' if comment else ''}"
+                detail = f"{KIND_WORDS[kind]}{f', {comment}' if comment else ''}"
                 yield Offer(str(number), "number", detail)
         if wanted:
-            yield Offer(str(index.free(NODE)), "number", f"free for {kind_words(wanted)}")
+            yield Offer(str(index.free(NODE)), "number", f"free for {KIND_WORDS[wanted]}")
     elif letter == "e":
         for number, made in index.made[ELEMENT].items():
             if str(number).startswith(typed):
@@ -146,23 +148,12 @@ def _operands(deck: Deck, line: Line, place: int, typed: str) -> Iterator[Offer]
                 yield Offer(str(number), "number", f"{name}{f', {comment}' if comment else ''}")
     elif letter == "i":
         taken = [line.number_of(k) for k in range(2, len(line.words)) if k != place]
-        for number, what in _components(deck, line).items():
+        owner, is_node = line.number_of(1), line.words[1].letter == "n"
+        for number, what in components_of(deck, line).items():
             if number not in taken:
-                yield Offer(str(number), "component", what)
+                own = "" if is_node else designers_words(deck, owner, number)
+                yield Offer(str(number), "component", own or what)
     elif letter == "w" and line.name in ("CROSSTYPE", "BEAMVIS", "TRUSSVIS"):
         for section in CrossSection:
             if section:
                 yield Offer(section.name, "word", "cross-section")
-
-
-def _components(deck: Deck, line: Line) -> dict[int, str]:
-    """The components of the node, or the deformations of the element, of a statement."""
-    owner = line.number_of(1)
-    if line.words[1].letter == "n":
-        kind = deck.index.kinds.get(owner)
-        return components_of_node(kind) if kind is not None else {}
-    made = deck.index.element(owner)
-    if made is None or made.element is None:
-        return {}
-    words = components_of_element(made.element, made.name)
-    return {k: designers_words(deck, owner, k) or each for k, each in words.items()}

@@ -16,9 +16,8 @@ from ...deck.keywords import Block, words_of
 from ...deck.tokens import Line
 from ...model.names import part_name
 from ...util.text import harmless
-from .deck import ELEMENT, Deck, Key, keys_in, span
-from .document import Edit, Position, Range
-from .names import kind_words
+from .deck import ELEMENT, Deck, Edit, Key, Position, Range, keys_in, span
+from .hover import KIND_WORDS
 
 One = TypeVar("One")
 Sort = Literal["group", "part", "element", "point", "statement"]
@@ -78,10 +77,17 @@ def outline_of(deck: Deck) -> list[Symbol]:
     return groups
 
 
-def _group(name: str, entries: list[One], make: Callable[[One], Symbol]) -> Symbol:
+def _group(
+    name: str,
+    entries: list[One],
+    make: Callable[[One], Symbol],
+    detail: str = "",
+    sort: Sort = "group",
+) -> Symbol:
+    """Entries, or the stretches that they stand in, below one that is named where the first is."""
     inner = _stretches(entries, make)
     first = min(inner, key=lambda each: each.range)
-    return Symbol(name, "", "group", _around(inner), first.own, tuple(inner))
+    return Symbol(name, detail, sort, _around(inner), first.own, tuple(inner))
 
 
 def _stretches(entries: list[One], make: Callable[[One], Symbol]) -> list[Symbol]:
@@ -117,15 +123,13 @@ def _part(deck: Deck, name: str, lines: list[int]) -> Symbol:
     if len(lines) == 1:
         one = _element(deck, lines[0])._replace(sort="part")
         return one if name.startswith("\0") else one._replace(name=name, detail=one.name)
-    inner = tuple(_stretches(lines, partial(_element, deck)))
-    first = min(inner, key=lambda each: each.range)
-    return Symbol(name, f"{len(lines)} elements", "part", _around(inner), first.own, inner)
+    return _group(name, lines, partial(_element, deck), f"{len(lines)} elements", "part")
 
 
 def _node(deck: Deck, number: int) -> Symbol:
     line = deck.tokens[number]
     kind = deck.index.kinds.get(line.number_of(1))
-    words = kind_words(kind) if kind is not None else "node"
+    words = KIND_WORDS[kind] if kind is not None else "node"
     name = f"node {line.words[1].text}" if len(line.words) > 1 else "node"
     if line.comment and kind is not None and kind > 0 and is_position(kind):
         name = f"{name}: {harmless(line.comment)}"
@@ -224,7 +228,7 @@ def rename_at(deck: Deck, position: Position, new: str) -> list[Edit]:
     number = int(new)
     if number == old:
         return []
-    if deck.index.is_used((kind, number)):
+    if deck.index.where((kind, number)):
         article = "an" if kind == ELEMENT else "a"
         raise RenameError(f"there is {article} {kind} {number} already; {free} is free")
     for at in deck.tokens.lines_of(*_MIXED).tolist():

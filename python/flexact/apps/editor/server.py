@@ -7,26 +7,27 @@ import asyncio
 import contextlib
 import gc
 import logging
-from collections.abc import Callable, Generator
+import re
+from collections.abc import Callable, Generator, Iterable
 from functools import partial
-from typing import Any, BinaryIO, NamedTuple
+from types import SimpleNamespace
+from typing import Any, BinaryIO
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
+from ...deck.diagnostics import Severity
 from ...util.errors import FlexactError
 from ...util.loading import VERSION
-from . import conversion
 from .actions import edits_of, mends_of, remedies_at
-from .completion import complete_at
-from .conversion import position_in, range_of
-from .deck import Deck
-from .document import Document
+from .completion import Offers, complete_at
+from .deck import Deck, Document, Edit, Position, Range
 from .hover import hover_at
 from .outline import (
     RenameError,
+    Symbol,
     definition_at,
     folds_of,
     outline_of,
@@ -34,7 +35,131 @@ from .outline import (
     references_at,
     rename_at,
 )
-from .session import OneAtATime, Seen, Session, beside
+from .session import OneAtATime, Opinion, Problem, Remark, Seen, Session, beside
+
+_SEVERITIES = {
+    Severity.ERROR: lsp.DiagnosticSeverity.Error,
+    Severity.WARNING: lsp.DiagnosticSeverity.Warning,
+    Severity.NOTE: lsp.DiagnosticSeverity.Information,
+}
+_SORTS = {
+    "group": lsp.SymbolKind.Namespace,
+    "part": lsp.SymbolKind.Class,
+    "element": lsp.SymbolKind.Object,
+    "point": lsp.SymbolKind.Field,
+    "statement": lsp.SymbolKind.Property,
+}
+_KINDS = {
+    "keyword": lsp.CompletionItemKind.Keyword,
+    "number": lsp.CompletionItemKind.Reference,
+    "component": lsp.CompletionItemKind.EnumMember,
+    "word": lsp.CompletionItemKind.Value,
+}
+
+
+def position_in(document: Document, given: lsp.Position) -> Position:
+    """A position as the editor counts, as ours."""
+    return document.taken(given.line, given.character)
+
+
+def range_of(document: Document, ours: Range) -> lsp.Range:
+    """A range as the editor counts."""
+    return lsp.Range(*(lsp.Position(*document.given(each)) for each in ours))
+
+
+def locations(document: Document, ours: Iterable[Range]) -> list[lsp.Location]:
+    """Some ranges of a document."""
+    return [lsp.Location(document.uri, range_of(document, one)) for one in ours]
+
+
+def diagnostic(document: Document, one: Problem, *, with_related: bool) -> lsp.Diagnostic:
+    """A problem; where the editor shows no related places, its message says them."""
+    message, related = one.message, None
+    if not with_related:
+        message = "\n".join((message, *(_remark(each, one.range) for each in one.remarks)))
+    elif one.remarks:
+        places = locations(document, (each.range for each in one.remarks))
+        related = [
+            lsp.DiagnosticRelatedInformation(place, each.text)
+            for place, each in zip(places, one.remarks, strict=True)
+        ]
+    return lsp.Diagnostic(
+        range=range_of(document, one.range),
+        severity=_SEVERITIES[one.severity],
+        code=one.code,
+        source="flexact",
+        message=message,
+        related_information=related,
+    )
+
+
+def _remark(one: Remark, where: Range) -> str:
+    """A remark on a problem that stands in a place."""
+    return one.text if one.range == where else f"line {one.range.start.line + 1}: {one.text}"
+
+
+def verdict(document: Document, opinion: Opinion, *, with_related: bool) -> lsp.Diagnostic:
+    """The verdict, as an information on the first line."""
+    first, last = re.search(r"^\s*(\S*)", document.bare[0]).span(1)  # type: ignore[union-attr]
+    where = Range.within(0, first, last)
+    said = Problem(where, Severity.NOTE, "verdict", opinion.words, opinion.remarks)
+    return diagnostic(document, said, with_related=with_related)
+
+
+def markup(text: str, *, is_markdown: bool) -> lsp.MarkupContent:
+    """Markdown, or the same as plain text."""
+    if is_markdown:
+        return lsp.MarkupContent(lsp.MarkupKind.Markdown, text)
+    return lsp.MarkupContent(lsp.MarkupKind.PlainText, re.sub(r"[*`]|  (?=\n)", "", text))
+
+
+def completions(document: Document, found: Offers, *, snippets: bool) -> lsp.CompletionList:
+    """What may stand there, in the order in which it is offered."""
+    place, offers, is_complete = found
+    where = range_of(document, place)
+    items = [
+        lsp.CompletionItem(
+            label=one.label,
+            kind=_KINDS[one.kind],
+            detail=one.detail or None,
+            documentation=markup(one.about, is_markdown=True) if one.about else None,
+            sort_text=f"{order:05}",
+            filter_text=one.label,
+            insert_text_format=lsp.InsertTextFormat.Snippet if snippets and one.snippet else None,
+            text_edit=lsp.TextEdit(where, (snippets and one.snippet) or one.label),
+        )
+        for order, one in enumerate(offers)
+    ]
+    return lsp.CompletionList(is_incomplete=not is_complete, items=items)
+
+
+def symbol(document: Document, one: Symbol) -> lsp.DocumentSymbol:
+    """An entry of the outline with those below it."""
+    return lsp.DocumentSymbol(
+        name=one.name,
+        detail=one.detail or None,
+        kind=_SORTS[one.sort],
+        range=range_of(document, one.range),
+        selection_range=range_of(document, one.own),
+        children=[symbol(document, each) for each in one.inner] or None,
+    )
+
+
+def flat_symbols(document: Document, some: Iterable[Symbol]) -> list[lsp.SymbolInformation]:
+    """Entries of the outline and those below them, for an editor that shows no levels."""
+    made = []
+    for one in some:
+        (place,) = locations(document, [one.range])
+        made.append(lsp.SymbolInformation(location=place, name=one.name, kind=_SORTS[one.sort]))
+        made += flat_symbols(document, one.inner)
+    return made
+
+
+def workspace_edit(document: Document, ours: Iterable[Edit]) -> lsp.WorkspaceEdit:
+    """Edits of one document."""
+    made = [lsp.TextEdit(range_of(document, one.range), one.text) for one in ours]
+    return lsp.WorkspaceEdit(changes={document.uri: made})
+
 
 #: A request that was understood and cannot be fulfilled.
 _FAILED = -32803
@@ -42,40 +167,33 @@ _FAILED = -32803
 _PATIENCE = 15.0
 
 
-class Client(NamedTuple):
-    """What an editor can show."""
+def client_of(params: lsp.InitializeParams) -> SimpleNamespace:
+    """What an editor can show, each true or false.
 
-    related: bool = False
-    """Places that belong to a diagnostic."""
-    markdown: bool = False
-    snippets: bool = False
-    outline: bool = False
-    """An outline with levels."""
-    resolves: bool = False
-    """Whether it asks for the edit of an action when the action is taken."""
-    verdict: bool = False
-    """Whether it wants the verdict in messages of its own, flexact/verdict."""
-
-    @classmethod
-    def of(cls, params: lsp.InitializeParams) -> Client:
-        """The editor that sends this."""
-        text = params.capabilities.text_document or lsp.TextDocumentClientCapabilities()
-        given = params.initialization_options
-        options: dict[str, Any] = given if isinstance(given, dict) else {}
-        published, hover = text.publish_diagnostics, text.hover
-        item = text.completion.completion_item if text.completion else None
-        symbols, action = text.document_symbol, text.code_action
-        resolved = action.resolve_support if action else None
-        formats = (hover.content_format if hover else None) or []
-        return cls(
-            related=bool(published and published.related_information)
-            and options.get("help") != "message",
-            markdown=lsp.MarkupKind.Markdown in formats,
-            snippets=bool(item and item.snippet_support),
-            outline=bool(symbols and symbols.hierarchical_document_symbol_support),
-            resolves=bool(resolved and "edit" in resolved.properties),
-            verdict=options.get("verdict") is True,
-        )
+    Attributes:
+        related: Places that belong to a diagnostic.
+        markdown: Likewise.
+        snippets: Likewise.
+        outline: An outline with levels.
+        resolves: Whether it asks for the edit of an action when the action is taken.
+        verdict: Whether it wants the verdict in messages of its own, flexact/verdict.
+    """
+    text = params.capabilities.text_document or lsp.TextDocumentClientCapabilities()
+    given = params.initialization_options
+    options: dict[str, Any] = given if isinstance(given, dict) else {}
+    published, hover = text.publish_diagnostics, text.hover
+    item = text.completion.completion_item if text.completion else None
+    symbols, action = text.document_symbol, text.code_action
+    resolved = action.resolve_support if action else None
+    return SimpleNamespace(
+        related=bool(published and published.related_information)
+        and options.get("help") != "message",
+        markdown=lsp.MarkupKind.Markdown in ((hover.content_format if hover else None) or []),
+        snippets=bool(item and item.snippet_support),
+        outline=bool(symbols and symbols.hierarchical_document_symbol_support),
+        resolves=bool(resolved and "edit" in resolved.properties),
+        verdict=options.get("verdict") is True,
+    )
 
 
 class _Protocol(LanguageServerProtocol):
@@ -116,7 +234,7 @@ class DeckServer(LanguageServer):
     def __init__(self) -> None:
         """Nothing is open."""
         super().__init__("flexact", VERSION, protocol_cls=_Protocol)
-        self.client = Client()
+        self.client = client_of(lsp.InitializeParams(lsp.ClientCapabilities()))
         self.sessions: dict[str, Session] = {}
         #: Whether the editor said that it is about to end.
         self.was_shut_down = False
@@ -143,7 +261,7 @@ class DeckServer(LanguageServer):
                 end = position_in(document, change.range.end)
                 document = document.changed(start, end, change.text, item.version)
             else:
-                document = document.replaced(change.text, item.version)
+                document = Document.of(change.text, document.uri, item.version, document.encoding)
         session.change(Deck(document))
 
     def close(self, uri: str) -> None:
@@ -160,9 +278,9 @@ class DeckServer(LanguageServer):
         if session is None or session.seen is not seen:
             return
         related = self.client.related
-        made = [conversion.diagnostic(document, one, with_related=related) for one in problems]
+        made = [diagnostic(document, one, with_related=related) for one in problems]
         if opinion is not None:
-            made.append(conversion.verdict(document, opinion, with_related=related))
+            made.append(verdict(document, opinion, with_related=related))
         self.text_document_publish_diagnostics(
             lsp.PublishDiagnosticsParams(document.uri, made, document.version)
         )
@@ -182,7 +300,7 @@ class DeckServer(LanguageServer):
         found = hover_at(deck, position_in(deck.document, params.position))
         if found is None:
             return None
-        words = conversion.markup(found[0], is_markdown=self.client.markdown)
+        words = markup(found[0], is_markdown=self.client.markdown)
         return lsp.Hover(words, range_of(deck.document, found[1]))
 
     def completion(self, deck: Deck, params: lsp.CompletionParams) -> lsp.CompletionList:
@@ -190,10 +308,10 @@ class DeckServer(LanguageServer):
         document, context = deck.document, params.context
         offers = complete_at(deck, position_in(document, params.position))
         is_typed = context and context.trigger_kind == lsp.CompletionTriggerKind.TriggerCharacter
-        if is_typed and any(one.kind == "keyword" for one in offers.offers):
+        if is_typed and any(one.kind == "keyword" for one in offers[1]):
             # A blank at the start of a line asks for nothing.
             return lsp.CompletionList(is_incomplete=False, items=[])
-        return conversion.completions(document, offers, snippets=self.client.snippets)
+        return completions(document, offers, snippets=self.client.snippets)
 
     def symbols(
         self, deck: Deck, _: lsp.DocumentSymbolParams
@@ -201,8 +319,8 @@ class DeckServer(LanguageServer):
         """The outline."""
         found = outline_of(deck)
         if not self.client.outline:
-            return conversion.flat_symbols(deck.document, found)
-        return [conversion.symbol(deck.document, one) for one in found]
+            return flat_symbols(deck.document, found)
+        return [symbol(deck.document, one) for one in found]
 
     async def actions(self, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
         """What can be done at a place."""
@@ -223,28 +341,28 @@ class DeckServer(LanguageServer):
         for problem in seen.problems or ():
             if not first <= problem.range.start.line <= last:
                 continue
-            shown = conversion.diagnostic(document, problem, with_related=related)
-            mends = mends_of(seen.deck, problem)
+            shown = diagnostic(document, problem, with_related=related)
+            mends = list(mends_of(seen.deck, problem))
             for title, edit in mends:
                 action = _fix(title, shown)
-                action.edit = conversion.edits(document, [edit])
+                action.edit = workspace_edit(document, [edit])
                 action.is_preferred = len(mends) == 1 or None
                 made.append(action)
         if seen.advice is None or seen.opinion is None:
             return made
-        shown = conversion.verdict(document, seen.opinion, with_related=related)
-        for remedy in remedies_at(seen.deck, seen.advice, first, last):
-            action = _fix(remedy.title, shown)
+        shown = verdict(document, seen.opinion, with_related=related)
+        for title, step, choice in remedies_at(seen.deck, seen.advice, first, last):
+            action = _fix(title, shown)
             made.append(action)
             if self.client.resolves:
                 action.data = {
                     "uri": document.uri,
                     "version": document.version,
-                    "step": remedy.step,
-                    "choice": remedy.choice,
+                    "step": step,
+                    "choice": choice,
                 }
             else:
-                _fill(seen, action, remedy.step, remedy.choice)
+                _fill(seen, action, step, choice)
         return made
 
     async def resolve(self, action: lsp.CodeAction) -> lsp.CodeAction:
@@ -269,20 +387,20 @@ def _fill(seen: Seen, action: lsp.CodeAction, step: int, choice: int) -> None:
         return
     with contextlib.suppress(FlexactError):
         edits = edits_of(seen.deck, seen.advice, step, choice)
-        action.edit = conversion.edits(seen.deck.document, edits)
+        action.edit = workspace_edit(seen.deck.document, edits)
 
 
 def _definition(deck: Deck, params: lsp.DefinitionParams) -> list[lsp.Location]:
     """Where a node or an element is made."""
     found = definition_at(deck, position_in(deck.document, params.position))
-    return conversion.locations(deck.document, found)
+    return locations(deck.document, found)
 
 
 def _references(deck: Deck, params: lsp.ReferenceParams) -> list[lsp.Location]:
     """Where a node or an element is named."""
     own = params.context.include_declaration
     found = references_at(deck, position_in(deck.document, params.position), own)
-    return conversion.locations(deck.document, found)
+    return locations(deck.document, found)
 
 
 def _highlights(deck: Deck, params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
@@ -303,7 +421,7 @@ def _rename(deck: Deck, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
         edits = rename_at(deck, position_in(deck.document, params.position), params.new_name)
     except RenameError as error:
         raise JsonRpcException(str(error), _FAILED) from None
-    return conversion.edits(deck.document, edits)
+    return workspace_edit(deck.document, edits)
 
 
 def _folds(deck: Deck, _: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
@@ -320,7 +438,7 @@ def make_server() -> DeckServer:
     server = DeckServer()
 
     def initialize(params: lsp.InitializeParams) -> None:
-        server.client = Client.of(params)
+        server.client = client_of(params)
 
     def shut_down(*_: object) -> None:
         server.was_shut_down = True

@@ -21,12 +21,22 @@ from ...show.page.content import kind_of
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import why
 from ...util.text import harmless
-from .editable_model import Board, Edit, Edits, Place, RefusedError, state_word, states_of
-from .edited_text import Calls, EditedDeck, edited, free_name, write_deck
-from .messages import Answer, Broken, ResultSummary, Shown, summary_of
+from .editable_model import (
+    Board,
+    Edit,
+    EditedDeck,
+    Edits,
+    Place,
+    RefusedError,
+    Renewal,
+    edited,
+    free_name,
+    state_word,
+    states_of,
+    write_deck,
+)
 from .offers import (
     Json,
-    Proposals,
     edit_in_words,
     names,
     panel_of_element,
@@ -36,84 +46,48 @@ from .offers import (
     proposals,
     target_named,
 )
-from .rebase_edits import Renewal
-from .scene import Stage
-from .worker import shown_of
+from .scene import Answer, Broken, ResultSummary, Shown, Stage, shown_of, summary_of
 
 #: How many steps can be undone.
 _MOST_EDITS = 200
 
 
-class History:
+class History(NamedTuple):
     """The states of the edits, and which of them holds."""
 
-    def __init__(self) -> None:
-        """Without any edit."""
-        self._states: list[Edits] = [()]
-        self._at = 0
-
-    def copy(self) -> History:
-        """The same again, to go back to."""
-        made = History()
-        made._states, made._at = self._states, self._at
-        return made
+    states: tuple[Edits, ...] = ((),)
+    at: int = 0
 
     @property
     def now(self) -> Edits:
         """The edits that hold."""
-        return self._states[self._at]
+        return self.states[self.at]
 
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is a state before."""
-        return self._at > 0
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is a state behind."""
-        return self._at + 1 < len(self._states)
-
-    def take(self, edits: Edits) -> None:
-        """Take a new state; what was undone is gone."""
+    def taken(self, edits: Edits) -> History:
+        """With a new state; what was undone is gone."""
         if edits == self.now:
-            return
-        self._states = [*self._states[: self._at + 1], edits][-_MOST_EDITS - 1 :]
-        self._at = len(self._states) - 1
+            return self
+        states = (*self.states[: self.at + 1], edits)[-_MOST_EDITS - 1 :]
+        return History(states, len(states) - 1)
 
-    def undo(self) -> None:
-        """Go back to the state before, if there is one."""
-        self._at = max(self._at - 1, 0)
+    def moved(self, step: int) -> History:
+        """At the state before (-1) or behind (1), if there is one; else where it is."""
+        return self._replace(at=min(max(self.at + step, 0), len(self.states) - 1))
 
-    def redo(self) -> None:
-        """Take the state that was undone, if there is one."""
-        self._at = min(self._at + 1, len(self._states) - 1)
-
-    def renewed(self, change: Callable[[Edits], Edits]) -> None:
-        """Change every state; neighbours that are the same then are one."""
+    def renewed(self, change: Callable[[Edits], Edits]) -> History:
+        """With every state changed; neighbours that are the same then are one."""
         states: list[Edits] = []
         at = 0
-        for k, state in enumerate(map(change, self._states)):
+        for k, state in enumerate(map(change, self.states)):
             if not states or state != states[-1]:
                 states.append(state)
-            if k == self._at:
+            if k == self.at:
                 at = len(states) - 1
-        self._states, self._at = states, at
+        return History(tuple(states), at)
 
 
 #: How many switches a request may have.
 _MOST_SWITCHES = 20_000
-#: Bytes of the largest request.
-MOST_BYTES = 4_000_000
-
-
-class Reply(NamedTuple):
-    """The answer to a request."""
-
-    changed: bool
-    """Whether the mechanism is to be analysed anew."""
-    content: Json
-    """What is answered, as JSON; "error" in words where it was refused."""
-    status: HTTPStatus = HTTPStatus.OK
 
 
 class Session:
@@ -130,9 +104,8 @@ class Session:
         self.watched, self.stage, self.model_name = watched, stage or Stage(watched.name), model
         self.history = History()
         self._board: Board | None = None
-        self._calls: Calls | None = None
         self._now: Result | None = None
-        self._proposed: tuple[Proposals, ...] | None = None
+        self._proposed: list[Json] | None = None
         self._deck: tuple[Edits, EditedDeck] | None = None
         self._is_broken = False
         self._said: tuple[str, ...] = ()
@@ -201,13 +174,13 @@ class Session:
             says the same now.
         """
         old, self._board = self._board, Board(base)
-        self._calls, self._proposed, self._deck = Calls(self._board), None, None
+        self._proposed, self._deck = None, None
         self._now, self._is_broken, self._said = None, False, ()
         if old is not None:
-            before = self.history.now
+            before = self.history
             renewal = Renewal(old, self._board)
-            self.history.renewed(renewal.edits)
-            self._said = tuple(_dropped(renewal, before, self.history.now))
+            self.history = before.renewed(renewal.edits)
+            self._said = tuple(_dropped(renewal, before.now, self.history.now))
         return self._said
 
     def _take(self) -> None:
@@ -262,11 +235,10 @@ class Session:
         """The deck with all edits, and the lines that differ."""
         edits = self.history.now
         if self._deck is None or self._deck[0] != edits:
-            changed = self.board.model(edits)
-            self._deck = (edits, edited(self.board.given, changed))
+            self._deck = (edits, edited(self.board.given, self.board.model(edits)))
         return self._deck[1]
 
-    def proposals(self) -> tuple[Proposals, ...]:
+    def proposals(self) -> list[Json]:
         """What the advice proposes for the mechanism as it is now."""
         if self._proposed is None:
             self._proposed = proposals(self.board, self.now)
@@ -284,20 +256,17 @@ class Session:
                 self._take()
             except FlexactError as error:
                 return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": str(error)}
-            before = self.history.copy()
-            reply = self.answered(body)
-            if reply.changed:
+            before = self.history
+            status, content = self.answered(body)
+            if self.history.now != before.now:
                 try:
                     self._show(self._analysed())
                 except (FlexactError, MemoryError) as error:
                     self.history = before
                     words = f"this cannot be analysed: {_in_short(error)}"
                     return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": words}
-            if reply.changed or "told" in reply.content:
-                is_there = self._board is not None and not self._is_broken
-                looks = {"kind": kind_of(self.now)[0]} if is_there else {}
-                reply.content["told"] = {**self.told(), **looks}
-            return reply.status, reply.content
+                content["told"] = self.told()
+            return status, content
 
     def _show(self, now: Result) -> None:
         """Show a result, unless another one comes meanwhile."""
@@ -317,7 +286,7 @@ class Session:
                 shown: Answer = self._with_edits(now, summary)
             except Exception as error:
                 words = _in_short(error)
-                shown = Broken("cannot be drawn", text(words), text(words), words, ())
+                shown = Broken(text(words), text(words), words, ())
             with self._lock:
                 if number == self._number:
                     self.stage.put(shown)
@@ -332,22 +301,19 @@ class Session:
         which = f"{self._file.which}, {changes}" if self._file.which else changes
         return shown_of(now, summary, which, self._file.files, is_edited=True)
 
-    def answered(self, body: bytes) -> Reply:
-        """Do what the body of a request says; what it cannot is told in words."""
+    def answered(self, body: bytes) -> tuple[HTTPStatus, Json]:
+        """Do what the body of a request says; what it cannot is told in words, as "error"."""
         try:
-            if len(body) > MOST_BYTES:
-                words, status = "the request is too long", HTTPStatus.REQUEST_ENTITY_TOO_LARGE
-                raise RefusedError(words, status)
             try:
                 request = json.loads(body)
             except (ValueError, RecursionError):
                 raise RefusedError("the request is no JSON", HTTPStatus.BAD_REQUEST) from None
-            return self.ask(request)
+            return HTTPStatus.OK, self.ask(request)
         except RefusedError as error:
-            return Reply(False, {"error": str(error)}, error.status)
+            return error.status, {"error": str(error)}
 
-    def ask(self, request: object) -> Reply:
-        """Do what a request says.
+    def ask(self, request: object) -> Json:
+        """Do what a request says; what is answered.
 
         Args:
             request: A JSON object; "do" is one of "set", "undo", "redo", "reset", "look",
@@ -358,19 +324,14 @@ class Session:
         """
         if not isinstance(request, Mapping):
             raise RefusedError('a JSON object with "do" is wanted')
-        what = request.get("do")
-        steps = {
-            "undo": self.history.undo,
-            "redo": self.history.redo,
-            "reset": lambda: self.history.take(()),
-        }
         actions: dict[str, Callable[[Mapping[str, Any]], Json]] = {
             "set": self._set,
-            **{name: lambda _: self._stepped(steps[str(what)]) for name in steps},
+            **dict.fromkeys(("undo", "redo", "reset"), self._step),
             "look": self._look,
             "save": self._save,
             "tell": lambda _: {"told": self.told()},
         }
+        what = request.get("do")
         if not isinstance(what, str) or what not in actions:
             known = ", ".join(actions)
             raise RefusedError(f'"do" must be one of {known}, not {_short(what)}')
@@ -378,12 +339,13 @@ class Session:
         content = actions[what](request)
         if self.history.now != before:
             self._said = ()
-        return Reply(self.history.now != before, content)
+        return content
 
-    def _stepped(self, step: Callable[[], None]) -> Json:
-        """Go a step through the history, where the file has no errors."""
+    def _step(self, request: Mapping[str, Any]) -> Json:
+        """Go through the history, where the file has no errors."""
         _ = self.board
-        step()
+        steps = {"undo": self.history.moved(-1), "redo": self.history.moved(1)}
+        self.history = steps.get(request["do"]) or self.history.taken(())
         return {}
 
     def _set(self, request: Mapping[str, Any]) -> Json:
@@ -391,7 +353,7 @@ class Session:
         if not isinstance(given, list) or len(given) > _MOST_SWITCHES:
             raise RefusedError('"set" must be a list of what is switched')
         new = [self._edit(each) for each in given]
-        self.history.take(self.board.edited(self.history.now, new))
+        self.history = self.history.taken(self.board.edited(self.history.now, new))
         return {}
 
     def _look(self, request: Mapping[str, Any]) -> Json:
@@ -401,13 +363,8 @@ class Session:
             if not isinstance(name, str):
                 raise RefusedError('"name" must be text')
             request = target_named(self.board, name)
-        wanted = {
-            edit
-            for each in self.proposals()
-            for item in each.items
-            for choice in item.choices
-            for edit in choice.edits
-        }
+        items = (item for each in self.proposals() for item in each["items"])
+        wanted = [edit for item in items for choice in item["choices"] for edit in choice["set"]]
         for key, panel in (("element", panel_of_element), ("node", panel_of_node)):
             if key in request:
                 number = _number(request, key)
@@ -455,31 +412,15 @@ class Session:
                 {"words": edit_in_words(board, each), "place": place_json(each.place)}
                 for each in edits
             ],
-            "undo": self.history.can_undo,
-            "redo": self.history.can_redo,
-            "proposals": [
-                {
-                    "head": each.head,
-                    "more": each.more,
-                    "items": [
-                        {
-                            "words": item.words,
-                            "place": place_json(item.choices[0].edits[0].place),
-                            "choices": [
-                                {"word": choice.word, "set": [_edit_json(e) for e in choice.edits]}
-                                for choice in item.choices
-                            ],
-                        }
-                        for item in each.items
-                    ],
-                }
-                for each in self.proposals()
-            ],
+            "undo": self.history.moved(-1) != self.history,
+            "redo": self.history.moved(1) != self.history,
+            "proposals": self.proposals(),
             "names": names(board),
             "said": list(self._said),
             "save": harmless(free_name(self.watched)),
             "folder": harmless(str(self.watched.absolute().parent)),
             **self._how(),
+            "kind": kind_of(now)[0],
         }
 
     def _how(self) -> Json:
@@ -488,8 +429,7 @@ class Session:
         if not edits:
             return made
         if self.board.given.source is None:
-            assert self._calls is not None
-            calls = [call.in_words(self.model_name) for call in self._calls.of(edits)]
+            calls = [call.in_words(self.model_name) for call in self.board.calls(edits)]
             return {**made, "calls": calls, "copy": "\n".join(calls)}
         deck = self.deck()
         note = ""
@@ -516,10 +456,6 @@ def _dropped(renewal: Renewal, before: Edits, after: Edits) -> Iterator[str]:
         elif place not in left:
             state = state_word(place, renewal.new.before(place))
             yield f"The file says so itself now: {words} is {state}."
-
-
-def _edit_json(edit: Edit) -> Json:
-    return {**place_json(edit.place), "to": state_word(edit.place, edit.to)}
 
 
 def _number(given: Mapping[str, Any], key: str) -> int:

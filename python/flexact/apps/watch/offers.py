@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from .editable_model import (
     Edits,
     Place,
     RefusedError,
+    index_of,
     state_word,
     states_of,
 )
@@ -92,14 +93,6 @@ def element_words(board: Board, index: int) -> str:
     return f"{keyword} {arrays.element_number[index]}"
 
 
-def elements_words(board: Board, part: Part) -> str:
-    """All elements of a part as a deck has them."""
-    words = [element_words(board, index) for index in part.elements]
-    return ", ".join(
-        words if len(words) <= 4 else [*words[:2], "\N{HORIZONTAL ELLIPSIS}", words[-1]]
-    )
-
-
 def node_title(board: Board, index: int) -> str:
     """What a node is called: a point of a body by its part, a turn by what turns."""
     if board.given.arrays.node_kind[index] <= NodeKind.POSITION:
@@ -123,31 +116,10 @@ _OF_ALL: dict[Step, Sequence[tuple[str, Class]]] = {
 }
 
 
-class Choice(NamedTuple):
-    """What is done with a part."""
-
-    word: str
-    """Such as "release"."""
-    edits: tuple[Edit, ...]
+Json = dict[str, Any]
 
 
-class Proposal(NamedTuple):
-    """A part, and what can be done with it."""
-
-    words: str
-    choices: tuple[Choice, ...]
-
-
-class Proposals(NamedTuple):
-    """Proposals of one kind."""
-
-    head: str
-    items: tuple[Proposal, ...]
-    more: bool
-    """Whether there are more of them."""
-
-
-def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
+def proposals(board: Board, now: Result) -> list[Json]:
     """What may be done about the motions and the self-stresses of the mechanism as it is now."""
     ways = (*on_motions(now), *on_self_stresses(now))
     if now.folds:
@@ -156,42 +128,46 @@ def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
     if any(way.step is Step.DECLARE_INTERNAL for way in ways):
         # What else there is to do is seen once each divided part is one beam.
         ways = tuple(way for way in ways if way.step is Step.DECLARE_INTERNAL)
-    made = (_proposals(board, now, way) for way in ways)
-    return tuple(each for each in made if each.items)
+    return [made for way in ways if (made := _proposals(board, now, way))["items"]]
 
 
-def _proposals(board: Board, now: Result, way: Way) -> Proposals:
-    items: dict[str, Proposal] = {}
+def _proposals(board: Board, now: Result, way: Way) -> Json:
+    """Parts, and of each what can be done with it, such as to release it."""
+    items: dict[str, Json] = {}
     if way.step in _OF_ALL:
-        places = [place for part in way.parts for place in _every_place(board, part)]
-        if places:
+        if places := [place for part in way.parts for place in _every_place(board, part)]:
             count = len(way.parts)
             words = f"what is inside {count} beam{'s' * (count != 1)}"
             if way.step is not Step.DECLARE_INTERNAL:
                 words = listed(list(dict.fromkeys(place_in_words(board, each) for each in places)))
-            choices = (
-                Choice(word, tuple(Edit(place, to) for place in places))
-                for word, to in _OF_ALL[way.step]
-            )
-            items[words] = Proposal(words, tuple(choices))
+            items[words] = _proposal(words, places, _OF_ALL[way.step])
     else:
         for part in way.parts:
-            if (place := _place(board, now, part)) is not None:
+            is_coordinate = isinstance(part, Coordinate)
+            if (place := _place(board, part)) is not None:
                 words = place_in_words(board, place)
-                verbs = _of_one(way.step, isinstance(part, Coordinate))
-                choices = (Choice(word, (Edit(place, to),)) for word, to in verbs)
-                items.setdefault(words, Proposal(words, tuple(choices)))
+                release, stop = ("free", "fix") if is_coordinate else ("release", "hold")
+                verbs = [(release, Class.DEPENDENT)]
+                if way.step in (Step.DECLARE_OR_HOLD, Step.DECLARE_OR_HOLD_RELEASED):
+                    verbs = [("declare", Class.INDEPENDENT), (stop, Class.FIXED)]
+                items.setdefault(words, _proposal(words, [place], verbs))
     most = _MOST_SUPPORTS if way.step is Step.FREE_SUPPORT else _MOST
-    every = tuple(items.values())
-    return Proposals(_head(now, way.step), every[:most], way.more or len(every) > most)
+    return {
+        "head": _head(now, way.step),
+        "more": way.more or len(items) > most,
+        "items": list(items.values())[:most],
+    }
 
 
-def _of_one(step: Step, is_coordinate: bool) -> Sequence[tuple[str, Class]]:
-    """What can be done with one part."""
-    if step in (Step.DECLARE_OR_HOLD, Step.DECLARE_OR_HOLD_RELEASED):
-        stop = "fix" if is_coordinate else "hold"
-        return ("declare", Class.INDEPENDENT), (stop, Class.FIXED)
-    return (("free" if is_coordinate else "release", Class.DEPENDENT),)
+def _proposal(words: str, places: list[Place], verbs: Sequence[tuple[str, Class]]) -> Json:
+    choices = [
+        {
+            "word": word,
+            "set": [{**place_json(place), "to": state_word(place, to)} for place in places],
+        }
+        for word, to in verbs
+    ]
+    return {"words": words, "place": place_json(places[0]), "choices": choices}
 
 
 def _head(now: Result, step: Step) -> str:
@@ -211,14 +187,13 @@ def _head(now: Result, step: Step) -> str:
     }[step]
 
 
-def _place(board: Board, now: Result, part: WayPart) -> Place | None:
+def _place(board: Board, part: WayPart) -> Place | None:
     if isinstance(part, Coordinate):
         return board.coordinate(part.node, part.name)
     element, number = map(int, part.operands.split()[:2])
     index = board.given.element_index[element]
     whole = board.wholes.get(index)
-    ends = () if whole is None else (whole.elements[0], whole.elements[-1])
-    if whole is not None and index not in ends:
+    if whole is not None and index not in (whole.elements[0], whole.elements[-1]):
         # Inside of a flexure that is switched as one there is nothing to be switched.
         return None
     try:
@@ -241,24 +216,20 @@ _MOST_NEAR, _MOST_POINTS = 10, 3
 #: How many names are offered.
 MOST_NAMES = 400
 
-Json = dict[str, Any]
 
-
-def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collection[Edit]) -> Json:
+def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collection[Json]) -> Json:
     """What is offered of the part of an element, by its number.
 
     Args:
         board: The mechanism as given.
         edits: What was switched.
         element: Number of the element.
-        wanted: What the advice proposes.
+        wanted: What the advice proposes, as requests name it.
 
     Raises:
         RefusedError: There is no such element.
     """
-    index = board.given.element_index.get(element)
-    if index is None:
-        raise RefusedError(f"there is no element {element}")
+    index = index_of(board.given.element_index, "element", element)
     part = board.parts.of_element(index)
     is_whole = index in board.wholes
     count = element_kinds()[int(board.given.arrays.element_kind[index]) - 1].deformations
@@ -266,6 +237,9 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
     rows = [
         _row(board, edits, wanted, place, deformation_in_words(board, place)) for place in places
     ]
+    elements = [element_words(board, each) for each in part.elements]
+    if len(elements) > 4:
+        elements[2:-1] = ["\N{HORIZONTAL ELLIPSIS}"]
     own = "" if is_whole or len(part.elements) == 1 else f" of {element_words(board, index)}"
     groups = [{"title": f"Deformations{own}", "rows": rows}]
     if part.kind is PartKind.BODY:
@@ -274,17 +248,15 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
         "element": places[0].element if is_whole else element,
         "title": _capital(element_title(board, index)),
         "kind": part.kind.value,
-        "about": elements_words(board, part),
+        "about": ", ".join(elements),
         "groups": groups,
         "near": list(_near_part(board, part, index)),
     }
 
 
-def panel_of_node(board: Board, edits: Edits, node: int, wanted: Collection[Edit]) -> Json:
+def panel_of_node(board: Board, edits: Edits, node: int, wanted: Collection[Json]) -> Json:
     """What is offered of a point, by the number of one of its nodes; else as of an element."""
-    index = board.given.node_index.get(node)
-    if index is None:
-        raise RefusedError(f"there is no node {node}")
+    index = index_of(board.given.node_index, "node", node)
     position = board.parts.place_of(index)
     index = index if position is None else position
     parts = () if position is None else board.parts.at(position)
@@ -354,15 +326,15 @@ def _supports(board: Board) -> Iterator[tuple[str, int]]:
             yield node_title(board, index), int(board.given.arrays.node_number[index])
 
 
-def _row(board: Board, edits: Edits, wanted: Collection[Edit], place: Place, words: str) -> Json:
-    now, states = board.now(place, edits), states_of(place)
+def _row(board: Board, edits: Edits, wanted: Collection[Json], place: Place, words: str) -> Json:
+    now, states, at = board.now(place, edits), states_of(place), place_json(place)
     return {
-        "place": place_json(place),
+        "place": at,
         "words": words,
         "states": list(states),
         "now": state_word(place, now),
         "before": state_word(place, board.before(place)),
-        "proposed": [w for w, to in states.items() if to != now and Edit(place, to) in wanted],
+        "proposed": [w for w, to in states.items() if to != now and {**at, "to": w} in wanted],
     }
 
 
@@ -374,7 +346,7 @@ def place_json(place: Place) -> Json:
 
 
 def _of_point(
-    board: Board, edits: Edits, wanted: Collection[Edit], index: int, title: str = ""
+    board: Board, edits: Edits, wanted: Collection[Json], index: int, title: str = ""
 ) -> Iterator[Json]:
     """Switches of a position and of what turns there, or of a node that stands nowhere."""
     turned = [node for node in _nodes_at(board, index) if node != index]
@@ -393,10 +365,9 @@ def _of_point(
         yield {"title": head, "rows": rows}
 
 
-def _of_body(board: Board, edits: Edits, wanted: Collection[Edit], part: Part) -> Iterator[Json]:
+def _of_body(board: Board, edits: Edits, wanted: Collection[Json], part: Part) -> Iterator[Json]:
     """Coordinates of a body at the points where one is declared, else at its first point."""
-    slots = (board.given.arrays.element_node[:, list(part.elements)] - 1).T
-    points = list(dict.fromkeys(int(n) for row in slots for n in (row[0], row[2]) if n >= 0))
+    points = _points_of(board, part)
     classes = board.given.arrays.coordinate_class
     stated = [
         point
@@ -406,6 +377,12 @@ def _of_body(board: Board, edits: Edits, wanted: Collection[Edit], part: Part) -
     for point in (stated or points[:1])[:_MOST_POINTS]:
         words = node_title(board, point)
         yield from _of_point(board, edits, wanted, point, f"Coordinates of {words}")
+
+
+def _points_of(board: Board, part: Part) -> list[int]:
+    """The positions that a body names, in the order of its elements."""
+    slots = board.given.arrays.element_node[[0, 2]][:, list(part.elements)].T - 1
+    return list(dict.fromkeys(slots[slots >= 0].tolist()))
 
 
 def _nodes_at(board: Board, position: int) -> list[int]:
@@ -418,9 +395,7 @@ def _near_part(board: Board, part: Part, index: int) -> Iterator[Json]:
     """Ends of a part, and the other elements of one that is not switched as one."""
     numbers = board.given.arrays.node_number
     if part.kind is PartKind.BODY:
-        slots = board.given.arrays.element_node[[0, 2]][:, list(part.elements)].T - 1
-        points = list(dict.fromkeys(int(n) for n in slots.ravel() if n >= 0))
-        for point in points[:_MOST_NEAR]:
+        for point in _points_of(board, part)[:_MOST_NEAR]:
             yield {"words": node_title(board, point), "node": int(numbers[point])}
     elif part.kind is PartKind.HINGE:
         for node in board.given.arrays.element_node[[1, 3], index] - 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the page shows at present, and whoever waits for something new."""
+"""What the page shows at present, how that differs from before, and whoever waits for more."""
 
 from __future__ import annotations
 
@@ -8,14 +8,158 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
+from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
+from ...analysis.naming import plain
+from ...analysis.result import Motion, Result, SelfStress
+from ...analysis.verdict import Certainty
+from ...analysis.verdict_words import margin_in_short, verdict_in_short, verdict_word
 from ...deck.diagnostics import Diagnostic, Source
-from ...deck.rendering import MOST_SHOWN, ProblemsError, render
+from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
 from ...show.page.assets import text
-from ...util.partial import why
+from ...show.page.content import content_of
+from ...util.partial import attempted, why
 from ...util.text import file_name
-from .messages import Answer, Broken, ResultSummary
+
+#: What a script ends with; anything else is a deck.
+SCRIPT = ".py"
+#: How many motions, and how many self-stresses, are compared.
+MOST_COMPARED = 12
+#: How many parts of each are compared.
+_PARTS = 6
+
+
+@dataclass(frozen=True)
+class ResultSummary:
+    """A result in short, as the next one is compared with it.
+
+    Attributes:
+        verdict: Such as "over-constrained by 1", with what it is restricted by.
+        counts: Numbers by what they count, such as "released deformations".
+        margin: Such as "margin 0.3 mm".
+        is_doubtful: Whether the rank is.
+        motions: Each of the first motions in words.
+        stresses: Each of the first self-stresses in words.
+    """
+
+    verdict: str
+    counts: dict[str, int]
+    margin: str
+    is_doubtful: bool
+    motions: tuple[str, ...]
+    stresses: tuple[str, ...]
+
+
+def summary_of(result: Result) -> ResultSummary:
+    """The summary of a result."""
+    coordinates, deformations = result.counts
+    given = result.given.arrays
+    counts = {
+        "elements": int(given.element_number.size),
+        "nodes": int(given.node_number.size),
+        "fixed coordinates": coordinates.fixed,
+        "released deformations": deformations.dependent,
+        "declared degrees of freedom": result.degrees_of_freedom,
+        "motions": result.under_constrained,
+        "self-stresses": result.over_constrained,
+    }
+    return ResultSummary(
+        verdict_in_short(result),
+        counts,
+        margin_in_short(result),
+        result.certainty is not Certainty.CERTAIN,
+        # The verdict is told all the same where words of modes fail.
+        attempted("", lambda: tuple(map(_motion, islice(result.motions, MOST_COMPARED))), (), None),
+        attempted(
+            "", lambda: tuple(map(_stress, islice(result.self_stresses, MOST_COMPARED))), (), None
+        ),
+    )
+
+
+def _motion(motion: Motion) -> str:
+    return "; ".join(map(plain, motion_in_parts(motion, _PARTS)[:_PARTS]))
+
+
+def _stress(stress: SelfStress) -> str:
+    parts = conflict_in_words(stress), *stress_in_parts(stress, _PARTS)[:_PARTS]
+    return "; ".join(map(plain, parts))
+
+
+#: What comes before an answer: what a script has printed, and the summary of a result whose scene
+#: is still being made.
+Before = str | ResultSummary
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A result as the page shows it.
+
+    Attributes:
+        title: Of the page, as text.
+        body: What stands within its body.
+        summary: Of the result.
+        which: Which model of a script it is, in words; empty for a deck.
+        problems: Warnings and notes, as the terminal has them.
+        files: What it was made of, besides the file that is watched.
+        result: The result itself, pickled.
+        model: The name of the model in a script; empty for a deck.
+    """
+
+    title: str
+    body: str
+    summary: ResultSummary
+    which: str
+    problems: str
+    files: tuple[str, ...]
+    result: bytes = b""
+    model: str = ""
+
+
+def shown_of(
+    result: Result,
+    summary: ResultSummary,
+    which: str,
+    files: tuple[str, ...],
+    *,
+    is_edited: bool = False,
+) -> Shown:
+    """A result as the page shows it.
+
+    Args:
+        result: The result.
+        summary: Of it.
+        which: Which model it is, in words.
+        files: What it was made of.
+        is_edited: Whether it is not that of the file.
+    """
+    body = content_of(result, has_origin=not is_edited).body
+    title = verdict_word(result)
+    given = result.given
+    problems = given.problems
+    words = render_problems(problems, given.name, given.source) if problems.kept else ""
+    return Shown(title, body, summary, which, words, files)
+
+
+@dataclass(frozen=True)
+class Broken:
+    """Why there is no result.
+
+    Attributes:
+        errors: As HTML.
+        body: What stands within the body of a page that has nothing else to show.
+        words: As the terminal has them.
+        files: As in `Shown`.
+    """
+
+    errors: str
+    body: str
+    words: str
+    files: tuple[str, ...]
+
+
+Answer = Shown | Broken
 
 
 def errors_part(error: Exception, path: str) -> str:
@@ -33,8 +177,7 @@ def errors_part(error: Exception, path: str) -> str:
 def _problem(item: Diagnostic, name: str, source: Source | None) -> str:
     head, *excerpt = render(item, name, source).split("\n")
     # Help is a sentence, which breaks into lines as they fit.
-    helps = [line for line in excerpt if line.lstrip().startswith("= help:")]
-    lines = [line for line in excerpt if line not in helps]
+    lines = [line for line in excerpt if not line.lstrip().startswith("= help:")]
     severity, _, words = head.partition(": ")
     hint = f'<p class="help">help: {text(item.help)}</p>' if item.help else ""
     # The label is an arrow's word; without a place it stands alone.
@@ -145,17 +288,13 @@ class Stage:
         self._name = name
         self._summary: ResultSummary | None = None
         self._changed = threading.Condition()
-        self._scene = Scene(int(time.time() * 1000), name)
+        #: What is shown.
+        self.scene = Scene(int(time.time() * 1000), name)
         self._closed = False
-
-    @property
-    def scene(self) -> Scene:
-        """What is shown."""
-        return self._scene
 
     def put(self, answer: Answer) -> str:
         """Show an answer; what has changed, or what is wrong in short, in words."""
-        before = self._scene
+        before = self.scene
         saved = time.strftime("%H:%M:%S")
         if isinstance(answer, Broken):
             words = "cannot be analysed"
@@ -187,11 +326,11 @@ class Stage:
     def judge(self, summary: ResultSummary) -> None:
         """Say what the verdict will be, before its scene is there."""
         changed = changed_words(self._summary, summary) if self._summary else summary.verdict
-        self._show(replace(self._scene, work=f"{changed}; the scene follows"))
+        self._show(replace(self.scene, work=f"{changed}; the scene follows"))
 
     def work(self, words: str) -> None:
         """Say what is going on."""
-        self._show(replace(self._scene, work=words, began=time.time()))
+        self._show(replace(self.scene, work=words, began=time.time()))
 
     def close(self) -> None:
         """Let nobody wait any more."""
@@ -205,10 +344,10 @@ class Stage:
         After `longest` [s] it is the same.
         """
         with self._changed:
-            self._changed.wait_for(lambda: self._closed or self._scene is not seen, longest)
-            return None if self._closed else self._scene
+            self._changed.wait_for(lambda: self._closed or self.scene is not seen, longest)
+            return None if self._closed else self.scene
 
     def _show(self, scene: Scene) -> None:
         with self._changed:
-            self._scene = scene
+            self.scene = scene
             self._changed.notify_all()

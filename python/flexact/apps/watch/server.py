@@ -40,7 +40,7 @@ def live_page(scene: Scene, start: str, key: str) -> str:
     Args:
         scene: What it shows.
         start: The start of the server that it comes from.
-        key: What it finds out by whether a server is one of this user and file; see `guard`.
+        key: What it finds out by whether a server is one of this user and file; see `Secrets`.
     """
     body = (
         f'<div class="live" data-revision="{scene.revision if scene.saved else 0}" '
@@ -119,17 +119,9 @@ class Secrets:
         """What pages of a start of this file have, this one or one before."""
         return self._made(f"page {start}")
 
-    def is_token(self, given: str) -> bool:
-        """Whether it is that of the address; how long this takes tells nothing."""
-        return hmac.compare_digest(given.encode(), self.token.encode())
-
     def proof(self, start: str, *words: str) -> str:
         """What nobody can say of these words but this server and pages of a start."""
         return _mac(self.page_key(start).encode(), " ".join(words).encode())
-
-    def is_proof(self, given: str, start: str, *words: str) -> bool:
-        """Whether a page of a start has said so of these words."""
-        return hmac.compare_digest(given.encode(), self.proof(start, *words).encode())
 
     def door(self, address: str) -> Path:
         """A file that leads a browser of this user to an address, which nobody else may read.
@@ -195,9 +187,8 @@ def _key(folder: Path | None) -> bytes:
 
 def _kept(file: Path) -> bytes | None:
     """A key that was kept whole, and that nobody else has made or can have read."""
-    how = os.O_RDONLY
-    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY"):
-        how |= getattr(os, name, 0)
+    names = ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY")
+    how = os.O_RDONLY | sum(getattr(os, name, 0) for name in names)
     with contextlib.suppress(OSError), open(os.open(file, how), "rb") as given:
         found = os.fstat(given.fileno())
         if stat.S_ISREG(found.st_mode) and _is_mine(found, _FOR_OTHERS):
@@ -239,21 +230,20 @@ class Server(ThreadingHTTPServer):
     # Elsewhere than here it would let two servers have one port.
     allow_reuse_address = os.name == "posix"
 
-    def __init__(self, path: str, stage: Stage, port: int | None = None) -> None:
+    def __init__(self, path: str, stage: Stage, edit: Post, port: int | None = None) -> None:
         """Take a port.
 
         Args:
             path: The file that is watched.
             stage: What is shown.
+            edit: Answers what a page sends.
             port: The port; by default one that is free, if it can be the one of the last time.
 
         Raises:
             BatchError: The port cannot be had.
         """
-        self.stage = stage
+        self.stage, self.edit = stage, edit
         self.secrets = Secrets(path)
-        #: By the last part of the address.
-        self.posts: dict[str, Post] = {}
         #: The open connections, the oldest first, each with whether it may ask.
         self._lines: dict[socket.socket, bool] = {}
         self._lock = threading.Lock()
@@ -360,8 +350,7 @@ class Handler(BaseHTTPRequestHandler):
         rest = self._admitted(writes=True)
         if rest is None:
             return
-        post = self.server.posts.get(rest)
-        if post is None:
+        if rest != "edit":
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
             return
         try:
@@ -372,7 +361,7 @@ class Handler(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "that is too much")
             return
         try:
-            status, answer = post(self.rfile.read(length))
+            status, answer = self.server.edit(self.rfile.read(length))
         except Exception as error:
             status = HTTPStatus.INTERNAL_SERVER_ERROR
             answer = {"error": f"this went wrong, and nothing was changed: {error!r}"}
@@ -385,7 +374,9 @@ class Handler(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.FORBIDDEN, why)
             return None
         _, token, *rest = [*urlsplit(self.path).path.split("/"), ""]
-        if not self.server.secrets.is_token(token) or not rest[:-1]:
+        # How long it takes to compare them tells nothing.
+        is_right = hmac.compare_digest(token.encode(), self.server.secrets.token.encode())
+        if not is_right or not rest[:-1]:
             self._refuse(HTTPStatus.FORBIDDEN, "this is not the address that flexact watch says")
             return None
         self.server.let(self.connection)
@@ -405,7 +396,8 @@ class Handler(BaseHTTPRequestHandler):
         """Scenes, each as it comes, until the page has gone."""
         known, port = self.server.secrets, str(self.server.server_port)
         start, number = asked.get("start", ""), asked.get("number", "")
-        if not known.is_proof(asked.get("proof", ""), start, "page", number, known.start, port):
+        proof = known.proof(start, "page", number, known.start, port)
+        if not hmac.compare_digest(asked.get("proof", "").encode(), proof.encode()):
             self._refuse(HTTPStatus.FORBIDDEN, "this is no page of this server")
             return
         self.server.let(self.connection)

@@ -13,8 +13,7 @@ from pathlib import Path
 from ...show.window import opens
 from ...util.errors import BatchError
 from .edit_session import Session
-from .messages import Answer, Before, Broken, Job
-from .scene import Stage, errors_part
+from .scene import SCRIPT, Answer, Before, Broken, Stage, errors_part
 from .server import Server
 from .worker_pool import Crew, Worker, WorkerError
 
@@ -64,15 +63,13 @@ class Saved:
             return False
         if now == self._rest:
             return False
-        if time_now - self._first < _LONGEST and time_now - self._since < self._patience():
-            return False
-        self._rest = now
-        self._was_whole = _is_whole(self.path)
-        return True
-
-    def _patience(self) -> float:
         is_whole = _is_whole(self.path)
-        return QUIET if is_whole or (is_whole is not None and not self._was_whole) else UNFINISHED
+        ends = is_whole or (is_whole is not None and not self._was_whole)
+        patience = QUIET if ends else UNFINISHED
+        if time_now - self._first < _LONGEST and time_now - self._since < patience:
+            return False
+        self._rest, self._was_whole = now, is_whole
+        return True
 
     def _look(self) -> dict[str, _State]:
         return {path: _state(path) for path in (self.path, *self._more)}
@@ -104,7 +101,6 @@ def _is_whole(path: str) -> bool | None:
 
 #: Between two looks at the files [s].
 _LOOK = 0.03
-SCRIPT = ".py"
 
 
 class Watch:
@@ -131,13 +127,14 @@ class Watch:
             BatchError: The port cannot be had.
         """
         self.name = os.path.basename(path)
-        self.job = Job(path, path.lower().endswith(SCRIPT), decision)
+        self.path, self._decision = path, decision
+        is_script = path.lower().endswith(SCRIPT)
+        self._work = f"{self.name} is {'running' if is_script else 'being analysed'}"
         self._renewed, self._printed = renewed, printed
         self.stage = Stage(self.name)
-        self.server = Server(path, self.stage, port)
         self.session = Session(Path(path), self.stage)
-        self.server.posts["edit"] = self.session.post
-        self.crew = Crew(fresh=self.job.is_script)
+        self.server = Server(path, self.stage, self.session.post, port)
+        self.crew = Crew(fresh=is_script)
         self._saved = Saved(path)
         self._lock = threading.Lock()
         self._number = 0
@@ -166,7 +163,7 @@ class Watch:
         with self._lock:
             self._number += 1
             number = self._number
-        self.stage.work(f"{self.name} is {'running' if self.job.is_script else 'being analysed'}")
+        self.stage.work(self._work)
         worker: Worker | WorkerError
         try:
             worker = self.crew.take()
@@ -187,9 +184,10 @@ class Watch:
             try:
                 if isinstance(worker, WorkerError):
                     raise worker
-                answer = worker.answer(self.job, lambda heard: self._meanwhile(heard, number))
+                question = self.path, self._decision
+                answer = worker.answer(question, lambda heard: self._meanwhile(heard, number))
             except WorkerError as error:
-                answer = _unshown(str(error), self.job.path)
+                answer = _unshown(str(error), self.path)
             with self._lock:
                 # Another save came meanwhile, and it is that one's worker that counts.
                 if number != self._number:
@@ -199,7 +197,7 @@ class Watch:
                     words = self.session.renewed(answer)
                 except Exception as error:
                     # One that cannot be shown shall not end the watch.
-                    answer = _unshown(f"unforeseen {type(error).__name__}: {error}", self.job.path)
+                    answer = _unshown(f"unforeseen {type(error).__name__}: {error}", self.path)
                     words = self.stage.put(answer)
                 self._renewed(words, answer)
             self.crew.prepare()
@@ -219,4 +217,4 @@ class Watch:
 
 def _unshown(words: str, path: str) -> Broken:
     errors = errors_part(BatchError(words), path)
-    return Broken("cannot be analysed", errors, f"<main>{errors}</main>", words, ())
+    return Broken(errors, f"<main>{errors}</main>", words, ())

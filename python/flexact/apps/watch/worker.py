@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A process that waits, with everything loaded, for decks to analyse or for a script to run."""
+"""A process that waits, with everything loaded, for decks to analyse or a script to run."""
 
 from __future__ import annotations
 
@@ -12,45 +12,267 @@ import queue
 import signal
 import sys
 import threading
-from collections.abc import Callable
+import time
+import traceback
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from pathlib import Path
+from types import ModuleType, TracebackType
 from typing import Any, BinaryIO
 
 from ...analysis.decomposition import asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.verdict_words import verdict_word
 from ...core import narrow
-from ...deck.rendering import ProblemsError, render_problems
-from ...model.data import ModelData
-from ...model.reading import read_file
-from ...show.page.content import broken_content, content_of
+from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
+from ...deck.rendering import ProblemsError
+from ...model.model import Model
+from ...model.reading import file_bytes, read_file
+from ...show.page.content import broken_content
+from ...show.window import take_with
 from ...util.partial import why
-from . import worker_pool as frames
-from .messages import Answer, Broken, Job, ResultSummary, Shown, summary_of
-from .scene import errors_part
-from .script import Script
+from .scene import SCRIPT, Answer, Broken, ResultSummary, errors_part, shown_of, summary_of
+from .worker_pool import receive, send
+
+#: How many callers of the line that failed are named.
+_MOST_CALLERS = 3
 
 
-def answer_of(job: Job, judged: Callable[[ResultSummary], None]) -> Answer:
-    """What a job gives; what is wrong with the deck or the script is an answer too.
+class Script:
+    """A script and the folder that its own modules are in."""
+
+    def __init__(self, path: str) -> None:
+        """Nothing is run yet."""
+        self.path = os.path.abspath(path)
+        self.name = os.path.basename(path)
+        self.folder = os.path.dirname(self.path)
+        self._read: set[str] = set()
+        self._wanted: set[str] = set()
+        self._shown: list[tuple[Any, int]] = []
+        self._start = time.time()
+
+    def run(self) -> tuple[Model | Result, str, str, str]:
+        """Run it as `python script.py` does, and find what it shows.
+
+        Returns:
+            A model or the result of one, what it is called where it has no name, which of the
+            script's it is, in words, and the name of the model in the script.
+
+        Raises:
+            DeckError: The script or a deck that it reads cannot be read.
+            ProblemsError: It fails, or shows nothing.
+        """
+        source = file_bytes(self.path)
+        take_with(lambda shown, line: self._shown.append((shown, line)))
+        sys.addaudithook(self._heard)
+        main = ModuleType("__main__")
+        main.__file__ = self.path
+        sys.modules["__main__"] = main
+        sys.argv = [self.path]
+        sys.path.insert(0, self.folder)
+        try:
+            exec(compile(source, self.path, "exec"), main.__dict__)
+        except SystemExit as ending:
+            code = ending.code
+            if code is not None and not (isinstance(code, int) and code == 0):
+                raise self._failed(ending) from None
+        except BaseException as error:
+            raise self._failed(error) from None
+        finally:
+            # It may have closed it, or put something else there.
+            with contextlib.suppress(Exception):
+                sys.stdout.flush()
+        return self._found(main)
+
+    def files(self) -> tuple[str, ...]:
+        """Files of its own folder that it has read, or wanted: modules, decks, tables."""
+        modules = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
+        read = {path for path in {*modules, *self._read} if path and self._is_own(path)}
+        return tuple(sorted(read | self._wanted))
+
+    def _is_own(self, path: str) -> bool:
+        if path == self.path or not path.startswith(self.folder + os.sep):
+            return False
+        if {"site-packages", "__pycache__"} & set(Path(path).parts):
+            return False
+        try:
+            # What it has written itself would have it run again, and again.
+            return os.path.isfile(path) and os.stat(path).st_mtime < self._start
+        except OSError:
+            return False
+
+    def _heard(self, event: str, arguments: tuple[Any, ...]) -> None:
+        """Keep which files are read; of everything that Python does this is called."""
+        if event != "open" or not isinstance(arguments[0], str):
+            return
+        if not arguments[2] & (os.O_WRONLY | os.O_RDWR):
+            self._read.add(os.path.abspath(arguments[0]))
+
+    def _found(self, main: ModuleType) -> tuple[Model | Result, str, str, str]:
+        if self._shown:
+            shown, line = self._shown[-1]
+            count = len(self._shown)
+            of = f", the last of {count} that are shown" if count > 1 else ""
+            name = next((k for k, value in vars(main).items() if value is shown), self.name)
+            which = f"shown in line {line} of {self.name}{of}"
+            return shown, name, which, _model_name(main, shown)
+        made = {
+            name: value
+            for name, value in vars(main).items()
+            if isinstance(value, (Model, Result)) and not name.startswith("_")
+        }
+        if not made:
+            item = Diagnostic(
+                Severity.ERROR,
+                "nothing-to-show",
+                "the script shows nothing and has no Model or Analysis",
+                help="end it with model.show(), or give the model a name: guide = flexact.Model()",
+            )
+            raise ProblemsError(Problems.of([item]), self.name)
+        name, value = next(reversed(made.items()))
+        which = f"{name}, the last model or analysis of {self.name}"
+        return value, name, which, _model_name(main, value)
+
+    def _failed(self, error: BaseException) -> ProblemsError:
+        """The error in words, at its place in a file of the user."""
+        self._want(error)
+        if isinstance(error, SyntaxError) and error.filename:
+            return self._wrong_syntax(error)
+        if isinstance(error, ProblemsError) and error.source is not None:
+            return error
+        path, place, callers = self._place(error.__traceback__)
+        problems = [
+            Diagnostic(Severity.ERROR, code, message, *place, help=hint)
+            for code, message, hint in _said(error)
+        ]
+        if callers:
+            hint = "; ".join(filter(None, (problems[-1].help, callers)))
+            problems[-1] = replace(problems[-1], help=hint)
+        return ProblemsError(Problems.of(problems), self._shortened(path), _source(path))
+
+    def _want(self, error: BaseException) -> None:
+        """Keep what is missing in its folder: once it is there, it goes on."""
+        name = None
+        if isinstance(error, ModuleNotFoundError) and error.name:
+            name = f"{error.name.split('.')[0]}.py"
+        elif isinstance(error, FileNotFoundError) and isinstance(error.filename, str):
+            name = error.filename
+        elif isinstance(error, ProblemsError) and error.source is None and error.name:
+            name = error.name
+        if name is not None and "\0" not in name:
+            path = os.path.abspath(os.path.join(self.folder, name))
+            if path.startswith(self.folder + os.sep) and not os.path.exists(path):
+                self._wanted.add(path)
+
+    def _wrong_syntax(self, error: SyntaxError) -> ProblemsError:
+        path = os.path.abspath(str(error.filename))
+        self._read.add(path)
+        column = max(1, error.offset or 1)
+        last = max(column, (error.end_offset or column + 1) - 1)
+        same_line = getattr(error, "end_lineno", None) in (None, error.lineno)
+        item = Diagnostic(
+            *(Severity.ERROR, type(error).__name__, error.msg or "wrong syntax"),
+            *(error.lineno or 1, column, last if same_line else column),
+        )
+        return ProblemsError(Problems.of([item]), self._shortened(path), _source(path))
+
+    def _place(self, trace: TracebackType | None) -> tuple[str, Place, str]:
+        """The innermost place in a file of the user, and by which lines it was called."""
+        own = [
+            frame
+            for frame in traceback.extract_tb(trace)
+            if frame.filename == self.path or self._is_own(frame.filename)
+        ]
+        self._read |= {frame.filename for frame in own}
+        if not own:
+            return self.path, Place(0, 0, 0), ""
+        *callers, inner = own
+        line = inner.lineno or 1
+        source = _source(inner.filename)
+        first, last = 1, 1
+        if source is not None:
+            text = source.line(line)
+            first = len(text) - len(text.lstrip()) + 1
+            last = max(first, len(text.rstrip()))
+            start, end = getattr(inner, "colno", None), getattr(inner, "end_colno", None)
+            if start is not None and end is not None and inner.end_lineno == line:
+                first, last = start + 1, max(start + 1, end)
+            first, last = source.character_columns(line, first, last)
+        names = [f"{self._shortened(each.filename)}:{each.lineno}" for each in reversed(callers)]
+        words = f"called from {', '.join(names[:_MOST_CALLERS])}" if names else ""
+        return inner.filename, Place(line, first, last), words
+
+    def _shortened(self, path: str) -> str:
+        return os.path.relpath(path, self.folder) if path.startswith(self.folder) else path
+
+
+def _model_name(main: ModuleType, shown: object) -> str:
+    """The name of the model that is shown, or of which the result is that is shown."""
+    names = (
+        name
+        for name, value in vars(main).items()
+        if isinstance(value, Model)
+        and not name.startswith("_")
+        and (value is shown or (isinstance(shown, Result) and value.data is shown.given))
+    )
+    return next(names, "model")
+
+
+def _said(error: BaseException) -> Iterator[tuple[str, str, str]]:
+    """Code, message and help of an error."""
+    if isinstance(error, ProblemsError):
+        for item in error.diagnostics:
+            yield item.code, item.message, item.help
+        return
+    kind = type(error).__name__
+    if isinstance(error, SystemExit):
+        yield kind, f"the script ended itself with {_words(repr, error.code) or 'an object'}", ""
+        return
+    words = _words(str, error)
+    # The key alone says nothing.
+    if isinstance(error, KeyError) and words:
+        words = f"there is no key {words}"
+    yield kind, words or f"the script stopped with {kind}", ""
+
+
+def _words(how: Callable[[object], str], of: object) -> str:
+    """What an object of a script says of itself, in a line; nothing where it cannot."""
+    try:
+        return " ".join(how(of).split())
+    except Exception:
+        return ""
+
+
+def _source(path: str) -> Source | None:
+    try:
+        return Source(file_bytes(path), path)
+    except ProblemsError:
+        return None
+
+
+def answer_of(
+    path: str,
+    judged: Callable[[ResultSummary], None],
+    decision: tuple[Any, ...] = ("auto", None),
+) -> Answer:
+    """What a deck or a script gives; what is wrong with it is an answer too.
 
     Args:
-        job: What is asked for.
+        path: Where it is; a script ends with .py.
         judged: Called with the summary, which is there before the scene.
+        decision: Arguments of `flexact.analysis.decomposition.asked_for`.
     """
-    script = Script(job.path) if job.is_script else None
+    script = Script(path) if path.lower().endswith(SCRIPT) else None
     which = model = ""
-    result: Result | None
+    result: Result
     try:
         if script is None:
-            result = result_of(read_file(job.path), asked_for(*job.decision))
+            result = result_of(read_file(path), asked_for(*decision))
         else:
-            found = script.run()
-            which, model = found.which, found.model
-            result = found.shown if isinstance(found.shown, Result) else None
-            if result is None:
-                data: ModelData = found.shown.data
-                result = result_of(data, asked_for(*job.decision), data.name or found.name)
+            found, name, which, model = script.run()
+            if isinstance(found, Result):
+                result = found
+            else:
+                result = result_of(found.data, asked_for(*decision), found.data.name or name)
         summary = summary_of(result)
         judged(summary)
         shown = shown_of(result, summary, which, () if script is None else script.files())
@@ -62,33 +284,8 @@ def answer_of(job: Job, judged: Callable[[ResultSummary], None]) -> Answer:
     except Exception as error:
         words = str(error) if isinstance(error, ProblemsError) else why(error)
         files = () if script is None else script.files()
-        body = broken_content(error, job.path).body
-        return Broken("cannot be analysed", errors_part(error, job.path), body, words, files)
-
-
-def shown_of(
-    result: Result,
-    summary: ResultSummary,
-    which: str,
-    files: tuple[str, ...],
-    *,
-    is_edited: bool = False,
-) -> Shown:
-    """A result as the page shows it.
-
-    Args:
-        result: The result.
-        summary: Of it.
-        which: Which model it is, in words.
-        files: What it was made of.
-        is_edited: Whether it is not that of the file.
-    """
-    body = content_of(result, has_origin=not is_edited).body
-    title = verdict_word(result)
-    given = result.given
-    problems = given.problems
-    words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, body, summary, which, words, files)
+        body = broken_content(error, path).body
+        return Broken(errors_part(error, path), body, words, files)
 
 
 def main() -> None:
@@ -96,12 +293,13 @@ def main() -> None:
     narrow.prepare()
     jobs, line = _lines()
     said = _Said(line)
-    sys.stdout = io.TextIOWrapper(_Raw(said), "utf-8", "replace", line_buffering=True)
+    sys.stdout = io.TextIOWrapper(said, "utf-8", "replace", line_buffering=True)
     printed = sys.stdout
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_hear, args=(jobs, waiting), daemon=True).start()
     while True:
-        answer = answer_of(waiting.get(), said.send)
+        path, decision = waiting.get()
+        answer = answer_of(path, said.send, decision)
         # A script may have closed it.
         with contextlib.suppress(ValueError):
             printed.flush()
@@ -124,7 +322,7 @@ def _hear(jobs: BinaryIO, waiting: queue.SimpleQueue[Any]) -> None:
     """Hand jobs on; where nobody is left who could give one, end with all that was started."""
     try:
         while True:
-            waiting.put(frames.receive(jobs))
+            waiting.put(receive(jobs))
     except (EOFError, OSError) as error:
         # What the script itself has closed says nothing of who asks, who ends this process then.
         if getattr(error, "errno", None) == errno.EBADF:
@@ -134,24 +332,16 @@ def _hear(jobs: BinaryIO, waiting: queue.SimpleQueue[Any]) -> None:
     os._exit(1)
 
 
-class _Said:
-    """The line of answers, for one speaker at a time."""
+class _Said(io.RawIOBase):
+    """The line of answers, for one speaker at a time, and where what a script prints goes."""
 
     def __init__(self, line: BinaryIO) -> None:
-        self._line = line
+        self._line, self._process = line, os.getpid()
         self._lock = threading.Lock()
 
     def send(self, value: Any) -> None:
         with self._lock:
-            frames.send(self._line, value)
-
-
-class _Raw(io.RawIOBase):
-    """Where what a script prints goes."""
-
-    def __init__(self, said: _Said) -> None:
-        self._said = said
-        self._process = os.getpid()
+            send(self._line, value)
 
     def writable(self) -> bool:
         return True
@@ -161,5 +351,5 @@ class _Raw(io.RawIOBase):
         if os.getpid() != self._process:
             # A process that was forked has the same line, where its words would fall into others.
             return os.write(2, taken)
-        self._said.send(taken.decode("utf-8", "replace"))
+        self.send(taken.decode("utf-8", "replace"))
         return len(taken)

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from ...util.errors import FlexactError, reason_of
-from .messages import Answer, Before, Job, ResultSummary
+from .scene import Answer, Before, ResultSummary
 
 _LENGTH = struct.Struct("!Q")
 #: Longer is no value of ours.
@@ -75,27 +75,39 @@ class Worker:
     """A process that answers jobs, in a session of its own so that Ctrl-C is not for it."""
 
     def __init__(self) -> None:
-        """Start it; it loads what it needs while nobody waits."""
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", _START, _HOME],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            **_apart(),
-        )
+        """Start it; it loads what it needs while nobody waits.
+
+        Raises:
+            WorkerError: The system gives no process, or no pipes to it.
+        """
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", _START, _HOME],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                **_apart(),
+            )
+        except OSError as error:
+            raise WorkerError(
+                f"no process can be started now: {reason_of(error)}; save the file again to try "
+                "anew"
+            ) from error
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._jobs, self._line = self._process.stdin, self._process.stdout
         self.is_busy = False
 
-    def answer(self, job: Job, meanwhile: Callable[[Before], None]) -> Answer:
-        """What comes of a job; what is heard before goes to `meanwhile`.
+    def answer(
+        self, question: tuple[str, tuple[object, ...]], meanwhile: Callable[[Before], None]
+    ) -> Answer:
+        """What comes of a path and a decision; what is heard before goes to `meanwhile`.
 
         Raises:
             WorkerError: It has ended.
         """
         self.is_busy = True
         try:
-            send(self._jobs, job)
+            send(self._jobs, question)
         except OSError:
             raise self._death() from None
         while isinstance(heard := self._hear(), (str, ResultSummary)):
@@ -160,20 +172,6 @@ def _how(code: int) -> str:
     return f"the process was ended before it had an answer: {name.lower()}"
 
 
-def _started() -> Worker:
-    """A new worker.
-
-    Raises:
-        WorkerError: The system gives no process, or no pipes to it.
-    """
-    try:
-        return Worker()
-    except OSError as error:
-        raise WorkerError(
-            f"no process can be started now: {reason_of(error)}; save the file again to try anew"
-        ) from error
-
-
 class Crew:
     """The worker whose answer is shown, and a fresh one for the next script."""
 
@@ -189,7 +187,7 @@ class Crew:
         self._spare: Worker | None = None
         self._closed = False
         with contextlib.suppress(WorkerError):
-            self._spare = _started()
+            self._spare = Worker()
 
     def take(self) -> Worker:
         """The worker for a new job; the one before is stopped unless it can go on.
@@ -206,7 +204,7 @@ class Crew:
                 self._at_work = None
             if self._closed:
                 raise WorkerError("the end")
-            self._at_work, self._spare = self._spare or _started(), None
+            self._at_work, self._spare = self._spare or Worker(), None
             return self._at_work
 
     def prepare(self) -> None:
@@ -215,7 +213,7 @@ class Crew:
             if self._fresh and self._spare is None and not self._closed:
                 # Else it is tried again when it is wanted.
                 with contextlib.suppress(WorkerError):
-                    self._spare = _started()
+                    self._spare = Worker()
 
     def close(self) -> None:
         """Stop all of them."""
