@@ -13,12 +13,12 @@ from ..core.elements import Class, Member, NodeKind, Role
 from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.deformations import AT_Q
+from ..model.draft import ROUNDING
 from ..model.model import Model
 from ..model.parts.condensing import condensed
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
-from ..model.places import ROUNDING
 from .change import Change
 from .decomposition import Decomposition
 from .deformation_words import bending_of, part_of, role_of

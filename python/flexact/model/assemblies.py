@@ -12,9 +12,8 @@ from ..util.quantities import Quantity
 from ..util.text import in_short
 from .arguments import Direction, call, count, numbers_of_size, several, text, vector
 from .draft import Draft
-from .elements import add_rigid
-from .flexures import SheetSizes, WireSizes, add_sheet, add_wire, span, width_across
 from .handles import Assembly, Body, Element, Named, Node, Part
+from .members import SheetSizes, WireSizes, add_rigid, add_sheet, add_wire, span, width_across
 from .names import part_name
 from .sections import Make, Section, shape_of
 from .selection import (

@@ -25,10 +25,9 @@ from .arguments import (
     text,
     unit,
 )
-from .draft import NO_VECTOR, Draft, Slots, Vector
+from .draft import NO_VECTOR, ROUNDING, Draft, Places, Slots, Vector
 from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .names import part_name
-from .places import ROUNDING, Places
 from .selection import (
     PartLike,
     Point,

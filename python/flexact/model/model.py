@@ -18,7 +18,7 @@ from ..util.errors import require_kind
 from ..util.loading import feature
 from ..util.quantities import Quantity
 from ..util.text import in_short
-from . import assemblies, coordinates, copies, edits, elements, flexures
+from . import assemblies, copies, edits, members
 from .arguments import Direction, call, text, whole
 from .assemblies import Mass
 from .configuration import Configuration
@@ -27,7 +27,6 @@ from .data import ModelData
 from .deformations import give_deformations, means_part
 from .draft import NO_VECTOR, Draft
 from .draft_arrays import data_of, draft_of
-from .flexures import SheetSizes, WireSizes
 from .handles import (
     Assembly,
     Body,
@@ -39,6 +38,7 @@ from .handles import (
     Sheet,
     Wire,
 )
+from .members import SheetSizes, WireSizes
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
 from .selection import (
@@ -249,7 +249,7 @@ class Model:
         `material` gives it stiffness and mass, see `wire`.
         """
         with call("truss", name):
-            return elements.add_truss(self._change(), p, q, name, section, thickness, material)
+            return members.add_truss(self._change(), p, q, name, section, thickness, material)
 
     def beam(
         self,
@@ -278,7 +278,7 @@ class Model:
             material: Gives it stiffness and mass, see `wire`.
         """
         with call("beam", name):
-            return elements.add_releasing_beam(
+            return members.add_releasing_beam(
                 self._change(), p, q, y, release, name, section, material
             )
 
@@ -294,7 +294,7 @@ class Model:
         `section` is how it is drawn, see `look`.
         """
         with call("rigid", name):
-            return elements.add_rigid(self._change(), p, q, name, Make(shape_of(section)))
+            return members.add_rigid(self._change(), p, q, name, Make(shape_of(section)))
 
     def hinge(
         self,
@@ -322,7 +322,7 @@ class Model:
             The point beyond the hinge.
         """
         draft = self._change()
-        return elements.add_hinge(draft, "hinge", p, axis, q, name, independent, stiffness).q
+        return members.add_hinge(draft, "hinge", p, axis, q, name, independent, stiffness).q
 
     def notch(
         self,
@@ -344,7 +344,7 @@ class Model:
             The notch, with its points p and q.
         """
         draft = self._change()
-        return elements.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
+        return members.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
 
     def wire(
         self,
@@ -378,7 +378,7 @@ class Model:
         """
         draft = self._change()
         sizes = WireSizes(section, thickness, material)
-        return flexures.add_wire(draft, p, q, y, name, beams, sizes)
+        return members.add_wire(draft, p, q, y, name, beams, sizes)
 
     def sheet(
         self,
@@ -418,7 +418,7 @@ class Model:
             ModelError: something of it is wrong; its text begins with the name of the sheet.
         """
         sizes = SheetSizes(section, thickness, breadth, material, warping)
-        return flexures.add_sheet(self._change(), p, q, width, beams, name, sizes)
+        return members.add_sheet(self._change(), p, q, width, beams, name, sizes)
 
     def folded_sheet(
         self,
@@ -458,7 +458,7 @@ class Model:
             ModelError: something of it is wrong, such as three points on a line and no width.
         """
         sizes = SheetSizes(section, thickness, breadth, material, warping)
-        return flexures.add_folded_sheet(self._change(), (a, fold, b), width, beams, name, sizes)
+        return members.add_folded_sheet(self._change(), (a, fold, b), width, beams, name, sizes)
 
     def body(
         self,
@@ -649,9 +649,9 @@ class Model:
             ModelError: there is no such point or coordinate, or it has another class.
         """
         draft = self._change()
-        targets, names = coordinates.fixed_targets(draft, points)
+        targets, names = edits.fixed_targets(draft, points)
         with call("fix", targets[0] if len(targets) == 1 else ""):
-            coordinates.give_coordinates(draft, targets, names, Class.FIXED)
+            edits.give_coordinates(draft, targets, names, Class.FIXED)
 
     def independent(
         self,
@@ -674,7 +674,7 @@ class Model:
             if at is not None or means_part(draft, target, which):
                 give_deformations(draft, target, which, Class.INDEPENDENT, at)
             else:
-                coordinates.give_coordinates(draft, [target], which, Class.INDEPENDENT)
+                edits.give_coordinates(draft, [target], which, Class.INDEPENDENT)
 
     def release(
         self, part: PartLike | FoldedSheet, *which: str | int, at: Point | None = None
@@ -717,7 +717,7 @@ class Model:
             *names: Coordinates out of x, y, z, rx, ry, rz; by default all.
         """
         with call("clear", point):
-            coordinates.clear_coordinates(self._change(), point, names)
+            edits.clear_coordinates(self._change(), point, names)
 
     def declare_internal_motions(self) -> None:
         """Make independent what is inside divided sheets and wires, so that each is one beam.
@@ -751,8 +751,8 @@ class Model:
         """
         draft = self._change()
         with call("force", point):
-            node = coordinates.node_with(draft, point, wants_position=True)
-            made = coordinates.load(draft, x, y, z, "force", "N")
+            node = edits.node_with(draft, point, wants_position=True)
+            made = edits.load(draft, x, y, z, "force", "N")
         (draft.increment if increment else draft.force)[node] = made
 
     def moment(
@@ -780,8 +780,8 @@ class Model:
         """
         draft = self._change()
         with call("moment", point):
-            node = coordinates.node_with(draft, point, wants_position=False)
-            made = coordinates.moment(draft, node, x, y, z)
+            node = edits.node_with(draft, point, wants_position=False)
+            made = edits.moment(draft, node, x, y, z)
         (draft.increment if increment else draft.force)[node] = made
 
     def gravity(
@@ -800,7 +800,7 @@ class Model:
             ModelError: a component is no finite number.
         """
         draft = self._change()
-        draft.gravity = coordinates.load(draft, x, y, z, "acceleration", "m/s2")
+        draft.gravity = edits.load(draft, x, y, z, "acceleration", "m/s2")
 
     def made_of(
         self,
