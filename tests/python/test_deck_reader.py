@@ -20,7 +20,7 @@ from flexact.deck.tokens import Tokens, tokens_of
 from flexact.elasticity.reduced import Reducer
 from flexact.model.data import ModelData
 from flexact.model.editing import edited_deck
-from flexact.model.prescribed import prescribed_in
+from flexact.model.writing import prescribed_in
 from flexact.show.spacar_log import spacar_log
 
 PLAIN = """\

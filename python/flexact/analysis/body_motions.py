@@ -208,9 +208,9 @@ class Moves:
     def internal_to(self) -> tuple[Part, ...]:
         """The sheets and wires inside of which something moves, by name."""
         return tuple(
-            inside.part
-            for inside in self.analysis.carriers.insides
-            if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
+            part
+            for part, nodes in self.analysis.carriers.insides
+            if self._size[list(nodes)].max(initial=0.0) > self._rest
         )
 
     def _joint(self, target: object) -> Joint | None:

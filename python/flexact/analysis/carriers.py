@@ -61,14 +61,6 @@ class Joint(NamedTuple):
         return f"the joint of {' and '.join(names)}" if len(names) > 1 else f"the end of {names[0]}"
 
 
-class Inside(NamedTuple):
-    """Nodes that belong to one sheet or wire alone."""
-
-    part: Part
-    nodes: tuple[int, ...]
-    """Indices of position and orientation nodes in the model as given."""
-
-
 class Carriers:
     """The bodies, joints and insides of a model; each is found when it is asked for.
 
@@ -89,7 +81,7 @@ class Carriers:
     @cached_property
     def inner(self) -> frozenset[int]:
         """The nodes of all insides."""
-        return frozenset(node for inside in self.insides for node in inside.nodes)
+        return frozenset(node for _, nodes in self.insides for node in nodes)
 
     @cached_property
     def between_ends(self) -> frozenset[int]:
@@ -121,16 +113,16 @@ class Carriers:
         return tuple(sorted(made, key=key))
 
     @cached_property
-    def insides(self) -> tuple[Inside, ...]:
-        """By part."""
+    def insides(self) -> tuple[tuple[Part, tuple[int, ...]], ...]:
+        """The nodes that belong to one sheet or wire alone, in the model as given, by part."""
         made: dict[Part, list[int]] = {}
         for chain in self.data.chains:
             part = self.parts.of_element(chain.elements[0])
             made.setdefault(part, []).extend((*chain.positions[1:-1], *chain.orientations[1:-1]))
         for node, part in self.own_ends:
             made.setdefault(part, []).append(node)
-        found = (Inside(part, tuple(sorted(set(nodes)))) for part, nodes in made.items())
-        return tuple(sorted(found, key=lambda inside: (natural(inside.part.name), inside.nodes)))
+        found = ((part, tuple(sorted(set(nodes)))) for part, nodes in made.items())
+        return tuple(sorted(found, key=lambda inside: (natural(inside[0].name), inside[1])))
 
     @cached_property
     def own_ends(self) -> list[tuple[int, Part]]:

@@ -395,10 +395,10 @@ class _MotionGroups:
         )
         # One by one the nodes of an inside are by the place where they are.
         at: dict[object, list[int]] = {}
-        for inside in self.carriers.insides:
-            for node in inside.nodes:
+        for _, nodes in self.carriers.insides:
+            for node in nodes:
                 here = parts.place_of(node) if one_by_one else None
-                at.setdefault((inside.nodes, here), []).append(node)
+                at.setdefault((nodes, here), []).append(node)
         insides = list(at.values())
         made: list[IntArray] = []
         costs: list[Cost] = []

@@ -25,7 +25,7 @@ from ..core.elements import (
 )
 from ..model.attributes import CrossSection
 from ..model.data import ModelData
-from ..model.prescribed import class_statements, prescribed_in
+from ..model.writing import class_statements, prescribed_in
 from ..util.records import Frozen, cached_property
 from .errors import ElasticError
 from .solution import Policy, Solution, notch_in_units

@@ -24,8 +24,7 @@ from ..deck.tokens import Line, Tokens, tokens_of
 from ..model.data import ModelData
 from ..model.jacobian import jacobian
 from ..model.model import Model
-from ..model.prescribed import prescribed_in
-from ..model.writing import deck_of
+from ..model.writing import deck_of, prescribed_in
 from ..util.loading import VERSION
 from ..util.records import cached_property
 from ..util.text import harmless

@@ -20,9 +20,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..analysis.certainty import least_misalignments
 from ..analysis.decomposition import Asked
 from ..analysis.limits import CUT_OFF, NEAR, NO_CHANGE, REACH_OF_DIGITS
-from ..analysis.margin import least_misalignments
 from ..analysis.rank_evidence import MOST_OTHERS, MOST_WORK, MOST_ZEROS
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import AnalysisError, Certainty, Verdict

@@ -337,7 +337,7 @@ def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
     inside: dict[Part, int] = {}
-    insides = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    insides = {node: part for part, nodes in outcome.carriers.insides for node in nodes}
     own = {node for node, _ in outcome.carriers.own_ends}
     part_of = {node: part for node, part in insides.items() if node not in own}
     shared = _of_several_points(outcome, change)
