@@ -261,7 +261,7 @@ def make_of(
         indices = indices_of(draft, found)
         sheet = isinstance(found, Sheet)
         if sheet:
-            shape = sheet_section(section, thickness, breadth)  # type: ignore[arg-type]
+            shape = sheet_section(section, thickness, breadth)
         else:
             shape = round_section(section, thickness)
         p, q = draft.slots[indices[0]][0], draft.slots[indices[-1]][2]

@@ -148,22 +148,15 @@ def _hinge_stiffness(stiffness: Quantity | Sequence[Quantity], planar: bool) -> 
 _PARALLEL = 1.0e-6
 
 
-class WireSizes(NamedTuple):
-    """What a wire is made of, as users give it; see `Model.wire`."""
+class Sizes(NamedTuple):
+    """What a flexure is made of, as users give it; see `Model.wire` and `Model.sheet`."""
 
     section: Section | None
     thickness: Quantity | None
     material: MaterialLike | None
-
-
-class SheetSizes(NamedTuple):
-    """What a sheet is made of, as users give it; see `Model.sheet`."""
-
-    section: Sequence[Quantity] | None
-    thickness: Quantity | None
-    breadth: Quantity | None
-    material: MaterialLike | None
-    warping: bool | float
+    breadth: Quantity | None = None
+    """Of a sheet, as is what follows."""
+    warping: bool | float = False
 
 
 def add_wire(
@@ -173,7 +166,7 @@ def add_wire(
     y: Direction | None,
     name: str,
     beams: int,
-    sizes: WireSizes,
+    sizes: Sizes,
 ) -> Wire:
     """A wire flexure."""
     released = (2, 3) if draft.planar else (2, 3, 4, 5, 6)
@@ -190,7 +183,7 @@ def add_sheet(
     width: Direction | None,
     beams: int,
     name: str,
-    sizes: SheetSizes,
+    sizes: Sizes,
 ) -> Sheet:
     """A sheet flexure."""
     with call("sheet", name):
@@ -203,7 +196,7 @@ def add_folded_sheet(
     width: Direction | None,
     beams: int,
     name: str,
-    sizes: SheetSizes,
+    sizes: Sizes,
 ) -> FoldedSheet:
     """Two sheets from the first of three points over the fold to the last."""
     with call("folded_sheet", name):
@@ -224,7 +217,7 @@ def add_folded_sheet(
     return FoldedSheet((first, second), (start, middle, end))
 
 
-def _sheet_make(draft: Draft, sizes: SheetSizes) -> Make:
+def _sheet_make(draft: Draft, sizes: Sizes) -> Make:
     shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
     return made_of(kind(draft, "BEAM"), shape, sizes.material, "sheet")
 

@@ -20,7 +20,6 @@ from ..util.quantities import Quantity
 from ..util.text import in_short
 from . import assemblies, copies, edits, members
 from .arguments import Direction, call, text, whole
-from .assemblies import Mass
 from .configuration import Configuration
 from .copies import Names, Parts
 from .data import ModelData
@@ -38,7 +37,7 @@ from .handles import (
     Sheet,
     Wire,
 )
-from .members import SheetSizes, WireSizes
+from .members import Sizes
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
 from .selection import (
@@ -377,7 +376,7 @@ class Model:
             ModelError: something of it is wrong; its text begins with the name of the wire.
         """
         draft = self._change()
-        sizes = WireSizes(section, thickness, material)
+        sizes = Sizes(section, thickness, material)
         return members.add_wire(draft, p, q, y, name, beams, sizes)
 
     def sheet(
@@ -417,7 +416,7 @@ class Model:
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the sheet.
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
+        sizes = Sizes(section, thickness, material, breadth, warping)
         return members.add_sheet(self._change(), p, q, width, beams, name, sizes)
 
     def folded_sheet(
@@ -457,7 +456,7 @@ class Model:
         Raises:
             ModelError: something of it is wrong, such as three points on a line and no width.
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
+        sizes = Sizes(section, thickness, material, breadth, warping)
         return members.add_folded_sheet(self._change(), (a, fold, b), width, beams, name, sizes)
 
     def body(
@@ -486,7 +485,7 @@ class Model:
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the body.
         """
-        return assemblies.add_body(self._change(), points, name, Mass(mass, inertia), section)
+        return assemblies.add_body(self._change(), points, name, (mass, inertia), section)
 
     def cross_hinge(
         self,
@@ -530,10 +529,9 @@ class Model:
         Returns:
             Parts "sheet 1", ..., "body" and points "ground 1", ..., "body 1", ...
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
-        masses = Mass(mass, inertia)
+        sizes = Sizes(section, thickness, material, breadth, warping)
         return assemblies.add_cross_hinge(
-            self._change(), (ground, moving), width, name, carries, masses, beams, sizes
+            self._change(), (ground, moving), width, name, carries, (mass, inertia), beams, sizes
         )
 
     def parallel_guide(
@@ -580,10 +578,18 @@ class Model:
         Returns:
             Parts "sheet 1", ..., "stage" and points "ground 1", ..., "stage 1", ...
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
-        masses = Mass(mass, inertia)
+        sizes = Sizes(section, thickness, material, breadth, warping)
         return assemblies.add_parallel_guide(
-            self._change(), (p, q), offset, width, name, sheets, carries, masses, beams, sizes
+            self._change(),
+            (p, q),
+            offset,
+            width,
+            name,
+            sheets,
+            carries,
+            (mass, inertia),
+            beams,
+            sizes,
         )
 
     def hexapod(
@@ -628,10 +634,10 @@ class Model:
         Returns:
             Parts "wire 1", ..., "wire 6", "platform" and points "ground 1", ..., "platform 1", ...
         """
-        ends, masses = (base, platform), Mass(mass, inertia)
-        wires = WireSizes(section, thickness, material)
+        ends = base, platform
+        wires = Sizes(section, thickness, material)
         return assemblies.add_hexapod(
-            self._change(), ends, height, name, spread, at, carries, masses, beams, wires
+            self._change(), ends, height, name, spread, at, carries, (mass, inertia), beams, wires
         )
 
     # What is said of them ---------------------------------------------------
