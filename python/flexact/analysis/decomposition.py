@@ -423,8 +423,7 @@ def column_weights(analysis: Decomposition, columns: Places = _ALL) -> FloatArra
 def row_duals(analysis: Decomposition, rows: Places = _ALL) -> NDArray[np.int32]:
     """(rows,) `Dual` of rows of D(c)."""
     element, deformation = analysis.raw.row_label[:, rows] - 1
-    table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
-    return table
+    return np.asarray(dual_table()[analysis.data.arrays.element_kind[element], deformation])
 
 
 def row_factors(analysis: Decomposition, rows: Places = _ALL) -> FloatArray:

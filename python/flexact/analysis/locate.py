@@ -189,8 +189,7 @@ def positions_near(parts: Parts, place: FloatArray, within: float) -> IntArray:
     nodes = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION).astype(np.int32)
     values = arrays.node_value[:3, nodes]
     apart = np.abs(values - place[:, None]).max(axis=0)
-    found: IntArray = nodes[apart <= within * np.abs(values).max(initial=0.0)]
-    return found
+    return np.asarray(nodes[apart <= within * np.abs(values).max(initial=0.0)])
 
 
 def elements_of(parts: Parts, target: object) -> tuple[int, ...]:

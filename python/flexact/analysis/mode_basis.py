@@ -231,8 +231,7 @@ def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -
     largest = np.zeros(basis.vectors)
     weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
     np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
-    made: BoolArray = largest <= outcome.rounding
-    return made
+    return largest <= outcome.rounding
 
 
 def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:

@@ -179,8 +179,7 @@ class PartStress(Frozen):
         return self.ends[-1].wrench
 
     def _across(self, vector: FloatArray) -> FloatArray:
-        made: FloatArray = vector - (vector @ self.direction) * self.direction
-        return made
+        return vector - (vector @ self.direction) * self.direction
 
     def __str__(self) -> str:
         """In words."""
@@ -393,8 +392,7 @@ class Presses:
         position = end[0] if end[0] >= 0 else self.analysis.parts.place_of(end[1])
         if position is None:
             return np.zeros(3)
-        made: FloatArray = self.analysis.given.arrays.node_value[:3, position]
-        return made
+        return self.analysis.given.arrays.node_value[:3, position]
 
     def _wrench(self, both: FloatArray, about: FloatArray) -> Wrench:
         length = self.analysis.characteristic_length

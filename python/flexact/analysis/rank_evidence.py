@@ -61,8 +61,7 @@ def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:
     """The first vectors of a null space of D(c), of unit norm in the scaled matrix."""
     vectors = np.stack([basis.vector(k) for k in range(min(most, basis.vectors))], axis=1)
     norms = np.linalg.norm(vectors / scale[:, None], axis=0)
-    made: FloatArray = vectors / norms
-    return made
+    return np.asarray(vectors / norms)
 
 
 def _named(
@@ -294,5 +293,4 @@ def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArr
     images = np.stack(
         [np.bincount(used.row_of, used.value * part, used.rows) for part in moved.T], axis=1
     )
-    made: FloatArray = stresses.value.T @ images
-    return made
+    return stresses.value.T @ images

@@ -183,8 +183,7 @@ class _Grouped:
 
 def _starts(counts: NDArray[np.integer]) -> NDArray[np.integer]:
     """Where each of several pieces of these sizes begins."""
-    starts: NDArray[np.integer] = np.cumsum(counts) - counts
-    return starts
+    return np.asarray(np.cumsum(counts) - counts)
 
 
 def _squares_by_terms(matrix: Sparse, basis: Basis) -> FloatArray:
@@ -354,8 +353,7 @@ def _reduced(block: FloatArray) -> FloatArray:
     if len(block) == 1:
         return block if np.linalg.norm(block) > ROUNDING else block[:0]
     _, values, right = np.linalg.svd(block, full_matrices=False)
-    made: FloatArray = (values[:, None] * right)[values > ROUNDING]
-    return made
+    return np.asarray((values[:, None] * right)[values > ROUNDING])
 
 
 class _Search:
@@ -456,8 +454,7 @@ def _norm(block: FloatArray) -> float:
 def _off(vectors: FloatArray, spanned: FloatArray) -> FloatArray:
     """What of some vectors is outside of what orthonormal ones span."""
     off = vectors - spanned @ (spanned.T @ vectors)
-    made: FloatArray = off - spanned @ (spanned.T @ off)
-    return made
+    return off - spanned @ (spanned.T @ off)
 
 
 def _components(blocks: list[FloatArray]) -> list[list[int]]:
@@ -489,16 +486,14 @@ class _Stack:
     def norms(self, vectors: FloatArray) -> FloatArray:
         """Of each block that has rows."""
         squares = np.sum((self._rows @ vectors) ** 2, axis=1)
-        made: FloatArray = np.sqrt(np.add.reduceat(squares, self._start))
-        return made
+        return np.sqrt(np.add.reduceat(squares, self._start))
 
     def smaller(self, vector: FloatArray, row: FloatArray) -> FloatArray:
         """(k,) of least sum of squares over present norms, of those with one product with a row."""
         norms = self.norms(vector[:, None])
         weights = np.repeat(1.0 / np.maximum(norms, 1.0e-8 * norms.max()), self._counts)
         matrix = self._rows.T @ (weights[:, None] * self._rows)
-        made: FloatArray = np.linalg.lstsq(matrix, row, rcond=None)[0]
-        return made
+        return np.asarray(np.linalg.lstsq(matrix, row, rcond=None)[0])
 
     def zero(self, vectors: FloatArray) -> int:
         """The blocks in which they are zero, a bit each."""

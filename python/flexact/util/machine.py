@@ -119,8 +119,7 @@ def _of_groups(root: Path = _ROOT) -> float:
     """What the control groups of this process and those round them leave it."""
     if sys.platform != "linux":
         return math.inf
-    left: float = memory_left_of_group(root)
-    return left
+    return memory_left_of_group(root)
 
 
 def processors(root: Path = Path("/")) -> int:

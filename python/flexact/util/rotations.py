@@ -79,13 +79,12 @@ def turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
     cross = np.empty_like(vector)
     for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         cross[:, k] = vector[:, i] * old_vector[:, j] - vector[:, j] * old_vector[:, i]
-    made: FloatArray = np.hstack(
+    return np.hstack(
         [
             scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
             scalar * old_vector + old_scalar * vector + cross,
         ]
     )
-    return made
 
 
 def left_jacobian(vector: FloatArray) -> FloatArray:

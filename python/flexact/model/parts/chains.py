@@ -207,8 +207,7 @@ def _nearly_in_line(arrays: ModelArrays, beams: IntArray, ends: IntArray) -> Boo
     along = way * np.where(ends == [1, 0], 1.0, -1.0)
     products = np.einsum("ij,ij->j", along[:, :, 0], along[:, :, 1])
     lengths = np.sqrt(np.einsum("ijk,ijk->jk", way, way)).prod(axis=1)
-    made: BoolArray = products >= (min(_IN_ROW, _OF_ONE_NAME) - _SLACK) * lengths
-    return made
+    return np.asarray(products >= (min(_IN_ROW, _OF_ONE_NAME) - _SLACK) * lengths)
 
 
 class _Neighbours:
@@ -314,15 +313,13 @@ class _Neighbours:
 
 def _is_beam(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams, (elements,)."""
-    made: BoolArray = member_table()[arrays.element_kind] == Member.BEAM
-    return made
+    return np.asarray(member_table()[arrays.element_kind] == Member.BEAM)
 
 
 def _is_bendable(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams that do not hold every bending, (elements,)."""
     free = _bendings()[arrays.element_kind] & (arrays.deformation_class.T != Class.FIXED)
-    made: BoolArray = _is_beam(arrays) & free.any(axis=1)
-    return made
+    return np.asarray(_is_beam(arrays) & free.any(axis=1))
 
 
 @cache
@@ -377,8 +374,7 @@ def directions_across(
 
 
 def _unit(vector: FloatArray) -> FloatArray:
-    made: FloatArray = vector / np.linalg.norm(vector, axis=-1, keepdims=True)
-    return made
+    return np.asarray(vector / np.linalg.norm(vector, axis=-1, keepdims=True))
 
 
 def signs_of(direction: FloatArray) -> FloatArray:

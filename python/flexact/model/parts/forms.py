@@ -38,15 +38,13 @@ def is_member(kind: IntArray, *members: Member) -> np.ndarray:
 def _held_of(arrays: ModelArrays, roles: tuple[Role, ...]) -> np.ndarray:
     """(elements,) how many of the deformations of some roles are held."""
     held = arrays.deformation_class.T == Class.FIXED
-    made: np.ndarray = np.sum(held & np.isin(role_table()[arrays.element_kind], roles), axis=1)
-    return made
+    return np.asarray(np.sum(held & np.isin(role_table()[arrays.element_kind], roles), axis=1))
 
 
 def all_held(arrays: ModelArrays) -> np.ndarray:
     """(elements,) whether every deformation of an element is held."""
     classes = arrays.deformation_class
-    made: np.ndarray = np.all((classes == Class.NONE) | (classes == Class.FIXED), axis=0)
-    return made
+    return np.asarray(np.all((classes == Class.NONE) | (classes == Class.FIXED), axis=0))
 
 
 def bending_held(arrays: ModelArrays) -> np.ndarray:
