@@ -191,18 +191,14 @@ def _without_name(parts: Parts, position: int, within: Part | None) -> str:
         return "its free end" if within is not None else f"the free end of {parts_words(here)}"
     is_fold = len(here) == 2 and all(part.kind is PartKind.SHEET for part in here)
     kind = "fold" if is_fold else "joint"
-    shared = _shared_name(here)
+    # What both names begin with, up to a comma: "upper 90" of its leaves.
+    heads = {part.name.rpartition(",")[0].strip() for part in here}
+    shared = heads.pop() if len(heads) == 1 else ""
     if is_fold and shared:
         return "the fold" if within is not None else f"the fold of {shared}"
     if within is not None:
         return f"its {kind} with {others_words(others)}"
     return f"the {kind} of {parts_words(here)}"
-
-
-def _shared_name(parts: Sequence[Part]) -> str:
-    """What the names of several parts begin with, up to a comma: "upper 90" of its leaves."""
-    heads = {part.name.rpartition(",")[0].strip() for part in parts}
-    return heads.pop() if len(heads) == 1 else ""
 
 
 def _is_clamped(parts: Parts, position: int) -> bool:

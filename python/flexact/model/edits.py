@@ -22,7 +22,7 @@ from ..util.text import in_short
 from .arguments import numbers, several, vector
 from .draft import Colour, Draft, Said, Vector
 from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet, Wire
-from .names import is_coordinate, nearest, part_name, renamed
+from .names import is_coordinate, nearest, part_name
 from .sections import (
     MaterialLike,
     Section,
@@ -222,7 +222,8 @@ def rename_part(draft: Draft, target: object, name: str) -> None:
     for k, leaf in enumerate(leaves, 1):
         own = name if len(leaves) == 1 else f"{name}, leaf {k}"
         for index in indices_of(draft, part(draft, leaf)):
-            draft.name_element(index, renamed(draft.names.get(index, ""), own))
+            old = draft.names.get(index, "")
+            draft.name_element(index, own + old[len(part_name(old)) :])
 
 
 def names_part(draft: Draft, target: object) -> bool:
