@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol
 
 from ..core.elements import Role, role_table
 from ..model.data import ModelData
+from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.condensing import Condensed
 from ..model.parts.forms import Form
 from ..model.parts.parts import Part, Parts
@@ -30,14 +31,6 @@ _IN_LOCAL_FRAME: dict[int, str] = {
     Role.TILT_Z: "second tilt of the axis",
     Role.ANGLE: "rotation",
 }
-#: Local axis about which a bending turns, the local plane in which it is, and the end.
-_BENDINGS: dict[int, tuple[int, int, int]] = {
-    Role.BENDING_XZ_P: (1, 2, 0),
-    Role.BENDING_XZ_Q: (1, 2, 1),
-    Role.BENDING_XY_P: (2, 1, 0),
-    Role.BENDING_XY_Q: (2, 1, 1),
-}
-_PLANAR_BENDINGS: dict[int, int] = {Role.PLANAR_BENDING_P: 0, Role.PLANAR_BENDING_Q: 1}
 #: Words that need no place and no axis.
 _PLAIN: dict[int, str] = {
     Role.ELONGATION: "elongation",
@@ -45,9 +38,6 @@ _PLAIN: dict[int, str] = {
     Role.ROTATION: "rotation about its axis",
     Role.ANGLE: "rotation",
 }
-#: Local axis of what is along or about it.
-_OFFSETS: dict[int, int] = {Role.OFFSET_X: 0, Role.OFFSET_Y: 1, Role.OFFSET_Z: 2}
-_TILTS: dict[int, int] = {Role.TILT_Y: 1, Role.TILT_Z: 2}
 
 
 class Told(Protocol):
@@ -79,15 +69,13 @@ def deformation_words(outcome: Told, element: int, deformation: int) -> str:
     role = role_of(outcome, element, deformation)
     if role in _PLAIN:
         return _PLAIN[role]
-    frame = outcome.data.frames.frame[element]
+    axis = axis_words(outcome.data.frames.frame[element][:, LOCAL_AXIS.get(role, 0)])
     bending = bending_of(outcome, element, deformation)
     if bending is not None:
         place = place_words(outcome.parts, bending.position, part_of(outcome, element))
-        word = bending.word or f"bending about {axis_words(frame[:, _BENDINGS[role][0]])}"
-        return f"{word} at {place}"
-    if role in _TILTS:
-        return f"tilt about {axis_words(frame[:, _TILTS[role]])}"
-    return f"displacement along {axis_words(frame[:, _OFFSETS[role]])}"
+        return f"{bending.word or f'bending about {axis}'} at {place}"
+    way = "tilt about" if role in (Role.TILT_Y, Role.TILT_Z) else "displacement along"
+    return f"{way} {axis}"
 
 
 class Bending(NamedTuple):
@@ -102,16 +90,17 @@ class Bending(NamedTuple):
 def bending_of(outcome: Told, element: int, deformation: int) -> Bending | None:
     """The bending that a deformation is; None where it is none. See `deformation_words`."""
     role = role_of(outcome, element, deformation)
-    given = int(outcome.condensed.elements[element])
-    if role in _PLANAR_BENDINGS:
-        return Bending("bending", _end(outcome, element, _PLANAR_BENDINGS[role]))
-    if role not in _BENDINGS:
+    if role not in AT_P and role not in AT_Q:
         return None
-    _, plane, end = _BENDINGS[role]
-    position = _end(outcome, element, end)
+    node = int(outcome.data.arrays.element_node[2 if role in AT_Q else 0, element]) - 1
+    position = int(outcome.condensed.nodes[node])
+    if role not in LOCAL_AXIS:
+        return Bending("bending", position)
+    given = int(outcome.condensed.elements[element])
     if outcome.parts.form[given] != Form.SHEET:
         return Bending(None, position)
-    is_in_plane = outcome.parts.wide[given] == plane
+    # A bending about one local axis is in the plane of the other.
+    is_in_plane = outcome.parts.wide[given] == 3 - LOCAL_AXIS[role]
     return Bending("in-plane bending" if is_in_plane else "out-of-plane bending", position)
 
 
@@ -124,12 +113,6 @@ def role_of(outcome: Told, element: int, deformation: int) -> int:
 def part_of(outcome: Told, element: int) -> Part:
     """The part that an element, by its index in `outcome.data`, belongs to."""
     return outcome.parts.of_element(int(outcome.condensed.elements[element]))
-
-
-def _end(outcome: Told, element: int, end: int) -> int:
-    """The position node at an end of an element, 0 at p and 1 at q."""
-    node = int(outcome.data.arrays.element_node[2 * end, element]) - 1
-    return int(outcome.condensed.nodes[node])
 
 
 def deformation_word(kind: int, deformation: int) -> str:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
-from ..model.deformations import AT_P, AT_Q
+from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
@@ -36,11 +36,6 @@ from .sparse_basis import (
     support_of,
 )
 
-#: Local axis about or along which a deformation is, by role; 0 where it has none of its own.
-_AXIS: dict[int, int] = {
-    **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.OFFSET_Y, Role.TILT_Y), 1),
-    **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q, Role.OFFSET_Z, Role.TILT_Z), 2),
-}
 #: Bendings of both ends and planes together, behind elongation and torsion.
 _BENDING = int(Role.BENDING_XZ_P)
 #: Of values of practically one size, no more than so many are put in order.
@@ -86,7 +81,7 @@ def deformation_key(
     data, given = outcome.data, int(outcome.condensed.elements[element])
     role = int(role_table()[data.arrays.element_kind[element], deformation])
     part = outcome.parts.of_element(given)
-    axis = _AXIS.get(role, 0)
+    axis = LOCAL_AXIS.get(role, 0)
     bends = role in AT_P or role in AT_Q
     wide = int(outcome.parts.wide[given])
     # A sheet's local z is in its plane where the bending about local y is held.

@@ -291,6 +291,17 @@ def pieces_of(
     return _independent(found, space, _sum(costs, range(len(groups))))
 
 
+def _newly_spanned(vectors: FloatArray, spanned: FloatArray) -> tuple[list[int], FloatArray]:
+    """Which vectors (k, d) are outside of what orthonormal ones span, and what all of them span."""
+    chosen = []
+    for k, one in enumerate((vectors / np.linalg.norm(vectors, axis=0)).T):
+        off = _off(one[:, None], spanned)
+        if np.linalg.norm(off) > _NEW:
+            spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
+            chosen.append(k)
+    return chosen, spanned
+
+
 def _independent(pieces: list[Piece], space: FloatArray, cost: Cost) -> list[Piece]:
     """The pieces without vectors that depend on those before, and what is missing then.
 
@@ -299,12 +310,8 @@ def _independent(pieces: list[Piece], space: FloatArray, cost: Cost) -> list[Pie
     orthonormal = np.linalg.qr(space)[0]
     spanned, made = np.zeros((space.shape[1], 0)), []
     for piece in pieces:
-        chosen, coefficients = [], orthonormal.T @ piece.vectors
-        for k, one in enumerate(coefficients.T):
-            off = _off(one[:, None] / np.linalg.norm(one), spanned)
-            if np.linalg.norm(off) > _NEW:
-                spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
-                chosen.append(k)
+        coefficients = orthonormal.T @ piece.vectors
+        chosen, spanned = _newly_spanned(coefficients, spanned)
         if chosen:
             # Rounding may have left the space where groups see little of a vector.
             made.append(piece._replace(vectors=orthonormal @ coefficients[:, chosen]))
@@ -410,13 +417,8 @@ class _Search:
             if new.shape[1] > _MOST_REFINED:
                 new = span(_off(new, spanned), _NEW)
             refined = self.refine(within @ new)
-            coefficients = np.linalg.lstsq(self.space @ within, refined, rcond=None)[0]
-            chosen = []
-            for k, one in enumerate((coefficients / np.linalg.norm(coefficients, axis=0)).T):
-                off = _off(one[:, None], spanned)
-                if np.linalg.norm(off) > _NEW:
-                    spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
-                    chosen.append(k)
+            coefficients = np.asarray(np.linalg.lstsq(self.space @ within, refined, rcond=None)[0])
+            chosen, spanned = _newly_spanned(coefficients, spanned)
             if chosen:
                 yield Piece(self._cost(support), support, refined[:, chosen])
             if spanned.shape[1] == d:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.elements import NodeKind
-from ..deck.diagnostics import Diagnostic, Severity
+from ..deck.diagnostics import Diagnostic, warning
 from ..util.text import MOST_TYPED, significant_digits
 from .certainty import Doubt, DoubtKind
 from .decomposition import Accuracy
@@ -285,12 +285,11 @@ def warnings_of(result: Result) -> tuple[Diagnostic, ...]:
     if small is not None and is_close and not result.assessment.doubts:
         part = f"{small / largest:.1e} of the largest"
         made.append(
-            Diagnostic(
-                Severity.WARNING,
+            warning(
                 "close-decision",
                 f"the smallest singular value that counts as non-zero is {part}: a small "
                 "misalignment would change the verdict",
-                help="look at the margin, and at the geometry",
+                "look at the margin, and at the geometry",
             )
         )
     return tuple(made)
@@ -307,8 +306,7 @@ def _digits(result: Result) -> str:
 
 def warning_of(result: Result, doubt: Doubt) -> Diagnostic:
     """A doubt as a warning: its code, a sentence, and what helps."""
-    sentence, advice = _words(result, doubt)
-    return Diagnostic(Severity.WARNING, doubt.code, sentence, help=advice)
+    return warning(doubt.code, *_words(result, doubt))
 
 
 def _counting(values: int) -> str:

@@ -125,6 +125,11 @@ class Diagnostic:
         }
 
 
+def warning(code: str, message: str, hint: str = "") -> Diagnostic:
+    """A warning without a place."""
+    return Diagnostic(Severity.WARNING, code, message, help=hint)
+
+
 @dataclass(frozen=True)
 class Problems:
     """Diagnostics that were kept, and how many there were of each severity.

@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.arrays import BoolArray, FloatArray, IntArray, ModelArrays
-from ...core.elements import Class, Member, Role, member_table, role_table
+from ...core.elements import Class, Member, member_table, role_table
 from ..names import part_name
-from .forms import Form, forms_of
+from .forms import PLANAR, XY, XZ, Form, forms_of
 
 #: Cosine of the largest angle between neighbours in a row; between those of one name.
 _IN_ROW = 0.7071
@@ -318,18 +317,9 @@ def _is_beam(arrays: ModelArrays) -> BoolArray:
 
 def _is_bendable(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams that do not hold every bending, (elements,)."""
-    free = _bendings()[arrays.element_kind] & (arrays.deformation_class.T != Class.FIXED)
+    bends = np.isin(role_table(), (*XZ, *XY, *PLANAR))[arrays.element_kind]
+    free = bends & (arrays.deformation_class.T != Class.FIXED)
     return np.asarray(_is_beam(arrays) & free.any(axis=1))
-
-
-@cache
-def _bendings() -> BoolArray:
-    """(kinds + 1, 6) which deformations bend, by element kind."""
-    bends = (
-        *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
-        *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
-    )
-    return np.isin(role_table(), bends)
 
 
 #: Beside the largest component of a direction one below this part is small; and an axis is steep
