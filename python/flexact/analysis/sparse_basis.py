@@ -255,12 +255,8 @@ class Piece(NamedTuple):
     """(rows, d)."""
 
 
-class _Flat(NamedTuple):
-    """The vectors that are zero in some groups: (k, d) coefficients."""
-
-    zero: int
-    """These groups, a bit each."""
-    vectors: FloatArray
+#: The vectors that are zero in some groups: these groups, a bit each, and (k, d) coefficients.
+_Flat = tuple[int, FloatArray]
 
 
 def pieces_of(
@@ -410,10 +406,9 @@ class _Search:
             return
         blocks = [_reduced(self.blocks[i] @ within) for i in members]
         spanned = np.zeros((d, 0))
-        for support, flat in self._cheapest_first(members, blocks, d):
-            if not np.linalg.norm(_off(flat.vectors, spanned)) > _NEW:
+        for support, new in self._cheapest_first(members, blocks, d):
+            if not np.linalg.norm(_off(new, spanned)) > _NEW:
                 continue
-            new = flat.vectors
             if new.shape[1] > _MOST_REFINED:
                 new = span(_off(new, spanned), _NEW)
             refined = self.refine(within @ new)
@@ -428,16 +423,16 @@ class _Search:
 
     def _cheapest_first(
         self, members: list[int], blocks: list[FloatArray], d: int
-    ) -> list[tuple[tuple[int, ...], _Flat]]:
+    ) -> list[tuple[tuple[int, ...], FloatArray]]:
         if d > MOST_DIMENSIONS:
             return []
-        whole = _Flat(0, np.eye(d))
+        whole = 0, np.eye(d)
         flats = [whole] if d == 1 else _all_flats(blocks, d) or [*_by_descent(blocks, d), whole]
         supports = [
-            tuple(i for k, i in enumerate(members) if not flat.zero >> k & 1) for flat in flats
+            tuple(i for k, i in enumerate(members) if not zero >> k & 1) for zero, _ in flats
         ]
         order = sorted(range(len(flats)), key=lambda n: (self._cost(supports[n]), supports[n]))
-        return [(supports[n], flats[n]) for n in order]
+        return [(supports[n], flats[n][1]) for n in order]
 
     def _cost(self, support: Iterable[int]) -> Cost:
         return _sum(self.costs, support)
@@ -510,25 +505,25 @@ def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
     this is the first, and later than those before, tells it from its repetitions (Ganter 1984).
     """
     stack = _Stack(blocks)
-    whole = _Flat(stack.zero(np.eye(d)), np.eye(d))
+    whole = stack.zero(np.eye(d)), np.eye(d)
     made, cuts = [whole], 0
     open_flats = [(whole, -1)]
     while open_flats:
-        flat, last = open_flats.pop()
+        (flat, within), last = open_flats.pop()
         for i in range(last + 1, len(blocks)):
-            if flat.zero >> i & 1:
+            if flat >> i & 1:
                 continue
             cuts += 1
             if cuts > _MOST_CUTS:
                 return None
-            left = null_space(blocks[i] @ flat.vectors, ROUNDING)
+            left = null_space(blocks[i] @ within, ROUNDING)
             if not left.shape[1]:
                 continue
-            vectors = flat.vectors @ left
+            vectors = within @ left
             zero = stack.zero(vectors)
-            new = zero & ~flat.zero
+            new = zero & ~flat
             if new & -new == 1 << i:
-                made.append(_Flat(zero, vectors))
+                made.append((zero, vectors))
                 open_flats.append((made[-1], i))
     return made
 
@@ -557,4 +552,4 @@ def _by_descent(blocks: list[FloatArray], d: int) -> Iterator[_Flat]:
                 left = vectors @ null_space(blocks[k] @ vectors, ROUNDING)
                 if left.shape[1] and np.linalg.norm(blocks[i] @ left) > _NEW:
                     vectors = left
-            yield _Flat(stack.zero(vectors), vectors)
+            yield stack.zero(vectors), vectors
