@@ -225,8 +225,8 @@ def _stored(found: dict[str, Any]) -> Side:
     move, turn = (
         None if margin[key] is None else float(margin[key]["value"]) for key in ("length", "angle")
     )
-    exact, given = bool(margin["exact_alignment"]), found["accuracy"]
-    sizes = Margin(move, turn, None, None, None, exact)
+    given = found["accuracy"]
+    sizes = Margin(move, turn, None, None, None, bool(margin["exact_alignment"]))
     accuracy = None
     if given is not None:
         within = [None if given[k] is None else given[k]["value"] for k in ("length", "angle")]
@@ -238,7 +238,7 @@ def _stored(found: dict[str, Any]) -> Side:
         ),
         counts_in_words(under, over) + but_only(sizes, accuracy),
         _numbers(found["counts"], under, over, int(found["degrees_of_freedom"])),
-        margin_of_sizes(move, turn, length, exact=exact),
+        margin_of_sizes(sizes, length, accuracy),
         str(found["certainty"]),
         tuple(
             Mode(_moving(made), _vector(made, "node", "coordinate", length))
