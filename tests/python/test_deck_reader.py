@@ -14,9 +14,8 @@ from flexact.apps.checks.findings import Lines
 from flexact.apps.editor.deck import Deck
 from flexact.apps.editor.document import Document
 from flexact.core.elements import Class
-from flexact.deck.comments import comments_of
 from flexact.deck.keywords import Block
-from flexact.deck.tokens import Tokens, tokens_of
+from flexact.deck.tokens import Tokens, comments_of, tokens_of
 from flexact.elasticity.reduced import Reducer
 from flexact.model.data import ModelData
 from flexact.model.editing import edited_deck

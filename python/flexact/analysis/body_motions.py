@@ -13,9 +13,8 @@ from ..core.arrays import FloatArray
 from ..deck.rendering import model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
-from ..model.parts.parts import Part, PartKind, natural
+from ..model.parts.parts import Joint, Part, PartKind, natural
 from ..util.records import Frozen, cached_property
-from .carriers import Joint
 from .decomposition import Decomposition
 from .locate import part_of, position_of
 from .screws import Screw, screw_of

@@ -21,8 +21,8 @@ from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
 from .change import Change
 from .decomposition import Decomposition
-from .deformation_words import bending_of, part_of, role_of
 from .locate import positions_near
+from .places import bending_of, part_of, role_of
 from .ways import Coordinate, Deformation, Part, Step, Way
 
 #: What a method of a model is, by the statement of a deck that does the same.

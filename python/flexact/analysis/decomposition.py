@@ -19,12 +19,11 @@ from ..core.raw import RawAnalysis, RawAssembly
 from ..model.attributes import Labels, column_labels, row_labels
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
-from ..model.parts.parts import Parts
+from ..model.parts.parts import Carriers, Parts
 from ..util import machine as memory
 from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
-from .carriers import Carriers
 from .limits import LARGEST_ROUNDING, ROUNDING
 from .sparse_basis import orthonormal
 from .verdict import AnalysisError, ClassCounts, Counts, Gap, Margin, Proof, Verdict, completed

@@ -17,13 +17,12 @@ from ..model.parts.parts import PartKind
 from ..util.loading import VERSION
 from .calls import calls_of
 from .decomposition import row_duals, row_factors
-from .deformation_words import deformation_word
 from .freedoms import Freedom
 from .limits import LEFT_OUT
 from .mode_words import moments_at_ends
 from .naming import freedom_in_words, node_name, part_in_words, plain, unit_of_coordinate
 from .part_stresses import PartStress
-from .places import place_words
+from .places import deformation_word, place_words
 from .result import Result
 from .screws import Screw, ScrewKind, Wrench
 from .verdict import AnalysisError, Margin

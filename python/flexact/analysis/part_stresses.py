@@ -19,9 +19,8 @@ from ..core.elements import Class, Member, NodeKind, Role, role_table
 from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.parts.forms import is_member
-from ..model.parts.parts import Part, PartKind, natural
+from ..model.parts.parts import Joint, Part, PartKind, natural
 from ..util.records import Frozen, cached_property
-from .carriers import Joint
 from .decomposition import Decomposition, row_weights
 from .limits import EXACT_COSINE, NO_RESULTANT, ROUNDING, SAME_WRENCH, TOLD
 from .locate import part_of, position_of

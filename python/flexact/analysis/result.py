@@ -18,13 +18,12 @@ from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
 from ..model.deformations import AT_P, AT_Q
 from ..model.parts.condensing import condensed
-from ..model.parts.parts import PartKind, declared
+from ..model.parts.parts import Joint, PartKind, declared
 from ..model.variation import with_classes
 from ..util.loading import load
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .body_motions import Moves, Velocities
-from .carriers import Joint
 from .certainty import Assessment, assess, least, margins
 from .decomposition import (
     Asked,

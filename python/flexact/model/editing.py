@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ..deck.comments import DeckComments, Key, key_of
 from ..deck.keywords import Block
 from ..deck.rendering import DeckError
-from ..deck.tokens import Line, Tokens
+from ..deck.tokens import DeckComments, Key, Line, Tokens, key_of
 from .data import ModelData
 from .reading import read_bytes
 from .writing import deck_of, dynamics_of, statements_of

@@ -10,9 +10,8 @@ import numpy as np
 
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
-from ..deck.comments import ELEMENT, GRAVITY, DeckComments, comments_of
 from ..deck.keywords import Block
-from ..deck.tokens import tokens_of
+from ..deck.tokens import ELEMENT, GRAVITY, DeckComments, comments_of, tokens_of
 from .attributes import Appearance, CrossSection, rows_of
 from .data import ModelData
 from .names import one_line

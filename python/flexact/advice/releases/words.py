@@ -12,7 +12,6 @@ import numpy as np
 from ...analysis.calls import HOLD, calls_of_change, method_of
 from ...analysis.change import Change
 from ...analysis.decomposition import Decomposition
-from ...analysis.deformation_words import bending_of, deformation_words, role_of
 from ...analysis.naming import (
     Named,
     Piece,
@@ -22,7 +21,15 @@ from ...analysis.naming import (
     named_element,
     plain,
 )
-from ...analysis.places import end_words, listed, place_words, with_article
+from ...analysis.places import (
+    bending_of,
+    deformation_words,
+    end_words,
+    listed,
+    place_words,
+    role_of,
+    with_article,
+)
 from ...analysis.result import Result
 from ...analysis.ways import Coordinate, coordinate_of
 from ...core.elements import AXES, Class, NodeKind, Role, coordinate_name, planar_table

@@ -120,7 +120,7 @@ class Index:
 
 @dataclass(frozen=True, eq=False)
 class Told:
-    """A model of which is spoken without an analysis; see `analysis.deformation_words.Told`."""
+    """A model of which is spoken without an analysis; see `analysis.places.Told`."""
 
     data: ModelData
 

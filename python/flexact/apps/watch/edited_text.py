@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.calls import MOST_TRIED, Call, coordinate_call, deformation_call, made, named_part
-from ...analysis.deformation_words import part_of, role_of
+from ...analysis.places import part_of, role_of
 from ...core.elements import Class, Role, coordinate_name
 from ...deck.diagnostics import decode
 from ...model.data import ModelData
