@@ -327,7 +327,11 @@ def _perhaps_tiny(outcome: Decomposition, evidence: Evidence, zero: float) -> It
     left, explained = largest_remainder(outcome) or (0.0, 0.0)
     if left > explained:
         yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left, explained=explained)
-    powers = powers_faded(outcome)
+    # Through which a motion and a self-stress fade, the less of the two.
+    raw = outcome.raw
+    powers = min(
+        powers_faded(raw.motions, raw.column_scale), powers_faded(raw.stresses, raw.row_scale)
+    )
     if powers >= FADED:
         yield Doubt(DoubtKind.FADING, zeros=zeros, size=powers)
 

@@ -313,23 +313,19 @@ class Presses:
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
         """Bodies on which parts press, by name, then joints; clamps are left out."""
-        return self.on_bodies + self.on_joints
+        on_joints = (
+            Conflict(joint, self._loads(joint.nodes, None))
+            for joint in self.analysis.carriers.joints
+            if not self._is_held(joint) and not self._of_node.keys().isdisjoint(joint.nodes)
+        )
+        pressed = (one for one in on_joints if any(load.part for load in one.loads))
+        return (*self.on_bodies, *pressed)
 
     @cached_property
     def on_bodies(self) -> tuple[Conflict, ...]:
         """Those on bodies."""
         bodies = sorted(self.analysis.carriers.bodies, key=self._key)
         made = (Conflict(body, self.on(body)) for body in bodies)
-        return tuple(one for one in made if any(load.part for load in one.loads))
-
-    @cached_property
-    def on_joints(self) -> tuple[Conflict, ...]:
-        """Those on joints."""
-        made = (
-            Conflict(joint, self._loads(joint.nodes, None))
-            for joint in self.analysis.carriers.joints
-            if not self._is_held(joint) and not self._of_node.keys().isdisjoint(joint.nodes)
-        )
         return tuple(one for one in made if any(load.part for load in one.loads))
 
     # What it is made of -----------------------------------------------------

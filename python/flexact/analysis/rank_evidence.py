@@ -203,17 +203,11 @@ def largest_remainder(outcome: Decomposition) -> tuple[float, float] | None:
     return float(left[u, v][worst_of_all]), float(found[worst_of_all])
 
 
-def powers_faded(outcome: Decomposition) -> float:
-    """Through how many powers of ten a motion and a self-stress fade, the less of the two.
+def powers_faded(basis: Basis, scale: FloatArray) -> float:
+    """Powers of ten from the largest component down to the end of small steps, of any vector.
 
     The core cuts off what is below 1e-11 of a vector's largest component where it may.
     """
-    raw = outcome.raw
-    return min(_faded(raw.motions, raw.column_scale), _faded(raw.stresses, raw.row_scale))
-
-
-def _faded(basis: Basis, scale: FloatArray) -> float:
-    """Powers of ten from the largest component down to the end of small steps, of any vector."""
     vectors = int(np.searchsorted(basis.start, _MOST_NUMBERS, "right")) - 1
     entries = int(basis.start[vectors])
     if not entries:

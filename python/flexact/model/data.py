@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import overload
+from typing import Any
 
 import numpy as np
 
@@ -147,12 +147,8 @@ class DeckNames(Sequence[str]):
         """Number of elements or nodes."""
         return int(self._places.shape[1])
 
-    @overload
-    def __getitem__(self, index: int) -> str: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[str, ...]: ...
-    def __getitem__(self, index: int | slice) -> str | tuple[str, ...]:
-        """The name of an element or a node by its index; empty where it has none."""
+    def __getitem__(self, index: Any) -> Any:
+        """The name of an element or a node by its index, empty where it has none; or several."""
         if isinstance(index, slice):
             return tuple(self[i] for i in range(*index.indices(len(self))))
         return self._between(*self._places[:, index].tolist())
