@@ -11,12 +11,12 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
 from ..deck.rendering import model_error
+from ..model.arguments import of_indices
 from ..model.deformations import classes_of_division, find_deformations
 from ..model.draft import ROUNDING
 from ..model.draft_arrays import draft_of
 from ..model.names import ambiguous, unknown
 from ..model.parts.parts import Part, PartKind, Parts
-from ..model.selection import of_indices
 from ..util.quantities import without_units
 from ..util.text import in_short
 

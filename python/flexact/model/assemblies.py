@@ -9,22 +9,28 @@ from collections.abc import Iterable, Sequence
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
 from ..util.text import in_short
-from .arguments import Direction, call, count, numbers_of_size, several, text, vector
+from .arguments import (
+    Direction,
+    Point,
+    at_place,
+    call,
+    checked_name,
+    count,
+    listed,
+    named_part,
+    numbers_of_size,
+    place,
+    point,
+    require_own,
+    several,
+    text,
+    vector,
+)
 from .draft import Draft
 from .handles import Assembly, Body, Element, Named, Node, Part
 from .members import Sizes, add_rigid, add_sheet, add_wire, span, width_across
 from .names import part_name
 from .sections import Make, Section, shape_of
-from .selection import (
-    Point,
-    at_place,
-    checked_name,
-    listed,
-    named_part,
-    place,
-    point,
-    require_own,
-)
 from .transform import on_circle
 
 #: Of one guide.

@@ -16,28 +16,26 @@ from ..util.quantities import Quantity
 from ..util.text import in_short
 from .arguments import (
     Direction,
+    PartLike,
+    Point,
     angle,
     count,
     cross,
     direction,
+    drawn_elements,
+    existing,
     numbers_of_size,
+    of_indices,
+    pivot,
+    place,
     several,
     text,
     unit,
+    whole_point,
 )
 from .draft import NO_VECTOR, ROUNDING, Draft, Places, Slots, Vector
 from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .names import part_name
-from .selection import (
-    PartLike,
-    Point,
-    drawn_elements,
-    existing,
-    of_indices,
-    pivot,
-    place,
-    whole_point,
-)
 from .transform import IDENTITY, Transform, reflection, rotation
 
 #: How names of copies are made: "upper {}" or "{} {}", with the number of the copy as the second;

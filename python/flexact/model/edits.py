@@ -19,7 +19,18 @@ from ..core.elements import (
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
 from ..util.text import in_short
-from .arguments import numbers, several, vector
+from .arguments import (
+    Point,
+    drawn_elements,
+    indices_of,
+    is_chain,
+    named_part,
+    nodes_of,
+    numbers,
+    part,
+    several,
+    vector,
+)
 from .draft import Colour, Draft, Said, Vector
 from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet, Wire
 from .names import is_coordinate, nearest, part_name
@@ -32,7 +43,6 @@ from .sections import (
     sheet_section,
     sheet_shape,
 )
-from .selection import Point, drawn_elements, indices_of, is_chain, named_part, nodes_of, part
 
 
 def fixed_targets(draft: Draft, given: Sequence[object]) -> tuple[list[object], list[object]]:

@@ -12,12 +12,26 @@ from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
 from ..util.text import in_short
-from .arguments import Direction, call, cross, direction, numbers_of_size, text, unit, whole
+from .arguments import (
+    Direction,
+    Point,
+    add_point,
+    call,
+    checked_name,
+    cross,
+    direction,
+    numbers_of_size,
+    pivot,
+    point,
+    position,
+    text,
+    unit,
+    whole,
+)
 from .deformations import deformations, give_deformations
 from .draft import LARGEST, NO_VECTOR, Draft, Vector
 from .handles import Element, FoldedSheet, Node, Notch, Sheet, Wire
 from .sections import Make, MaterialLike, Section, made_of, round_section, shape_of, sheet_section
-from .selection import Point, add_point, checked_name, pivot, point, position
 
 
 def kind(draft: Draft, keyword: str) -> ElementKind:

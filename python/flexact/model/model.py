@@ -19,7 +19,23 @@ from ..util.loading import feature
 from ..util.quantities import Quantity
 from ..util.text import in_short
 from . import assemblies, copies, edits, members
-from .arguments import Direction, call, text, whole
+from .arguments import (
+    Direction,
+    PartLike,
+    Point,
+    add_point,
+    call,
+    checked_name,
+    drawn_elements,
+    existing,
+    handle,
+    part,
+    pivot,
+    place,
+    text,
+    whole,
+)
+from .arguments import position as position_number
 from .configuration import Configuration
 from .copies import Names, Parts
 from .data import ModelData
@@ -40,19 +56,6 @@ from .handles import (
 from .members import Sizes
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
-from .selection import (
-    PartLike,
-    Point,
-    add_point,
-    checked_name,
-    drawn_elements,
-    existing,
-    handle,
-    part,
-    pivot,
-    place,
-)
-from .selection import position as position_number
 from .variation import held_given, positions_given, with_held, with_positions
 from .writing import deck_of
 
