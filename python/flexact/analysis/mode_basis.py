@@ -21,6 +21,7 @@ from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
 from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.parts import Part, PartKind, natural
+from ..util.groups import grouped
 from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
 from .limits import NO_SENSE, ROUNDING, SAME_PLACE
@@ -372,9 +373,7 @@ class _MotionGroups:
         Args:
             one_by_one: Whether each node of an inside is a group.
         """
-        place: dict[int, list[int]] = {}
-        for row, node in enumerate(self.node.tolist()):
-            place.setdefault(node, []).append(row)
+        place = grouped((node, row) for row, node in enumerate(self.node.tolist()))
         parts = self.carriers.parts
         bodies = [(body.positions + body.orientations) for body in parts.bodies]
         taken = {node for nodes in bodies for node in nodes}
@@ -387,18 +386,17 @@ class _MotionGroups:
             for is_fold in (True, False)
         )
         # One by one the nodes of an inside are by the place where they are.
-        at: dict[object, list[int]] = {}
-        for _, nodes in self.carriers.insides:
-            for node in nodes:
-                here = parts.place_of(node) if one_by_one else None
-                at.setdefault((nodes, here), []).append(node)
-        insides = list(at.values())
+        insides = grouped(
+            ((nodes, parts.place_of(node) if one_by_one else None), node)
+            for _, nodes in self.carriers.insides
+            for node in nodes
+        )
         made: list[IntArray] = []
         costs: list[Cost] = []
         for kinds in (
             ((bodies, (1, 0, 0, 0)),),
             ((joints, (0, 1, 0, 0)), (folds, (0, 0, 1, 0))),
-            ((insides, (0, 0, 0, 1)),),
+            ((list(insides.values()), (0, 0, 0, 1)),),
         ):
             found = (
                 (sorted(row for node in nodes for row in place.get(node, ())), cost)
@@ -448,9 +446,9 @@ def _part_stresses(
     if space.shape[1] < 2:
         return space
     element = outcome.condensed.elements[outcome.raw.row_label[0, support] - 1]
-    parts: dict[Part, list[int]] = {}
-    for row, index in enumerate(element.tolist()):
-        parts.setdefault(outcome.parts.of_element(index), []).append(row)
+    parts = grouped(
+        (outcome.parts.of_element(index), row) for row, index in enumerate(element.tolist())
+    )
     # Rows are in canonical order, by names first.
     flexible, bodies = (
         [np.array(rows) for part, rows in parts.items() if (part.kind is PartKind.BODY) == is_body]

@@ -20,6 +20,7 @@ from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Joint, Part, PartKind, natural
+from ..util.groups import grouped
 from ..util.records import Frozen, cached_property
 from .decomposition import Decomposition, row_weights
 from .limits import EXACT_COSINE, NO_RESULTANT, ROUNDING, SAME_WRENCH, TOLD
@@ -350,10 +351,7 @@ class Presses:
     @cached_property
     def _of_node(self) -> dict[int, list[int]]:
         """Which entries of `_at_nodes` are of a node."""
-        made: dict[int, list[int]] = {}
-        for k, node in enumerate(self._at_nodes[1].tolist()):
-            made.setdefault(node, []).append(k)
-        return made
+        return grouped((node, k) for k, node in enumerate(self._at_nodes[1].tolist()))
 
     @cached_property
     def _ends(self) -> dict[Part, dict[_End, FloatArray]]:

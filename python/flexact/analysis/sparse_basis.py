@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import Basis, FloatArray
-from ..util.groups import least_of_groups
+from ..util.groups import grouped, least_of_groups
 from ..util.matrices import complement, null_space, span
 from .limits import ROUNDING
 
@@ -464,10 +464,7 @@ def _components(blocks: list[FloatArray]) -> list[list[int]]:
     square = np.add.reduceat((stacked @ stacked.T) ** 2, start, axis=0)
     joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * ROUNDING
     group = least_of_groups(len(there), *np.nonzero(joined)).tolist()
-    made: dict[int, list[int]] = {}
-    for k, first in zip(there, group, strict=True):
-        made.setdefault(first, []).append(k)
-    return list(made.values())
+    return list(grouped(zip(group, there, strict=True)).values())
 
 
 class _Stack:

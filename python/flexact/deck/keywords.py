@@ -14,6 +14,7 @@ from typing import NamedTuple
 from ..core.calls import names_of
 from ..core.elements import Member, NodeKind, Vector, element_kinds
 from ..core.raw import ElementKind, Meaning
+from ..util.groups import grouped
 
 
 class Block(IntEnum):
@@ -320,11 +321,12 @@ def properties_in_words(keyword: str) -> str:
             f"of a position its {listed(mass)}; of an orientation {listed(inertia)}, of a planar "
             f"one {listed(planar)}"
         )
-    owners: dict[tuple[Meaning, ...], list[str]] = {}
-    for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE):
-        for kind in element_kinds():
-            if kind.member == member and (numbers := of_element(keyword, kind)):
-                owners.setdefault(numbers, []).append(f"`{kind.keyword}`")
+    owners = grouped(
+        (numbers, f"`{kind.keyword}`")
+        for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE)
+        for kind in element_kinds()
+        if kind.member == member and (numbers := of_element(keyword, kind))
+    )
     return "; ".join(
         f"of a {' or '.join((', '.join(names[:-1]), names[-1]) if names[1:] else names)} "
         f"{listed(numbers)}"

@@ -12,6 +12,7 @@ from itertools import zip_longest
 from ..core.elements import AXES, Class, NodeKind, Role, element_kinds, is_position
 from ..core.elements import Vector as StatedVector
 from ..deck.rendering import ModelError, model_error
+from ..util.groups import grouped
 from ..util.quantities import Quantity
 from ..util.text import in_short
 from .arguments import (
@@ -213,9 +214,9 @@ def _all_or_nothing(draft: Draft) -> Iterator[None]:
 def _assembly(source: Draft, target: Draft, made: Copy) -> Assembly:
     """The handle of a copy, by the names of the originals."""
     nodes, elements = made
-    groups: dict[str, list[int]] = {}
-    for index, new in elements.items():
-        groups.setdefault(part_name(source.names.get(index, "")), []).append(new)
+    groups = grouped(
+        (part_name(source.names.get(index, "")), new) for index, new in elements.items()
+    )
     parts: dict[str, Part | FoldedSheet | Element] = {
         name: of_indices(target, indices) for name, indices in groups.items() if name
     }

@@ -10,6 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, is_position, kind_of
 from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
+from ..util.groups import groups_of
 from ..util.text import in_short
 from .attributes import NUMBERS, Appearance, Loads, Properties, rows_of
 from .data import ModelData
@@ -257,14 +258,10 @@ def _same_names(draft: Draft) -> Iterator[Diagnostic]:
 
 def _is_one(draft: Draft, indices: Sequence[int]) -> bool:
     """Whether elements hang together by their nodes."""
-    left, nodes = list(indices[1:]), {*draft.slots[indices[0]]} - {0}
-    grown = True
-    while left and grown:
-        near = [index for index in left if not nodes.isdisjoint(draft.slots[index])]
-        grown = bool(near)
-        nodes.update(node for index in near for node in draft.slots[index] if node)
-        left = [index for index in left if index not in near]
-    return not left
+    numbers = sorted({node for index in indices for node in draft.slots[index] if node})
+    place = {number: k for k, number in enumerate(numbers, len(indices))}
+    ends = [(k, place[n]) for k, index in enumerate(indices) for n in draft.slots[index] if n]
+    return not groups_of(len(indices) + len(place), ends)[: len(indices)].any()
 
 
 def _listed(draft: Draft, numbers: Sequence[int]) -> str:

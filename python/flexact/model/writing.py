@@ -12,6 +12,7 @@ from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
 from ..deck.keywords import Block
 from ..deck.tokens import ELEMENT, GRAVITY, DeckComments, comments_of, tokens_of
+from ..util.groups import grouped
 from .attributes import Appearance, CrossSection, rows_of
 from .data import ModelData
 from .names import one_line
@@ -181,10 +182,8 @@ def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:
         ("BEAMPROPS", _cross_sections(appearance)),
         ("GRAPHICS", _colours(appearance)),
     ):
-        alike: dict[tuple[str, ...], list[int]] = {}
-        for number, lines in zip(numbers.tolist(), options, strict=True):
-            if lines:
-                alike.setdefault(lines, []).append(number)
+        pairs = zip(options, numbers.tolist(), strict=True)
+        alike = grouped((lines, number) for lines, number in pairs if lines)
         for lines, elements in alike.items():
             # Without numbers a group is all elements.
             all_of_them = len(elements) == numbers.size

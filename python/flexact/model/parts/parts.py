@@ -12,11 +12,11 @@ import numpy as np
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ...core.elements import Class, Member, NodeKind
 from ...deck.rendering import model_error
-from ...util.groups import groups_of
+from ...util.groups import grouped, groups_of
 from ...util.records import Word, cached_property
 from ...util.text import harmless, in_short
 from ..data import ModelData
-from ..names import grouped, own_number, part_name
+from ..names import own_number, part_name
 from .forms import Form, all_held, forms_of, is_member
 
 
@@ -484,29 +484,27 @@ class Carriers:
     @cached_property
     def insides(self) -> tuple[tuple[Part, tuple[int, ...]], ...]:
         """The nodes that belong to one sheet or wire alone, in the model as given, by part."""
-        made: dict[Part, list[int]] = {}
-        for chain in self.data.chains:
-            part = self.parts.of_element(chain.elements[0])
-            made.setdefault(part, []).extend((*chain.positions[1:-1], *chain.orientations[1:-1]))
-        for node, part in self.own_ends:
-            made.setdefault(part, []).append(node)
+        inner = (
+            (self.parts.of_element(chain.elements[0]), node)
+            for chain in self.data.chains
+            for node in (*chain.positions[1:-1], *chain.orientations[1:-1])
+        )
+        made = grouped([*inner, *((part, node) for node, part in self.own_ends)])
         found = ((part, tuple(sorted(set(nodes)))) for part, nodes in made.items())
         return tuple(sorted(found, key=lambda inside: (natural(inside[0].name), inside[1])))
 
     @cached_property
     def own_ends(self) -> list[tuple[int, Part]]:
         """Orientations that one part alone has, where other parts or a support hold its place."""
-        slots = self.data.arrays.element_node - 1
-        users: dict[int, set[int]] = {}
-        for k in (1, 3):
-            for element in np.flatnonzero(slots[k] >= 0).tolist():
-                users.setdefault(int(slots[k, element]), set()).add(element)
+        slots = self.data.arrays.element_node[[1, 3]] - 1
+        end, element = np.nonzero(slots >= 0)
+        users = grouped(zip(slots[end, element].tolist(), element.tolist(), strict=True))
         made = []
         for node, elements in sorted(users.items()):
             place = self.parts.place_of(node)
             if len(elements) > 1 or place is None:
                 continue
-            part = self.parts.of_element(*elements)
+            part = self.parts.of_element(elements[0])
             if part.kind in (PartKind.BODY, PartKind.HINGE):
                 continue
             if self.parts.is_held(place) or any(other != part for other in self.parts.at(place)):
