@@ -14,7 +14,7 @@ from ..deck.rendering import model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Joint, Part, PartKind, natural
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen, cached_property, read_only
 from .decomposition import Decomposition
 from .locate import part_of, position_of
 from .screws import Screw, screw_of
@@ -108,10 +108,8 @@ class Moves:
     @cached_property
     def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
         analysed = self.analysed
-        made = self.condensed.motion(analysed.displacement, analysed.rotation)
-        for array in made:
-            array.flags.writeable = False
-        return made
+        moved, turned = self.condensed.motion(analysed.displacement, analysed.rotation)
+        return read_only(moved), read_only(turned)
 
     @cached_property
     def bodies(self) -> tuple[BodyMotion, ...]:

@@ -22,7 +22,7 @@ from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Carriers, Parts
 from ..util import machine as memory
 from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen, cached_property, read_only
 from ..util.text import in_short
 from .limits import LARGEST_ROUNDING, ROUNDING
 from .sparse_basis import orthonormal
@@ -255,9 +255,7 @@ class Decomposition(Frozen):
             )
 
         forgiven = ("convergence",) if self.method == "sparse" else ()
-        values = completed(self.data, work, forgiven).scaled_values
-        values.flags.writeable = False
-        return values
+        return read_only(completed(self.data, work, forgiven).scaled_values)
 
     @property
     def scaled_singular_values(self) -> FloatArray:

@@ -468,10 +468,8 @@ _MODES: dict[str, Callable[[Result], ModesTable]] = {
 
 def dictionary_of(analysis: Result) -> dict[str, Any]:
     """The names and values of the JSON, in their order."""
-    made = _without_modes(analysis)
-    for name, modes in _MODES.items():
-        made[name] = modes(analysis).dictionaries()
-    return made
+    made = {name: modes(analysis).dictionaries() for name, modes in _MODES.items()}
+    return _without_modes(analysis) | made
 
 
 def text_of(analysis: Result) -> str:

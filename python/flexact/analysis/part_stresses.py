@@ -442,11 +442,8 @@ class Presses:
 
     @cached_property
     def _joint_at(self) -> dict[int, Joint]:
-        made: dict[int, Joint] = {}
-        for joint in self.analysis.carriers.joints:
-            for node in joint.nodes:
-                made.setdefault(node, joint)
-        return made
+        joints = reversed(self.analysis.carriers.joints)
+        return {node: joint for joint in joints for node in joint.nodes}
 
     def _is_held(self, joint: Joint) -> bool:
         return all(map(self.analysis.parts.is_held, joint.nodes))

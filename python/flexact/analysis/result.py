@@ -21,7 +21,7 @@ from ..model.parts.condensing import condensed
 from ..model.parts.parts import Joint, PartKind, declared
 from ..model.variation import with_classes
 from ..util.loading import load
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen, cached_property, read_only
 from ..util.text import in_short
 from .body_motions import Moves, Velocities
 from .certainty import Assessment, assess, least, margins
@@ -370,9 +370,7 @@ class Motion(Moves, Frozen):
     @property
     def vector(self) -> FloatArray:
         """(n,) the dependent coordinates [m, rad]; the largest is one."""
-        column = self.analysis.motion_basis.vector(self.index)
-        column.flags.writeable = False
-        return column
+        return read_only(self.analysis.motion_basis.vector(self.index))
 
     @cached_property
     def analysed(self) -> Velocities:
@@ -427,9 +425,7 @@ class SelfStress(Presses, Frozen):
     @property
     def vector(self) -> FloatArray:
         """(m,) stress resultants dual to the deformations; the largest force or moment is one."""
-        column = self.analysis.stress_basis.vector(self.index)
-        column.flags.writeable = False
-        return column
+        return read_only(self.analysis.stress_basis.vector(self.index))
 
     @property
     def forces(self) -> FloatArray:
@@ -446,10 +442,8 @@ class SelfStress(Presses, Frozen):
 
     @cached_property
     def _at_elements(self) -> tuple[FloatArray, FloatArray]:
-        made = self.analysis.condensed.stress(*self.analysed)
-        for array in made:
-            array.flags.writeable = False
-        return made
+        moments, forces = self.analysis.condensed.stress(*self.analysed)
+        return read_only(moments), read_only(forces)
 
     @cached_property
     def analysed(self) -> tuple[FloatArray, FloatArray]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.machine import address_space
+from ..util.records import read_only
 from . import _core
 from .arrays import Basis, FloatArray, IntArray, PackedModel, room_for, unpacked
 from .raw import (
@@ -54,8 +55,7 @@ _SAID = (
 #: Lines that begin with more blanks count as elements.
 _INDENT = 4
 
-_NO_VECTORS = np.zeros(1, np.int32)
-_NO_VECTORS.setflags(write=False)
+_NO_VECTORS = read_only(np.zeros(1, np.int32))
 
 
 def names_of(enumeration: str) -> dict[str, int]:
@@ -464,10 +464,12 @@ def _basis_of(size: int, start: IntArray, place: IntArray, value: FloatArray, be
     first, last = int(start[0]), int(start[-1])
     if first == last:
         return Basis(size, _NO_VECTORS, place[:0], value[:0])
-    made = Basis(size, start - first, place[first:last] - before, value[first:last])
-    for array in made[1:]:
-        array.setflags(write=False)
-    return made
+    return Basis(
+        size,
+        read_only(start - first),
+        read_only(place[first:last] - before),
+        read_only(value[first:last]),
+    )
 
 
 def find_sensitivities(

@@ -9,6 +9,7 @@ from functools import cache
 
 import numpy as np
 
+from ..util.records import read_only
 from . import calls
 from .arrays import IntArray
 from .raw import ElementKind
@@ -152,6 +153,4 @@ def length_table() -> IntArray:
 
 
 def _table(rows: Sequence[int | tuple[int, ...]]) -> IntArray:
-    table = np.array(rows, np.int32)
-    table.flags.writeable = False
-    return table
+    return read_only(np.array(rows, np.int32))

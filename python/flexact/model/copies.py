@@ -597,9 +597,6 @@ def _check_classes(
 
 def _axes_of(source: Draft, number: int) -> dict[Class, set[int]]:
     """Axes of a node by the classes that they were given."""
-    found: dict[Class, set[int]] = {}
-    for axis in AXES[source.node_kind[number]]:
-        value = source.coordinate_class.get((number, axis))
-        if value is not None:
-            found.setdefault(Class(value), set()).add(axis)
-    return found
+    axes = AXES[source.node_kind[number]]
+    given = grouped((source.coordinate_class.get((number, axis)), axis) for axis in axes)
+    return {Class(value): set(found) for value, found in given.items() if value is not None}

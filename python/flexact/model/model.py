@@ -17,6 +17,7 @@ from ..deck.rendering import model_error
 from ..util.errors import require_kind
 from ..util.loading import feature
 from ..util.quantities import Quantity
+from ..util.records import read_only
 from ..util.text import in_short
 from . import assemblies, copies, edits, members
 from .arguments import (
@@ -1078,9 +1079,8 @@ class Model:
     def positions(self) -> FloatArray:
         """(nodes, 3) reference positions [m]; zero for nodes that are orientations."""
         a = self.data.arrays
-        made = np.where((a.node_kind <= NodeKind.POSITION)[:, None], a.node_value.T[:, :3], 0.0)
-        made.flags.writeable = False
-        return made
+        places = (a.node_kind <= NodeKind.POSITION)[:, None]
+        return read_only(np.where(places, a.node_value.T[:, :3], 0.0))
 
     @property
     def coordinate_classes(self) -> IntArray:
@@ -1105,9 +1105,7 @@ class Model:
     @property
     def element_nodes(self) -> IntArray:
         """(elements, 4) node indices from 0 in the slots p, op, q, oq; -1 where unused."""
-        made = self.data.arrays.element_node.T - 1
-        made.flags.writeable = False
-        return made
+        return read_only(self.data.arrays.element_node.T - 1)
 
     @property
     def element_vectors(self) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
@@ -265,11 +266,11 @@ class Parts:
     @cached_property
     def body_at(self) -> dict[int, int]:
         """The first body that carries a position node or turns with an orientation node."""
-        made: dict[int, int] = {}
-        for k, body in enumerate(self.bodies):
-            for node in (*body.positions, *body.orientations):
-                made.setdefault(node, k)
-        return made
+        return {
+            node: k
+            for k, body in reversed(list(enumerate(self.bodies)))
+            for node in (*body.positions, *body.orientations)
+        }
 
     @cached_property
     def _users(self) -> tuple[IntArray, IntArray]:
@@ -313,14 +314,9 @@ class Parts:
     def position_of(self) -> dict[int, int]:
         """The position node at which an orientation node stands, of the first that names both."""
         slots = self.data.arrays.element_node - 1
-        made: dict[int, int] = {}
-        for p, op in ((0, 1), (2, 3)):
-            both = (slots[p] >= 0) & (slots[op] >= 0)
-            for place, turned in zip(
-                slots[p][both].tolist(), slots[op][both].tolist(), strict=True
-            ):
-                made.setdefault(turned, place)
-        return made
+        place, turned = slots[[0, 2]].ravel(), slots[[1, 3]].ravel()
+        both = np.flatnonzero((place >= 0) & (turned >= 0))[::-1]
+        return dict(zip(turned[both].tolist(), place[both].tolist(), strict=True))
 
     @cached_property
     def orientations_at(self) -> dict[int, tuple[int, ...]]:
@@ -348,12 +344,7 @@ class Parts:
 
 def natural(name: str) -> tuple[tuple[bool, int, str, str], ...]:
     """A key by which names are sorted as people do: "sheet 2" before "sheet 10"."""
-    words: list[str] = []
-    for c in name:
-        if words and words[-1][-1:].isdigit() == c.isdigit():
-            words[-1] += c
-        else:
-            words.append(c)
+    words = ["".join(run) for _, run in groupby(name, str.isdigit)]
     # Python makes no number of thousands of digits, but more digits are a larger one.
     numbers = (word.lstrip("0") if word.isdecimal() else "" for word in words)
     return tuple(
