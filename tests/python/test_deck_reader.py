@@ -125,7 +125,7 @@ def told_by_all(text: str) -> dict[str, Any]:
         "labels": Reducer(data, cast(Any, None)).labels,
         "comments": [comments.top[1:], comments.behind, list(comments.before)],
         "edited": numbers_of(flexact.read_text(edited).data),
-        "compared": [re.sub("BEAMNL", "BEAM", each.meant) for each in statements_in(data.source)],
+        "compared": [re.sub("BEAMNL", "BEAM", meant) for meant, _, _ in statements_in(data.source)],
         "log": tables,
         "places": [Lines(data.source).definition(("element", n)) is not None for n in (1, 2, 3, 4)],
         "editor": seen_by_editor(text),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import sys
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -97,8 +98,9 @@ _MOST_PAIRS = 6
 _PROOFS = dict(zip((None, True, False), names_of("proofs").values(), strict=True))
 
 
-def element_rows() -> list[ElementKind]:
-    """The core's element table."""
+@cache
+def element_kinds() -> tuple[ElementKind, ...]:
+    """All kinds of elements, in the order of their numbers 1, 2, ..."""
     rows: list[ElementKind] = []
     count = 1
     while len(rows) < count:
@@ -113,7 +115,7 @@ def element_rows() -> list[ElementKind]:
                 *(n[6] == 1, n[7], n[8:14], n[14:], says, *map(_meanings, numbered)),
             )
         )
-    return rows
+    return tuple(rows)
 
 
 def _meanings(listed: str) -> tuple[Meaning, ...]:
@@ -360,7 +362,8 @@ def analyse_model(
     index = np.empty((3, m + n + 1), np.int32, order="F")
     by_size = np.empty((max(1, m + n), 8), order="F")
     # Where the address space is limited, what is set aside counts as used.
-    room = max(1, min((m + n) ** 2, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
+    most = min((m + n) ** 2, _MOST_ENTRIES, _PART_OF_VECTORS * memory / 12.0)
+    room = max(1, int(most))
     place, value = np.empty(room, np.int32), np.empty(room)
     require_room_for(model)
     asked = -1.0 if tolerance is None else tolerance
@@ -453,10 +456,6 @@ def find_echelon(
         tuple(np.flatnonzero(pivot).tolist()),
         dict(zip(zip(columns, pivots, strict=True), residues, strict=True)),
     )
-
-
-def _part(memory: float, part: float) -> int:
-    return int(min(part * memory, 2.0**62))
 
 
 def _basis_of(size: int, start: IntArray, place: IntArray, value: FloatArray, before: int) -> Basis:

@@ -147,7 +147,7 @@ def element_stiffness(model: PackedModel, arrays: ElasticArrays) -> tuple[FloatA
     Returns:
         (ne, 6, 6) with notches applied, and (ne,) [m^2].
     """
-    _require_room(model)
+    require_room_for(model, _OF_ELASTIC)
     stiffness, c_t = _core.find_stiffness(*model, _of_elements(model, arrays))
     return np.moveaxis(stiffness, 2, 0), c_t
 
@@ -170,7 +170,7 @@ def equilibrium(
     Raises:
         ValueError: a shape does not fit, or a number is not finite.
     """
-    _require_room(model)
+    require_room_for(model, _OF_ELASTIC)
     of_nodes = _of_nodes(model, arrays, start, begin, end)
     of_elements = _of_elements(model, arrays, start.stress, begin.misfit, end.misfit)
     gravity = np.asfortranarray(np.stack([begin.gravity, end.gravity], axis=1), float)
@@ -374,7 +374,7 @@ def _studied(
     given: FloatArray,
     room: int,
 ) -> tuple[FloatArray, FloatArray]:
-    _require_room(model)
+    require_room_for(model, _OF_ELASTIC)
     rows = given.shape[0] + 1
     answer = np.zeros((rows, room), order="F")
     wishes = np.array((_TASKS[task], count, *gravity), float)
@@ -423,7 +423,3 @@ def _stacked(size: int, given: list[FloatArray], parts: list[FloatArray]) -> Flo
 
 def _columns(array: FloatArray) -> FloatArray:
     return array.reshape((array.shape[0] * array.shape[1], -1), order="F")
-
-
-def _require_room(model: PackedModel) -> None:
-    require_room_for(model, _OF_ELASTIC)

@@ -103,10 +103,8 @@ def coordinate_name(kind: int, axis: int) -> str:
     return POSITION_NAMES[axis] if is_position(kind) else ROTATION_NAMES[axis]
 
 
-@cache
-def element_kinds() -> tuple[ElementKind, ...]:
-    """All kinds, in the order of their numbers 1, 2, ..."""
-    return tuple(calls.element_rows())
+#: All kinds, in the order of their numbers 1, 2, ...
+element_kinds = calls.element_kinds
 
 
 @cache

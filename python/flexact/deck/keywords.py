@@ -29,16 +29,7 @@ class Block(IntEnum):
     @property
     def words(self) -> str:
         """What the block is called."""
-        return _BLOCKS[self]
-
-
-_BLOCKS = {
-    Block.KINEMATICS: "kinematics",
-    Block.DYNAMICS: "dynamics",
-    Block.CLOSED: "closed",
-    Block.IN_OUT: "in/out",
-    Block.PICTURE: "picture",
-}
+        return "in/out" if self is Block.IN_OUT else self.name.lower()
 
 
 class Keyword(NamedTuple):
