@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import flexact
-from flexact.analysis.deformation_words import deformation_word
+from flexact.analysis.places import deformation_word
 from flexact.core.elements import Dual, Member, NodeKind, element_kinds
 
 Vector = np.ndarray

@@ -192,6 +192,6 @@ def test_sizes_of_diagnostics_are_those_of_the_core() -> None:
     """The boundary must spell its shapes as numbers; the core has names for them."""
     core = Path(__file__).parents[2] / "fortran" / "base" / "flexact_diagnostics.f90"
     stated = dict(re.findall(r"parameter :: (text_length|most_shown) = (\d+)", core.read_text()))
-    raw = calls.read_deck(b"TRUSS 1 1 2\n").problems
-    assert raw.text.shape == (int(stated["text_length"]), 4, int(stated["most_shown"]))
-    assert raw.number.shape == (8, int(stated["most_shown"]))
+    _, numbers, texts = calls.read_deck(b"TRUSS 1 1 2\n").problems
+    assert texts.shape == (int(stated["text_length"]), 4, int(stated["most_shown"]))
+    assert numbers.shape == (8, int(stated["most_shown"]))

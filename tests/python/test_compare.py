@@ -92,6 +92,12 @@ def test_a_stored_result_is_the_result(name: str) -> None:
     assert all(mode.words for mode in (*kept.motions, *kept.self_stresses))
 
 
+def test_a_stored_margin_that_an_accuracy_exceeds_is_told_however_large() -> None:
+    analysis = flexact.analyse(flexact.read_text(DECKS["exact"]), accuracy=1.2)
+    now = side_of(analysis)
+    assert stored_side(analysis.to_json().encode(), "x.json").margin == now.margin == "margin 1.1 m"
+
+
 def test_remarks_and_spellings_of_numbers_change_nothing(tmp_path: Path) -> None:
     text = DECKS["exact"]
     spelt = text.replace("0.5 1\n", "5.0D-1   1. # so\n").lower().replace("\n", "\r\n")

@@ -130,7 +130,7 @@ def test_lxcfs_tells_the_container_in_place_of_the_machine(
     """It writes a /proc/meminfo of the container's bound; the groups say the same or nothing."""
     root = system(tmp_path, "0::/.lxc\n", "", proc__meminfo="MemTotal: 4 kB\nMemAvailable: 3 kB\n")
     assert machine._of_machine(root) == 3 * 1024.0
-    assert machine._of_groups(root) == math.inf
+    assert machine.memory_left_of_group(root) == math.inf
 
 
 @pytest.mark.parametrize(

@@ -13,13 +13,12 @@ from flexact.analysis.differences import statements_in
 from flexact.apps.checks.findings import Lines
 from flexact.apps.editor.deck import Deck, Document
 from flexact.core.elements import Class
-from flexact.deck.comments import comments_of
 from flexact.deck.keywords import Block
-from flexact.deck.tokens import Tokens, tokens_of
+from flexact.deck.tokens import Tokens, comments_of, tokens_of
 from flexact.elasticity.reduced import independent_of
 from flexact.model.data import ModelData
 from flexact.model.editing import edited_deck
-from flexact.model.prescribed import prescribed_in
+from flexact.model.writing import prescribed_in
 from flexact.show.spacar_log import spacar_log
 
 PLAIN = """\
@@ -137,7 +136,7 @@ def told_by_all(text: str) -> dict[str, Any]:
         "labels": rows_of(data),
         "comments": [comments.top[1:], comments.behind, list(comments.before)],
         "edited": numbers_of(flexact.read_text(edited).data),
-        "compared": [re.sub("BEAMNL", "BEAM", each.meant) for each in statements_in(data.source)],
+        "compared": [re.sub("BEAMNL", "BEAM", meant) for meant, _, _ in statements_in(data.source)],
         "log": tables,
         "places": [Lines(data.source).definition(("element", n)) is not None for n in (1, 2, 3, 4)],
         "editor": seen_by_editor(text),

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.analysis.deformation_words import deformation_word
+from flexact.analysis.places import deformation_word
 from flexact.core.elements import Dual, element_kinds
 
 ROOT = Path(__file__).parents[2]

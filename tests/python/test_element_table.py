@@ -14,7 +14,7 @@ from test_drawing_stress import loads_of
 from wording import AsStored
 
 import flexact
-from flexact.analysis.deformation_words import deformation_word
+from flexact.analysis.places import deformation_word
 from flexact.core import calls
 from flexact.core.elements import (
     AXES,

@@ -33,7 +33,7 @@ def given(root: Path, **files: str) -> Path:
 
 
 def groups(root: Path) -> float:
-    return memory._of_groups(root)
+    return memory.memory_left_of_group(root)
 
 
 def test_the_address_space_that_is_left(tmp_path: Path) -> None:
@@ -87,13 +87,13 @@ def test_the_least_limit_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in readers:
         for other, value in readers.items():
             monkeypatch.setattr(memory, other, lambda value=value: value)
-        monkeypatch.setattr(memory, "_of_groups", lambda: big)
+        monkeypatch.setattr(memory, "memory_left_of_group", lambda: big)
         monkeypatch.setattr(memory, name, lambda: least)
         assert memory.available() == memory.allowance() == least
     monkeypatch.setattr(memory, "address_space", lambda: 1e6)
     assert memory.allowance(1.0) == memory.allowance() == 1e6
     monkeypatch.setattr(memory, "address_space", lambda: big)
-    monkeypatch.setattr(memory, "_of_groups", lambda: least)
+    monkeypatch.setattr(memory, "memory_left_of_group", lambda: least)
     assert memory.available() == least
 
 

@@ -13,9 +13,8 @@ from ..core.arrays import FloatArray
 from ..deck.rendering import model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
-from ..model.parts.parts import Part, PartKind, natural
-from ..util.records import Frozen, cached_property
-from .carriers import Joint
+from ..model.parts.parts import Joint, Part, PartKind, natural
+from ..util.records import Frozen, cached_property, read_only
 from .decomposition import Decomposition
 from .locate import part_of, position_of
 from .screws import Screw, screw_of
@@ -34,15 +33,6 @@ class Velocities(Frozen):
     data: ModelData
     displacement: FloatArray
     rotation: FloatArray
-
-    def at_all_nodes(self, condensed: Condensed) -> tuple[FloatArray, FloatArray]:
-        """Displacement and rotation at the nodes of the model as it was given."""
-        if not condensed.chains:
-            return self.displacement, self.rotation
-        made = condensed.motion(self.displacement, self.rotation)
-        for array in made:
-            array.flags.writeable = False
-        return made
 
 
 class NodeMotion(NamedTuple):
@@ -80,17 +70,13 @@ class BodyMotion(NamedTuple):
         return f"{', '.join(self.names)}{together} {self.screw}"
 
 
-class _Item(NamedTuple):
-    """A body or a joint, and how it moves."""
-
-    screw: Screw
-    body: Part | None
-    joint: Joint | None
+#: A body or a joint, and how it moves.
+_Item = tuple[Part | Joint, Screw]
 
 
 def _is_of_points(group: Sequence[_Item]) -> bool:
     """Whether none of a group is a body or has an orientation."""
-    return all(item.joint is not None and item.joint.orientation is None for item in group)
+    return all(isinstance(one, Joint) and one.orientation is None for one, _ in group)
 
 
 class Moves:
@@ -121,16 +107,18 @@ class Moves:
 
     @cached_property
     def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
-        return self.analysed.at_all_nodes(self.condensed)
+        analysed = self.analysed
+        moved, turned = self.condensed.motion(analysed.displacement, analysed.rotation)
+        return read_only(moved), read_only(turned)
 
     @cached_property
     def bodies(self) -> tuple[BodyMotion, ...]:
         """Bodies and joints that move, those that move as one together; bodies first, by name."""
-        groups = self._with_points_as_one(self._grouped([i for i in self._items if i.screw]))
+        groups = self._with_points_as_one(self._grouped([item for item in self._items if item[1]]))
         made = [
             BodyMotion(
-                tuple(item.body for item in group if item.body is not None),
-                tuple(item.joint for item in group if item.joint is not None),
+                tuple(one for one, _ in group if isinstance(one, Part)),
+                tuple(one for one, _ in group if isinstance(one, Joint)),
                 self._screw_of_all(group),
             )
             for group in groups
@@ -208,9 +196,9 @@ class Moves:
     def internal_to(self) -> tuple[Part, ...]:
         """The sheets and wires inside of which something moves, by name."""
         return tuple(
-            inside.part
-            for inside in self.analysis.carriers.insides
-            if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
+            part
+            for part, nodes in self.analysis.carriers.insides
+            if self._size[list(nodes)].max(initial=0.0) > self._rest
         )
 
     def _joint(self, target: object) -> Joint | None:
@@ -244,35 +232,34 @@ class Moves:
     @cached_property
     def _items(self) -> tuple[_Item, ...]:
         carriers = self.analysis.carriers
-        made = [_Item(self._of_body(k), body, None) for k, body in enumerate(carriers.bodies)]
-        made.sort(
+        bodies = [(body, self._of_body(k)) for k, body in enumerate(carriers.bodies)]
+        bodies.sort(
             key=lambda item: (
-                natural(item.body.name if item.body is not None else ""),
-                np.round(item.screw.centre / self._length, 9).tolist(),
+                natural(item[0].name),
+                np.round(item[1].centre / self._length, 9).tolist(),
             )
         )
-        joints = [_Item(self._of_joint(joint), None, joint) for joint in carriers.joints]
-        joints.sort(key=lambda item: item.joint is not None and item.joint.orientation is None)
-        return (*made, *joints)
+        joints = [(joint, self._of_joint(joint)) for joint in carriers.joints]
+        joints.sort(key=lambda item: item[0].orientation is None)
+        return (*bodies, *joints)
 
     def _with_points_as_one(self, groups: list[list[_Item]]) -> list[list[_Item]]:
         """Groups of points without orientations joined, if they move as one body would."""
         points = [group for group in groups if _is_of_points(group)]
         items = [item for group in points for item in group]
-        screw = self._fitted(items) if len(points) > 1 else None
+        screw = self._fitted([own for _, own in items]) if len(points) > 1 else None
         if screw is None:
             return groups
         # The screw as it is seen from each of them.
         joined = [
-            item._replace(screw=self._screw(screw.rotation, item.screw.velocity, item.screw.centre))
-            for item in items
+            (one, self._screw(screw.rotation, own.velocity, own.centre)) for one, own in items
         ]
         return [*(group for group in groups if not _is_of_points(group)), joined]
 
-    def _fitted(self, items: Sequence[_Item]) -> Screw | None:
+    def _fitted(self, screws: Sequence[Screw]) -> Screw | None:
         """The screw that points move by, None where there is none or it is not the only one."""
-        places = np.array([item.screw.centre for item in items])
-        moved = np.array([item.screw.velocity for item in items])
+        places = np.array([screw.centre for screw in screws])
+        moved = np.array([screw.velocity for screw in screws])
         centre, mean = places.mean(axis=0), moved.mean(axis=0)
         arms = (places - centre) / self._length
         axes = (2,) if self.analysis.given.planar else (0, 1, 2)
@@ -316,10 +303,10 @@ class Moves:
     def _grouped(self, items: list[_Item]) -> list[list[_Item]]:
         """Those that move as one body would: each with the first that it agrees with."""
         velocity, rotation, centre = (
-            np.array([getattr(item.screw, name) for item in items]).reshape(-1, 3)
+            np.array([getattr(screw, name) for _, screw in items]).reshape(-1, 3)
             for name in ("velocity", "rotation", "centre")
         )
-        joints = [item.joint for item in items]
+        joints = [one if isinstance(one, Joint) else None for one, _ in items]
         placed = np.array([joint is None or joint.position is not None for joint in joints], bool)
         turning = np.array([j is None or j.orientation is not None for j in joints], bool)
         left, groups = np.ones(len(items), bool), []
@@ -339,8 +326,8 @@ class Moves:
 
     def _screw_of_all(self, items: Sequence[_Item]) -> Screw:
         """Of several that move as one, about the middle of all."""
-        bodies = [item.screw for item in items if item.body is not None]
-        screws = bodies or [item.screw for item in items]
+        bodies = [screw for one, screw in items if isinstance(one, Part)]
+        screws = bodies or [screw for _, screw in items]
         if len(screws) == 1:
             return screws[0]
         centre = np.mean([screw.centre for screw in screws], axis=0)

@@ -13,16 +13,16 @@ from ..core.elements import Class, Member, NodeKind, Role
 from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.deformations import AT_Q
+from ..model.draft import ROUNDING
 from ..model.model import Model
 from ..model.parts.condensing import condensed
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
-from ..model.places import ROUNDING
 from .change import Change
 from .decomposition import Decomposition
-from .deformation_words import bending_of, part_of, role_of
 from .locate import positions_near
+from .places import bending_of, part_of, role_of
 from .ways import Coordinate, Deformation, Part, Step, Way
 
 #: What a method of a model is, by the statement of a deck that does the same.

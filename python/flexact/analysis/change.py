@@ -92,13 +92,13 @@ class Change(Frozen):
                 {(node, name): given for node, name, given in self.coordinates},
             )
         model = Model.from_data(data)
-        for wire in self.wires:
-            end, ground = _ends(model, data, wire)
-            model.wire(end, ground, name=_free_name(model, _NEW_WIRE))
-            model.fix(ground)
-        for sheet in self.sheets:
-            end, ground = _ends(model, data, sheet)
-            model.sheet(end, ground, sheet.width, name=_free_name(model, _NEW_SHEET))
+        flexures: list[AddedWire | AddedSheet] = [*self.wires, *self.sheets]
+        for added in flexures:
+            end, ground = _ends(model, data, added)
+            if isinstance(added, AddedSheet):
+                model.sheet(end, ground, added.width, name=_free_name(model, _NEW_SHEET))
+            else:
+                model.wire(end, ground, name=_free_name(model, _NEW_WIRE))
             model.fix(ground)
         return model
 

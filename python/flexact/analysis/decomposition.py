@@ -19,12 +19,11 @@ from ..core.raw import RawAnalysis, RawAssembly
 from ..model.attributes import Labels, column_labels, row_labels
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
-from ..model.parts.parts import Parts
+from ..model.parts.parts import Carriers, Parts
 from ..util import machine as memory
 from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen, cached_property, read_only
 from ..util.text import in_short
-from .carriers import Carriers
 from .limits import LARGEST_ROUNDING, ROUNDING
 from .sparse_basis import orthonormal
 from .verdict import AnalysisError, ClassCounts, Counts, Gap, Margin, Proof, Verdict, completed
@@ -86,25 +85,28 @@ class Accuracy(NamedTuple):
                 "the accuracy is a length [m], or a length and an angle [rad], "
                 f"not {len(parts)} numbers"
             )
-        return cls(*map(_checked, parts, ("m", "rad")))
+        sizes = [
+            _number(part, "the accuracy", "a number or two", unit)
+            for part, unit in zip(parts, ("m", "rad"), strict=False)
+        ]
+        for size in sizes:
+            if not (math.isfinite(size) and size > 0.0):
+                raise ValueError(f"the accuracy must be finite and positive, not {size}")
+        return cls(*sizes)
 
 
-def _checked(part: Any, unit: str) -> float:
-    if isinstance(part, (*_NO_NUMBERS, bool)):
-        raise TypeError(f"the accuracy must be a number or two, not {type(part).__name__}")
+def _number(given: Any, what: str, many: str, unit: str = "m") -> float:
+    """A number that `what` is to be; `many` says how many may be given."""
     try:
-        value = measured(part, unit)
+        if isinstance(given, (*_NO_NUMBERS, bool)):
+            raise TypeError
+        return measured(given, unit)
     except QuantityError as error:
-        raise TypeError(f"the accuracy must be a number or two: {error}") from None
+        raise TypeError(f"{what} must be {many}: {error}") from None
     except TypeError:
-        raise TypeError(
-            f"the accuracy must be a number or two, not {type(part).__name__}"
-        ) from None
+        raise TypeError(f"{what} must be {many}, not {type(given).__name__}") from None
     except (ValueError, OverflowError):
-        raise ValueError(f"the accuracy must be a number or two, not {in_short(part)}") from None
-    if not (math.isfinite(value) and value > 0.0):
-        raise ValueError(f"the accuracy must be finite and positive, not {value}")
-    return value
+        raise ValueError(f"{what} must be {many}, not {in_short(given)}") from None
 
 
 class Asked(NamedTuple):
@@ -139,7 +141,12 @@ def asked_for(
     """
     if not isinstance(prove, (bool, type(None))):
         raise TypeError(f"prove must be True, False or None, not {type(prove).__name__}")
-    tolerance = _checked_tolerance(tolerance)
+    if isinstance(tolerance, str):
+        raise TypeError("the tolerance must be a number, not str")
+    if tolerance is not None:
+        tolerance = _number(tolerance, "the tolerance", "a number")
+        if not (math.isfinite(tolerance) and tolerance >= 0.0):
+            raise ValueError(f"the tolerance must be finite and not negative, not {tolerance}")
     known = None if accuracy is None else Accuracy.of(accuracy)
     if not isinstance(method, str):
         raise TypeError(f"a method is given by its name, not by {type(method).__name__}")
@@ -147,23 +154,6 @@ def asked_for(
         choices = ", ".join(calls.METHODS)
         raise ValueError(f"there is no method {method!r}; choose from {choices}")
     return Asked(method, tolerance, prove, known)
-
-
-def _checked_tolerance(tolerance: float | None) -> float | None:
-    if tolerance is None:
-        return None
-    kind = type(tolerance).__name__
-    if isinstance(tolerance, (str, *_NO_NUMBERS, bool)):
-        raise TypeError(f"the tolerance must be a number, not {kind}")
-    try:
-        value = float(tolerance)
-    except TypeError:
-        raise TypeError(f"the tolerance must be a number, not {kind}") from None
-    except (ValueError, OverflowError):
-        raise ValueError(f"the tolerance must be a number, not {in_short(tolerance)}") from None
-    if not (math.isfinite(value) and value >= 0.0):
-        raise ValueError(f"the tolerance must be finite and not negative, not {value}")
-    return value
 
 
 #: Nodes or elements, and modes, beyond which bodies and parts are not told one by one.
@@ -265,9 +255,7 @@ class Decomposition(Frozen):
             )
 
         forgiven = ("convergence",) if self.method == "sparse" else ()
-        values = completed(self.data, work, forgiven).scaled_values
-        values.flags.writeable = False
-        return values
+        return read_only(completed(self.data, work, forgiven).scaled_values)
 
     @property
     def scaled_singular_values(self) -> FloatArray:
@@ -423,8 +411,7 @@ def column_weights(analysis: Decomposition, columns: Places = _ALL) -> FloatArra
 def row_duals(analysis: Decomposition, rows: Places = _ALL) -> NDArray[np.int32]:
     """(rows,) `Dual` of rows of D(c)."""
     element, deformation = analysis.raw.row_label[:, rows] - 1
-    table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
-    return table
+    return np.asarray(dual_table()[analysis.data.arrays.element_kind[element], deformation])
 
 
 def row_factors(analysis: Decomposition, rows: Places = _ALL) -> FloatArray:

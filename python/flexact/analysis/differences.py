@@ -40,13 +40,8 @@ from .verdict_words import (
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([de][+-]?\d+)?$", re.IGNORECASE)
 
 
-class Statement(NamedTuple):
-    """A line of a deck that says something."""
-
-    meant: str
-    """What is compared."""
-    written: str
-    line: int
+#: A line of a deck that says something: what is compared, what is written, and its number.
+Statement = tuple[str, str, int]
 
 
 class Different(NamedTuple):
@@ -60,7 +55,7 @@ class Different(NamedTuple):
 def statements_in(source: Source) -> tuple[Statement, ...]:
     """The statements of a deck."""
     return tuple(
-        Statement(
+        (
             " ".join(_meant(word.text) for word in line.words),
             harmless(" ".join(word.text for word in line.words)),
             line.number + 1,
@@ -81,13 +76,13 @@ def differences(
     before: tuple[Statement, ...], after: tuple[Statement, ...]
 ) -> tuple[Different, ...]:
     """What went and what came, in the order of the decks."""
-    one, other = ([each.meant for each in side] for side in (before, after))
+    one, other = ([meant for meant, _, _ in side] for side in (before, after))
     made: list[Different] = []
     matcher = SequenceMatcher(None, one, other, autojunk=False)
     for what, i, j, k, n in matcher.get_opcodes():
         if what != "equal":
-            made += [Different(False, each.written, each.line) for each in before[i:j]]
-            made += [Different(True, each.written, each.line) for each in after[k:n]]
+            made += [Different(False, written, line) for _, written, line in before[i:j]]
+            made += [Different(True, written, line) for _, written, line in after[k:n]]
     return tuple(made)
 
 
@@ -225,8 +220,8 @@ def _stored(found: dict[str, Any]) -> Side:
     move, turn = (
         None if margin[key] is None else float(margin[key]["value"]) for key in ("length", "angle")
     )
-    exact, given = bool(margin["exact_alignment"]), found["accuracy"]
-    sizes = Margin(move, turn, None, None, None, exact)
+    given = found["accuracy"]
+    sizes = Margin(move, turn, None, None, None, bool(margin["exact_alignment"]))
     accuracy = None
     if given is not None:
         within = [None if given[k] is None else given[k]["value"] for k in ("length", "angle")]
@@ -238,7 +233,7 @@ def _stored(found: dict[str, Any]) -> Side:
         ),
         counts_in_words(under, over) + but_only(sizes, accuracy),
         _numbers(found["counts"], under, over, int(found["degrees_of_freedom"])),
-        margin_of_sizes(move, turn, length, exact=exact),
+        margin_of_sizes(sizes, length, accuracy),
         str(found["certainty"]),
         tuple(
             Mode(_moving(made), _vector(made, "node", "coordinate", length))

@@ -223,17 +223,16 @@ def _undeclared(data: ModelData, places: Sequence[_Place]) -> ModelData:
 def freedoms_of(outcome: Decomposition) -> tuple[Freedom, ...]:
     """The declared degrees of freedom, coordinates first."""
     arrays = outcome.data.arrays
-    places: list[_Place] = []
-    for classes, is_coordinate in (
-        (arrays.coordinate_class, True),
-        (arrays.deformation_class, False),
-    ):
-        owner, part = np.nonzero(classes.T == Class.INDEPENDENT)
-        places += [
-            (is_coordinate, *each) for each in zip(part.tolist(), owner.tolist(), strict=True)
-        ]
-    found: list[Freedom] = []
-    for first in range(0, len(places), _AT_ONCE):
-        block = Block(outcome, places[first : first + _AT_ONCE])
-        found += [Freedom(outcome, place[1:], place[0], block) for place in block.places]
-    return tuple(found)
+    places: list[_Place] = [
+        (is_coordinate, part, owner)
+        for classes, is_coordinate in (
+            (arrays.coordinate_class, True),
+            (arrays.deformation_class, False),
+        )
+        for owner, part in np.argwhere(classes.T == Class.INDEPENDENT).tolist()
+    ]
+    firsts = range(0, len(places), _AT_ONCE)
+    blocks = (Block(outcome, places[first : first + _AT_ONCE]) for first in firsts)
+    return tuple(
+        Freedom(outcome, place[1:], place[0], block) for block in blocks for place in block.places
+    )

@@ -17,13 +17,12 @@ from ..model.parts.parts import PartKind
 from ..util.loading import VERSION
 from .calls import calls_of
 from .decomposition import row_duals, row_factors
-from .deformation_words import deformation_word
 from .freedoms import Freedom
 from .limits import LEFT_OUT
 from .mode_words import moments_at_ends
 from .naming import freedom_in_words, node_name, part_in_words, plain, unit_of_coordinate
 from .part_stresses import PartStress
-from .places import place_words
+from .places import deformation_word, place_words
 from .result import Result
 from .screws import Screw, ScrewKind, Wrench
 from .verdict import AnalysisError, Margin
@@ -40,7 +39,7 @@ _ALL = (Step.DECLARE_FOLDS, Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL)
 Entries = dict[str, Any]
 
 
-def quantity(value: float, unit: str) -> Entries:
+def quantity(value: float | list[float], unit: str) -> Entries:
     """A number beside its unit."""
     return {"value": value, "unit": unit}
 
@@ -271,7 +270,7 @@ def of_self_stress(result: Result, index: int) -> Entries:
                 else {
                     "kind": over.kind.value,
                     "direction": over.direction.tolist(),
-                    "point": _vector(over.point, "m"),
+                    "point": quantity(over.point.tolist(), "m"),
                 },
                 "loads": [
                     {"part": None if load.part is None else load.part.name, **_wrench(load.wrench)}
@@ -288,7 +287,7 @@ def _screw(screw: Screw) -> Entries:
     return {
         "kind": screw.kind.value,
         "direction": screw.direction.tolist(),
-        "point": _vector(screw.point, "m") if turns else None,
+        "point": quantity(screw.point.tolist(), "m") if turns else None,
         "pitch": quantity(screw.pitch, "m/rad") if turns else None,
         "magnitude": quantity(screw.magnitude, "rad" if turns else "m"),
     }
@@ -316,22 +315,18 @@ def _stressed(result: Result, index: int, one: PartStress) -> Entries:
         "ends": ends,
         "normal_force": quantity(one.normal_force, "N"),
         "twist_moment": quantity(one.twist_moment, "N m"),
-        "shear_force": _vector(one.shear_force, "N"),
-        "moments": [_vector(moment, "N m") for moment in one.moments],
+        "shear_force": quantity(one.shear_force.tolist(), "N"),
+        "moments": [quantity(moment.tolist(), "N m") for moment in one.moments],
         **moments,
     }
-
-
-def _vector(vector: FloatArray, unit: str) -> Entries:
-    return {"value": vector.tolist(), "unit": unit}
 
 
 def _wrench(wrench: Wrench) -> Entries:
     return {
         "kind": wrench.kind.value,
-        "force": _vector(wrench.force, "N"),
-        "moment": _vector(wrench.moment, "N m"),
-        "about": _vector(wrench.about, "m"),
+        "force": quantity(wrench.force.tolist(), "N"),
+        "moment": quantity(wrench.moment.tolist(), "N m"),
+        "about": quantity(wrench.about.tolist(), "m"),
     }
 
 
@@ -473,10 +468,8 @@ _MODES: dict[str, Callable[[Result], ModesTable]] = {
 
 def dictionary_of(analysis: Result) -> dict[str, Any]:
     """The names and values of the JSON, in their order."""
-    made = _without_modes(analysis)
-    for name, modes in _MODES.items():
-        made[name] = modes(analysis).dictionaries()
-    return made
+    made = {name: modes(analysis).dictionaries() for name, modes in _MODES.items()}
+    return _without_modes(analysis) | made
 
 
 def text_of(analysis: Result) -> str:

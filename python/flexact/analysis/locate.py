@@ -10,13 +10,13 @@ import numpy as np
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
-from ..deck.rendering import ModelError, model_error
+from ..deck.rendering import model_error
+from ..model.arguments import of_indices
 from ..model.deformations import classes_of_division, find_deformations
+from ..model.draft import ROUNDING
 from ..model.draft_arrays import draft_of
 from ..model.names import ambiguous, unknown
 from ..model.parts.parts import Part, PartKind, Parts
-from ..model.places import ROUNDING
-from ..model.selection import of_indices
 from ..util.quantities import without_units
 from ..util.text import in_short
 
@@ -49,7 +49,10 @@ def part_of(parts: Parts, target: object) -> Part:
                 "no-such-part", "this body is a single point; ask for what the point does"
             )
         return parts.of_body(body)
-    found = dict.fromkeys(_of_element(parts, element, target) for element in elements)
+    what = "a part is given by its name, the number of an element"
+    numbers = (_whole(getattr(element, "number", element)) for element in elements)
+    indices = [_element(parts, number, target, what) for number in numbers]
+    found = dict.fromkeys(map(parts.of_element, indices))
     if len(found) > 1:
         raise model_error(
             "ambiguous-part",
@@ -59,17 +62,22 @@ def part_of(parts: Parts, target: object) -> Part:
     return next(iter(found))
 
 
-def _of_element(parts: Parts, element: object, target: object) -> Part:
-    number = _whole(getattr(element, "number", element))
+def _element(parts: Parts, number: int | None, target: object, what: str) -> int:
+    """Index of the element with a number that was given by a target."""
     if number is None:
-        raise TypeError(
-            f"a part is given by its name, the number of an element or what the model handed out, "
-            f"not by {in_short(target)}"
+        raise TypeError(f"{what} or what the model handed out, not by {in_short(target)}")
+    return _known("element", number, parts.data.element_index, parts.data.arrays.element_number)
+
+
+def _known(what: str, number: int, index_of: dict[int, int], there: IntArray) -> int:
+    """Index of the node or element with a number."""
+    if number not in index_of:
+        raise model_error(
+            f"no-such-{what}",
+            f"there is no {what} {in_short(number)}",
+            f"there are {numbers_listed(there)}",
         )
-    index = parts.data.element_index.get(number)
-    if index is None:
-        raise _unknown_element(parts, number)
-    return parts.of_element(index)
+    return index_of[number]
 
 
 def _whole(given: object) -> int | None:
@@ -85,13 +93,6 @@ def numbers_listed(numbers: IntArray) -> str:
     return f"{shown}, ..." if numbers.size > _MOST else shown
 
 
-def _unknown_element(parts: Parts, number: object) -> ModelError:
-    there = numbers_listed(parts.data.arrays.element_number)
-    return model_error(
-        "no-such-element", f"there is no element {in_short(number)}", f"there are {there}"
-    )
-
-
 def node_of(parts: Parts, target: object) -> int:
     """Index of the node that is meant: of any kind by its number, else that of a point.
 
@@ -102,13 +103,7 @@ def node_of(parts: Parts, target: object) -> int:
     number = _whole(target)
     if number is None:
         return position_of(parts, target)
-    index = parts.data.node_index.get(number)
-    if index is None:
-        there = numbers_listed(parts.data.arrays.node_number)
-        raise model_error(
-            "no-such-node", f"there is no node {in_short(number)}", f"there are {there}"
-        )
-    return index
+    return _known("node", number, parts.data.node_index, parts.data.arrays.node_number)
 
 
 def position_of(parts: Parts, target: object) -> int:
@@ -189,8 +184,7 @@ def positions_near(parts: Parts, place: FloatArray, within: float) -> IntArray:
     nodes = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION).astype(np.int32)
     values = arrays.node_value[:3, nodes]
     apart = np.abs(values - place[:, None]).max(axis=0)
-    found: IntArray = nodes[apart <= within * np.abs(values).max(initial=0.0)]
-    return found
+    return np.asarray(nodes[apart <= within * np.abs(values).max(initial=0.0)])
 
 
 def elements_of(parts: Parts, target: object) -> tuple[int, ...]:
@@ -211,15 +205,7 @@ def elements_of(parts: Parts, target: object) -> tuple[int, ...]:
     if hasattr(target, "elements"):
         return tuple(i for each in target.elements for i in elements_of(parts, each.number))
     number = _whole(getattr(target, "number", target))
-    if number is None:
-        raise TypeError(
-            f"an element is given by its number, its name or what the model handed out, not by "
-            f"{in_short(target)}"
-        )
-    index = data.element_index.get(number)
-    if index is None:
-        raise _unknown_element(parts, number)
-    return (index,)
+    return (_element(parts, number, target, "an element is given by its number, its name"),)
 
 
 def element_of(parts: Parts, target: object) -> int:

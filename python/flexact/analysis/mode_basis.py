@@ -12,15 +12,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Sequence
 from functools import cache, partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
-from ..model.deformations import AT_P, AT_Q
+from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.parts import Part, PartKind, natural
+from ..util.groups import grouped
 from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
 from .limits import NO_SENSE, ROUNDING, SAME_PLACE
@@ -36,11 +37,6 @@ from .sparse_basis import (
     support_of,
 )
 
-#: Local axis about or along which a deformation is, by role; 0 where it has none of its own.
-_AXIS: dict[int, int] = {
-    **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.OFFSET_Y, Role.TILT_Y), 1),
-    **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q, Role.OFFSET_Z, Role.TILT_Z), 2),
-}
 #: Bendings of both ends and planes together, behind elongation and torsion.
 _BENDING = int(Role.BENDING_XZ_P)
 #: Of values of practically one size, no more than so many are put in order.
@@ -86,7 +82,7 @@ def deformation_key(
     data, given = outcome.data, int(outcome.condensed.elements[element])
     role = int(role_table()[data.arrays.element_kind[element], deformation])
     part = outcome.parts.of_element(given)
-    axis = _AXIS.get(role, 0)
+    axis = LOCAL_AXIS.get(role, 0)
     bends = role in AT_P or role in AT_Q
     wide = int(outcome.parts.wide[given])
     # A sheet's local z is in its plane where the bending about local y is held.
@@ -188,10 +184,8 @@ def motion_basis(outcome: Decomposition, space: Basis) -> Basis:
     if found is None:
         return scaled_motions(outcome)
     return _scaled(
-        found,
-        _Rows(support, column_weights(outcome), np.ones(space.size), groups.owner, groups.outside),
-        key,
-        lambda row: 1.0,
+        *(found, support, groups.owner, groups.outside),
+        *(column_weights(outcome), np.ones(space.size), key, lambda row: 1.0),
     )
 
 
@@ -205,14 +199,12 @@ def stress_basis(outcome: Decomposition, space: Basis) -> Basis:
     key = cache(partial(row_key, outcome, numbered=False))
     support, dense = _held(space, key)
     each, every = np.arange(support.size), np.ones(support.size, bool)
-    found = _StressGroups(outcome, support).basis(dense)
+    found = _part_stresses(outcome, support, dense)
     if found is None:
         return scaled_stresses(outcome)
     return _scaled(
-        found,
-        _Rows(support, row_weights(outcome), row_factors(outcome), each, every),
-        key,
-        partial(_sense_of_row, outcome),
+        *(found, support, each, every, row_weights(outcome), row_factors(outcome)),
+        *(key, partial(_sense_of_row, outcome)),
     )
 
 
@@ -231,8 +223,7 @@ def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -
     largest = np.zeros(basis.vectors)
     weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
     np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
-    made: BoolArray = largest <= outcome.rounding
-    return made
+    return largest <= outcome.rounding
 
 
 def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
@@ -247,43 +238,46 @@ def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
 # Scale and sign -------------------------------------------------------------
 
 
-class _Rows(NamedTuple):
-    """Rows in which vectors are given."""
-
-    support: NDArray[np.integer]
-    """Their places."""
-    weights: FloatArray
-    """(size,) what makes entries comparable."""
-    units: FloatArray
-    """(size,) what makes displacements, rotations, forces and moments of them."""
-    owner: NDArray[np.integer]
-    """What each is a component of, from 0."""
-    outside: BoolArray
-    """Whether the largest entry is to be sought there, if there is any."""
-
-
-def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
+def _scaled(
+    vectors: FloatArray,
+    support: NDArray[np.integer],
+    owner: NDArray[np.integer],
+    outer: BoolArray,
+    weights: FloatArray,
+    units: FloatArray,
+    key: Key,
+    sense: Sense,
+) -> Basis:
     """Weighted vectors as a basis without the weights; of each the largest is one in its unit.
 
     The largest displacement, rotation, force or moment, of equal ones the first by the key; its
     first component is positive by its sense.
+
+    Args:
+        vectors: (rows, k).
+        support: (rows,) places of the rows.
+        owner: (rows,) what each is a component of, from 0.
+        outer: (rows,) whether the largest entry is to be sought there, if there is any.
+        weights: (size,) what makes entries comparable.
+        units: (size,) what makes displacements, rotations, forces and moments of them.
+        key: Of places.
+        sense: Of places.
     """
     made = np.zeros_like(vectors)
-    support = rows.support
     for k, vector in enumerate(vectors.T):
-        outside = np.where(rows.outside, vector, 0.0)
+        outside = np.where(outer, vector, 0.0)
         seen = outside if np.abs(outside).max() > ROUNDING * np.abs(vector).max() else vector
-        sizes = np.sqrt(np.bincount(rows.owner, seen**2))
-        (largest,) = ranked(sizes, 1, lambda i: key(int(support[np.argmax(rows.owner == i)])))
-        mine = np.flatnonzero(rows.owner == largest)
+        sizes = np.sqrt(np.bincount(owner, seen**2))
+        (largest,) = ranked(sizes, 1, lambda i: key(int(support[np.argmax(owner == i)])))
+        mine = np.flatnonzero(owner == largest)
         first = mine[np.argmax(np.abs(vector[mine]) > NO_SENSE * sizes[largest])]
-        plain = vector / rows.weights[support]
-        size = float(np.linalg.norm(plain[mine] * rows.units[support[mine]]))
+        plain = vector / weights[support]
+        size = float(np.linalg.norm(plain[mine] * units[support[mine]]))
         made[:, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
     order = np.argsort(support)
     basis = Basis.of_dense(made[order])
     places = support[order][basis.place].astype(np.int32)
-    return basis._replace(size=rows.weights.size, place=places)
+    return basis._replace(size=weights.size, place=places)
 
 
 def _scaled_as_they_are(raw: Basis, weights: FloatArray, units: FloatArray) -> Basis:
@@ -379,9 +373,7 @@ class _MotionGroups:
         Args:
             one_by_one: Whether each node of an inside is a group.
         """
-        place: dict[int, list[int]] = {}
-        for row, node in enumerate(self.node.tolist()):
-            place.setdefault(node, []).append(row)
+        place = grouped((node, row) for row, node in enumerate(self.node.tolist()))
         parts = self.carriers.parts
         bodies = [(body.positions + body.orientations) for body in parts.bodies]
         taken = {node for nodes in bodies for node in nodes}
@@ -394,18 +386,17 @@ class _MotionGroups:
             for is_fold in (True, False)
         )
         # One by one the nodes of an inside are by the place where they are.
-        at: dict[object, list[int]] = {}
-        for inside in self.carriers.insides:
-            for node in inside.nodes:
-                here = parts.place_of(node) if one_by_one else None
-                at.setdefault((inside.nodes, here), []).append(node)
-        insides = list(at.values())
+        insides = grouped(
+            ((nodes, parts.place_of(node) if one_by_one else None), node)
+            for _, nodes in self.carriers.insides
+            for node in nodes
+        )
         made: list[IntArray] = []
         costs: list[Cost] = []
         for kinds in (
             ((bodies, (1, 0, 0, 0)),),
             ((joints, (0, 1, 0, 0)), (folds, (0, 0, 1, 0))),
-            ((insides, (0, 0, 0, 1)),),
+            ((list(insides.values()), (0, 0, 0, 1)),),
         ):
             found = (
                 (sorted(row for node in nodes for row in place.get(node, ())), cost)
@@ -448,32 +439,30 @@ class _MotionGroups:
         return columns_of(pieces_of(space, axes, [(1,)] * 3, _entries), space.shape[0])
 
 
-class _StressGroups:
-    """Rows of the self-stresses, rows of D(c), by the part that they belong to."""
+def _part_stresses(
+    outcome: Decomposition, support: NDArray[np.integer], space: FloatArray
+) -> FloatArray | None:
+    """All self-stresses: of flexible parts, then inside of bodies; None of a large space."""
+    if space.shape[1] < 2:
+        return space
+    element = outcome.condensed.elements[outcome.raw.row_label[0, support] - 1]
+    parts = grouped(
+        (outcome.parts.of_element(index), row) for row, index in enumerate(element.tolist())
+    )
+    # Rows are in canonical order, by names first.
+    flexible, bodies = (
+        [np.array(rows) for part, rows in parts.items() if (part.kind is PartKind.BODY) == is_body]
+        for is_body in (False, True)
+    )
 
-    def __init__(self, outcome: Decomposition, support: NDArray[np.integer]) -> None:
-        element = outcome.condensed.elements[outcome.raw.row_label[0, support] - 1]
-        parts: dict[Part, list[int]] = {}
-        for row, index in enumerate(element.tolist()):
-            parts.setdefault(outcome.parts.of_element(index), []).append(row)
-        # Rows are in canonical order, by names first.
-        self.flexible = [
-            np.array(rows) for part, rows in parts.items() if part.kind is not PartKind.BODY
-        ]
-        self.bodies = [np.array(rows) for part, rows in parts.items() if part.kind is PartKind.BODY]
-
-    def basis(self, space: FloatArray) -> FloatArray | None:
-        """All vectors: of flexible parts, then inside of bodies; None of a large space."""
-        if space.shape[1] < 2:
-            return space
-        pieces = pieces_of(space, self.flexible, [(1,)] * len(self.flexible), self._by_bodies)
-        if _is_undivided(pieces):
-            return None
-        pieces.sort(key=lambda piece: not piece.support)
-        return columns_of(pieces, space.shape[0])
-
-    def _by_bodies(self, space: FloatArray) -> FloatArray:
-        if space.shape[1] < 2 or not self.bodies:
+    def by_bodies(space: FloatArray) -> FloatArray:
+        if space.shape[1] < 2 or not bodies:
             return _entries(space)
-        pieces = pieces_of(space, self.bodies, [(1,)] * len(self.bodies), _entries)
+        pieces = pieces_of(space, bodies, [(1,)] * len(bodies), _entries)
         return columns_of(pieces, space.shape[0])
+
+    pieces = pieces_of(space, flexible, [(1,)] * len(flexible), by_bodies)
+    if _is_undivided(pieces):
+        return None
+    pieces.sort(key=lambda piece: not piece.support)
+    return columns_of(pieces, space.shape[0])

@@ -8,9 +8,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..model.parts.parts import Part, PartKind
+from ..model.parts.parts import Joint, Part, PartKind
 from .body_motions import BodyMotion
-from .carriers import Joint
 from .decomposition import Decomposition
 from .limits import SAME_PLACE, TOLD
 from .naming import (

@@ -9,9 +9,8 @@ from typing import NamedTuple
 from ..core.elements import Dual, dual_table
 from ..util.text import TIE, USUAL, wrapped
 from .decomposition import Decomposition
-from .deformation_words import deformation_words
 from .freedoms import Freedom
-from .places import node_words, part_words
+from .places import deformation_words, node_words, part_words
 from .ways import Coordinate, Part
 
 _INDENT = "     "

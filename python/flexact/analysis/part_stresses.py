@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,9 +19,9 @@ from ..core.elements import Class, Member, NodeKind, Role, role_table
 from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.parts.forms import is_member
-from ..model.parts.parts import Part, PartKind, natural
+from ..model.parts.parts import Joint, Part, PartKind, natural
+from ..util.groups import grouped
 from ..util.records import Frozen, cached_property
-from .carriers import Joint
 from .decomposition import Decomposition, row_weights
 from .limits import EXACT_COSINE, NO_RESULTANT, ROUNDING, SAME_WRENCH, TOLD
 from .locate import part_of, position_of
@@ -179,8 +179,7 @@ class PartStress(Frozen):
         return self.ends[-1].wrench
 
     def _across(self, vector: FloatArray) -> FloatArray:
-        made: FloatArray = vector - (vector @ self.direction) * self.direction
-        return made
+        return vector - (vector @ self.direction) * self.direction
 
     def __str__(self) -> str:
         """In words."""
@@ -249,17 +248,20 @@ class Conflict(NamedTuple):
         return f"{self.on}: {'; '.join(map(str, self.loads))}"
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Pressing(Frozen):
+class Presses:
     """What parts press on each other in a self-stress; each answer is found when asked for.
 
     Attributes:
-        outcome: The analysis.
-        vector: (m,) stress resultants dual to the deformations.
+        analysis: The analysis that it belongs to.
     """
 
-    outcome: Decomposition
-    vector: FloatArray
+    analysis: Decomposition
+
+    if TYPE_CHECKING:
+
+        @property
+        def vector(self) -> FloatArray:
+            """(m,) stress resultants dual to the deformations."""
 
     @cached_property
     def parts(self) -> tuple[PartStress, ...]:
@@ -281,7 +283,7 @@ class Pressing(Frozen):
         Raises:
             ModelError: there is no such part.
         """
-        return self._part_stress(part_of(self.outcome.parts, part))
+        return self._part_stress(part_of(self.analysis.parts, part))
 
     def on(self, body: object) -> tuple[Load, ...]:
         """What each part exerts on a body, or on a point, and the support last; in balance.
@@ -295,40 +297,36 @@ class Pressing(Frozen):
         part = None
         if not hasattr(body, "position"):
             try:
-                part = part_of(self.outcome.parts, body)
+                part = part_of(self.analysis.parts, body)
             except (ModelError, TypeError):
                 if not isinstance(body, (str, tuple, list)):
                     raise
         if part is None:
-            position = position_of(self.outcome.parts, body)
-            own = (n for n, p in self.outcome.parts.position_of.items() if p == position)
+            position = position_of(self.analysis.parts, body)
+            own = (n for n, p in self.analysis.parts.position_of.items() if p == position)
             return self._loads({position, *own}, None)
         if part.kind is PartKind.BODY:
-            mine = self.outcome.parts.bodies[self.outcome.carriers.bodies.index(part)]
+            mine = self.analysis.parts.bodies[self.analysis.carriers.bodies.index(part)]
             return self._loads({*mine.positions, *mine.orientations}, part)
-        slots = self.outcome.given.arrays.element_node[:, list(part.elements)] - 1
+        slots = self.analysis.given.arrays.element_node[:, list(part.elements)] - 1
         return self._loads(set(slots.ravel().tolist()) - {-1}, part)
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
         """Bodies on which parts press, by name, then joints; clamps are left out."""
-        return self.on_bodies + self.on_joints
+        on_joints = (
+            Conflict(joint, self._loads(joint.nodes, None))
+            for joint in self.analysis.carriers.joints
+            if not self._is_held(joint) and not self._of_node.keys().isdisjoint(joint.nodes)
+        )
+        pressed = (one for one in on_joints if any(load.part for load in one.loads))
+        return (*self.on_bodies, *pressed)
 
     @cached_property
     def on_bodies(self) -> tuple[Conflict, ...]:
         """Those on bodies."""
-        bodies = sorted(self.outcome.carriers.bodies, key=self._key)
+        bodies = sorted(self.analysis.carriers.bodies, key=self._key)
         made = (Conflict(body, self.on(body)) for body in bodies)
-        return tuple(one for one in made if any(load.part for load in one.loads))
-
-    @cached_property
-    def on_joints(self) -> tuple[Conflict, ...]:
-        """Those on joints."""
-        made = (
-            Conflict(joint, self._loads(joint.nodes, None))
-            for joint in self.outcome.carriers.joints
-            if not self._is_held(joint) and not self._of_node.keys().isdisjoint(joint.nodes)
-        )
         return tuple(one for one in made if any(load.part for load in one.loads))
 
     # What it is made of -----------------------------------------------------
@@ -336,12 +334,12 @@ class Pressing(Frozen):
     @cached_property
     def _at_nodes(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Element and node, both as given, (k,), and force or moment (k, 3) that it exerts."""
-        outcome, whole = self.outcome, self.outcome.assembly
+        outcome, vector, whole = self.analysis, self.vector, self.analysis.assembly
         element, deformation = outcome.raw.row_label - 1
         sigma = np.zeros(6 * outcome.data.arrays.element_number.size)
-        weighted = np.abs(self.vector * row_weights(outcome))
+        weighted = np.abs(vector * row_weights(outcome))
         is_there = weighted > NO_RESULTANT * weighted.max(initial=0.0)
-        sigma[6 * element + deformation] = np.where(is_there, self.vector, 0.0)
+        sigma[6 * element + deformation] = np.where(is_there, vector, 0.0)
         used = sigma[whole.row_of] != 0.0
         owner, node = whole.row_of[used] // 6, whole.column_of[used] // 3
         keys, place = np.unique(np.stack((owner, node)), axis=1, return_inverse=True)
@@ -353,21 +351,18 @@ class Pressing(Frozen):
     @cached_property
     def _of_node(self) -> dict[int, list[int]]:
         """Which entries of `_at_nodes` are of a node."""
-        made: dict[int, list[int]] = {}
-        for k, node in enumerate(self._at_nodes[1].tolist()):
-            made.setdefault(node, []).append(k)
-        return made
+        return grouped((node, k) for k, node in enumerate(self._at_nodes[1].tolist()))
 
     @cached_property
     def _ends(self) -> dict[Part, dict[_End, FloatArray]]:
         """(2, 3) force and moment of each part where its elements end."""
-        given, parts = self.outcome.given.arrays, self.outcome.parts
-        condensed, made = self.outcome.condensed, dict[Part, dict[_End, FloatArray]]()
+        given, parts = self.analysis.given.arrays, self.analysis.parts
+        condensed, made = self.analysis.condensed, dict[Part, dict[_End, FloatArray]]()
         elements, nodes, values = self._at_nodes
         for element, node, value in zip(elements.tolist(), nodes.tolist(), values, strict=True):
             # The ends of the element of the model as analysed, in nodes as given.
             index = int(np.searchsorted(condensed.elements, element))
-            slots = self.outcome.data.arrays.element_node[:, index] - 1
+            slots = self.analysis.data.arrays.element_node[:, index] - 1
             p, op, q, oq = (int(condensed.nodes[n]) if n >= 0 else -1 for n in slots.tolist())
             end = (p, op) if node in (p, op) else (q, oq)
             both = made.setdefault(parts.of_element(element), {}).setdefault(end, np.zeros((2, 3)))
@@ -378,23 +373,22 @@ class Pressing(Frozen):
     def _largest(self) -> float:
         """What any element exerts at most: members of one body may cancel out."""
         _, node, value = self._at_nodes
-        is_force = self.outcome.given.arrays.node_kind[node] <= NodeKind.POSITION
-        length = np.where(is_force, self.outcome.characteristic_length, 1.0)
+        is_force = self.analysis.given.arrays.node_kind[node] <= NodeKind.POSITION
+        length = np.where(is_force, self.analysis.characteristic_length, 1.0)
         return float((np.linalg.norm(value, axis=1) * length).max(initial=0.0))
 
     def _size(self, both: FloatArray) -> float:
         force, moment = np.linalg.norm(both, axis=1)
-        return float(max(force * self.outcome.characteristic_length, moment))
+        return float(max(force * self.analysis.characteristic_length, moment))
 
     def _place_of(self, end: _End) -> FloatArray:
-        position = end[0] if end[0] >= 0 else self.outcome.parts.place_of(end[1])
+        position = end[0] if end[0] >= 0 else self.analysis.parts.place_of(end[1])
         if position is None:
             return np.zeros(3)
-        made: FloatArray = self.outcome.given.arrays.node_value[:3, position]
-        return made
+        return self.analysis.given.arrays.node_value[:3, position]
 
     def _wrench(self, both: FloatArray, about: FloatArray) -> Wrench:
-        length = self.outcome.characteristic_length
+        length = self.analysis.characteristic_length
         return Wrench(both[0], both[1], np.array(about), length, ROUNDING * self._largest)
 
     def _part_stress(self, part: Part) -> PartStress:
@@ -404,7 +398,7 @@ class Pressing(Frozen):
             for end, both in found.items()
             if len(found) <= 2 or self._size(both) > ROUNDING * self._largest
         }
-        step = self.outcome.characteristic_length
+        step = self.analysis.characteristic_length
         order = sorted(
             outer, key=lambda end: (*np.round(self._place_of(end) / step, 9).tolist(), *end)
         )
@@ -425,9 +419,9 @@ class Pressing(Frozen):
         normal = np.zeros(3)
         if part.kind is PartKind.SHEET:
             # Of a divided sheet that is one beam, that of the one beam.
-            index = int(np.searchsorted(self.outcome.condensed.elements, part.elements[0]))
-            wide = int(self.outcome.parts.wide[part.elements[0]])
-            axis: FloatArray = self.outcome.data.frames.frame[index][:, 3 - wide]
+            index = int(np.searchsorted(self.analysis.condensed.elements, part.elements[0]))
+            wide = int(self.analysis.parts.wide[part.elements[0]])
+            axis: FloatArray = self.analysis.data.frames.frame[index][:, 3 - wide]
             normal = sense_of(axis) * axis
         return PartStress(
             part,
@@ -439,7 +433,7 @@ class Pressing(Frozen):
 
     def _receiver(self, end: _End) -> Part | Joint | None:
         """The body or joint at an end; None of a support alone."""
-        parts = self.outcome.parts
+        parts = self.analysis.parts
         body = parts.body_at.get(end[0], parts.body_at.get(end[1]))
         if body is not None:
             return parts.of_body(body)
@@ -448,18 +442,15 @@ class Pressing(Frozen):
 
     @cached_property
     def _joint_at(self) -> dict[int, Joint]:
-        made: dict[int, Joint] = {}
-        for joint in self.outcome.carriers.joints:
-            for node in joint.nodes:
-                made.setdefault(node, joint)
-        return made
+        joints = reversed(self.analysis.carriers.joints)
+        return {node: joint for joint in joints for node in joint.nodes}
 
     def _is_held(self, joint: Joint) -> bool:
-        return all(map(self.outcome.parts.is_held, joint.nodes))
+        return all(map(self.analysis.parts.is_held, joint.nodes))
 
     def _loads(self, nodes: Iterable[int], body: Part | None) -> tuple[Load, ...]:
         """What parts but one exert on some nodes about their middle, and the support."""
-        outcome = self.outcome
+        outcome = self.analysis
         mine = set(nodes)
         given = outcome.given.arrays
         positions = [n for n in mine if given.node_kind[n] <= NodeKind.POSITION]
@@ -491,7 +482,7 @@ class Pressing(Frozen):
 
     def _moved(self, node: int, force: FloatArray, about: FloatArray) -> FloatArray:
         """(2, 3) force and moment about a point of what works at a node."""
-        given = self.outcome.given.arrays
+        given = self.analysis.given.arrays
         if given.node_kind[node] > NodeKind.POSITION:
             return np.stack((np.zeros(3), force))
         arm = given.node_value[:3, node] - about
@@ -499,8 +490,8 @@ class Pressing(Frozen):
 
     def _key(self, part: Part) -> tuple[object, ...]:
         name = natural(part.name)
-        nodes = self.outcome.given.arrays.element_node[[0, 2], part.elements[0]] - 1
-        places = [self.outcome.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
-        step = self.outcome.characteristic_length
+        nodes = self.analysis.given.arrays.element_node[[0, 2], part.elements[0]] - 1
+        places = [self.analysis.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
+        step = self.analysis.characteristic_length
         middle = np.round(np.mean(places, axis=0) / step, 9) if places else np.zeros(0)
         return name, tuple(middle.tolist())

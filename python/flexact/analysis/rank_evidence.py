@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import calls
-from ..core.arrays import Basis, FloatArray
+from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, length_table, role_table
-from ..core.raw import RawSensitivities
 from ..util.records import cached_property
 from .decomposition import Decomposition
 from .limits import LAST_POWER, LONGEST_STEP, ROUNDINGS, STORED
@@ -62,26 +61,20 @@ def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:
     """The first vectors of a null space of D(c), of unit norm in the scaled matrix."""
     vectors = np.stack([basis.vector(k) for k in range(min(most, basis.vectors))], axis=1)
     norms = np.linalg.norm(vectors / scale[:, None], axis=0)
-    made: FloatArray = vectors / norms
-    return made
+    return np.asarray(vectors / norms)
 
 
-def _named(outcome: Decomposition, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
+def _named(
+    outcome: Decomposition, value: FloatArray, effect: FloatArray, place: IntArray
+) -> tuple[Pair, ...]:
     """Pairs with the numbers of nodes and elements in place of their indices."""
     arrays = outcome.data.arrays
-    return tuple(
-        Pair(
-            float(value[k]),
-            float(found.lift_of_bits[k]),
-            float(found.lift_of_digits[k]),
-            float(found.lift_of_storing[k]),
-            float(found.by_move[k]),
-            float(found.by_turn[k]),
-            int(arrays.node_number[found.node[k]]) if found.node[k] >= 0 else None,
-            int(arrays.element_number[found.element[k]]) if found.element[k] >= 0 else None,
-        )
-        for k in range(value.size)
+    node, element = (
+        [int(numbers[k]) if k >= 0 else None for k in row.tolist()]
+        for numbers, row in zip((arrays.node_number, arrays.element_number), place, strict=True)
     )
+    every = zip(value.tolist(), *effect.tolist(), node, element, strict=True)
+    return tuple(map(Pair._make, every))
 
 
 _EPSILON = float(np.finfo(np.float64).eps)
@@ -135,7 +128,7 @@ class Evidence:
             raw.column_scale[:, None] * raw.pair_motion[:, :most],
             np.stack((each, each)),
         )
-        return _named(outcome, raw.pair_value[:most], found)
+        return _named(outcome, raw.pair_value[:most], *found)
 
     @cached_property
     def zero_pairs(self) -> tuple[tuple[Pair, ...], ...]:
@@ -160,7 +153,7 @@ class Evidence:
         of_zero = pairs[0 if stresses <= motions else 1]
         given = raw.scaled_values[::-1][: min(stresses, motions)][::-1][:zeros]
         values[of_zero < given.size] = given[of_zero[of_zero < given.size]]
-        named = _named(outcome, values, found)
+        named = _named(outcome, values, *found)
         return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
 
 
@@ -204,23 +197,17 @@ def largest_remainder(outcome: Decomposition) -> tuple[float, float] | None:
         stresses.in_full(of_left, outcome.rows),
         motions.in_full(of_right, outcome.columns),
         np.stack((left_place, right_place)).astype(np.int32),
-    ).lift_of_bits
+    )[0][0]
     found = explained[u, v] + STORED * lifts
     worst_of_all = int(np.argmax(left[u, v] / found))
     return float(left[u, v][worst_of_all]), float(found[worst_of_all])
 
 
-def powers_faded(outcome: Decomposition) -> float:
-    """Through how many powers of ten a motion and a self-stress fade, the less of the two.
+def powers_faded(basis: Basis, scale: FloatArray) -> float:
+    """Powers of ten from the largest component down to the end of small steps, of any vector.
 
     The core cuts off what is below 1e-11 of a vector's largest component where it may.
     """
-    raw = outcome.raw
-    return min(_faded(raw.motions, raw.column_scale), _faded(raw.stresses, raw.row_scale))
-
-
-def _faded(basis: Basis, scale: FloatArray) -> float:
-    """Powers of ten from the largest component down to the end of small steps, of any vector."""
     vectors = int(np.searchsorted(basis.start, _MOST_NUMBERS, "right")) - 1
     entries = int(basis.start[vectors])
     if not entries:
@@ -300,5 +287,4 @@ def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArr
     images = np.stack(
         [np.bincount(used.row_of, used.value * part, used.rows) for part in moved.T], axis=1
     )
-    made: FloatArray = stresses.value.T @ images
-    return made
+    return stresses.value.T @ images

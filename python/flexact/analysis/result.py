@@ -18,14 +18,13 @@ from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
 from ..model.deformations import AT_P, AT_Q
 from ..model.parts.condensing import condensed
-from ..model.parts.parts import PartKind, declared
+from ..model.parts.parts import Joint, PartKind, declared
 from ..model.variation import with_classes
 from ..util.loading import load
-from ..util.records import Frozen, cached_property
+from ..util.records import Frozen, cached_property, read_only
 from ..util.text import in_short
 from .body_motions import Moves, Velocities
-from .carriers import Joint
-from .certainty import Assessment, assess
+from .certainty import Assessment, assess, least, margins
 from .decomposition import (
     Asked,
     Decomposition,
@@ -37,7 +36,6 @@ from .decomposition import (
 )
 from .freedoms import Freedom, freedoms_of
 from .locate import elements_of, node_of
-from .margin import least, margins
 from .mode_basis import (
     column_key,
     is_large,
@@ -49,7 +47,7 @@ from .mode_basis import (
     scaled_stresses,
     stress_basis,
 )
-from .part_stresses import Conflict, Load, PartStress, Pressing
+from .part_stresses import Presses
 from .rank_evidence import Evidence, Pair
 from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Verdict
 
@@ -286,7 +284,7 @@ class Result(Decomposition):
 
     @cached_property
     def margins(self) -> tuple[Margin, ...]:
-        """Of each zero, and of the smallest other singular values (`flexact.analysis.margin`)."""
+        """Of each zero, and of the smallest other singular values; theory.md (29)."""
         return margins(self, self.evidence)
 
     @cached_property
@@ -372,9 +370,7 @@ class Motion(Moves, Frozen):
     @property
     def vector(self) -> FloatArray:
         """(n,) the dependent coordinates [m, rad]; the largest is one."""
-        column = self.analysis.motion_basis.vector(self.index)
-        column.flags.writeable = False
-        return column
+        return read_only(self.analysis.motion_basis.vector(self.index))
 
     @cached_property
     def analysed(self) -> Velocities:
@@ -415,7 +411,7 @@ class Motion(Moves, Frozen):
 
 
 @dataclass(frozen=True, repr=False)
-class SelfStress(Frozen):
+class SelfStress(Presses, Frozen):
     """A statically indeterminate stress: stress resultants that need no load.
 
     Attributes:
@@ -429,9 +425,7 @@ class SelfStress(Frozen):
     @property
     def vector(self) -> FloatArray:
         """(m,) stress resultants dual to the deformations; the largest force or moment is one."""
-        column = self.analysis.stress_basis.vector(self.index)
-        column.flags.writeable = False
-        return column
+        return read_only(self.analysis.stress_basis.vector(self.index))
 
     @property
     def forces(self) -> FloatArray:
@@ -448,10 +442,8 @@ class SelfStress(Frozen):
 
     @cached_property
     def _at_elements(self) -> tuple[FloatArray, FloatArray]:
-        made = self.analysis.condensed.stress(*self.analysed)
-        for array in made:
-            array.flags.writeable = False
-        return made
+        moments, forces = self.analysis.condensed.stress(*self.analysed)
+        return read_only(moments), read_only(forces)
 
     @cached_property
     def analysed(self) -> tuple[FloatArray, FloatArray]:
@@ -462,39 +454,6 @@ class SelfStress(Frozen):
         both = np.zeros((2, self.analysis.data.arrays.element_number.size, 6))
         both[is_force, element, deformation] = value * row_factors(self.analysis, place)
         return both[0], both[1]
-
-    @cached_property
-    def _pressing(self) -> Pressing:
-        return Pressing(self.analysis, self.vector)
-
-    @property
-    def parts(self) -> tuple[PartStress, ...]:
-        """The flexible parts that carry something: the largest first, of equal ones by name.
-
-        Where bodies alone carry, they are given.
-        """
-        return self._pressing.parts
-
-    @property
-    def conflicts(self) -> tuple[Conflict, ...]:
-        """Bodies on which parts press, then joints, with what each part exerts on them."""
-        return self._pressing.conflicts
-
-    @property
-    def on_bodies(self) -> tuple[Conflict, ...]:
-        """Of the conflicts those on bodies."""
-        return self._pressing.on_bodies
-
-    def of(self, part: object) -> PartStress:
-        """The stress resultants of a part; see `flexact.analysis.part_stresses.Pressing.of`."""
-        return self._pressing.of(part)
-
-    def on(self, body: object) -> tuple[Load, ...]:
-        """What each part exerts on a body or point, in balance.
-
-        See `flexact.analysis.part_stresses.Pressing.on`.
-        """
-        return self._pressing.on(body)
 
     def largest(self, k: int = 6) -> list[tuple[int, int, float]]:
         """Element number, deformation and force [N] or moment [N m] of the k largest parts.

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import Basis, FloatArray
-from ..util.groups import least_of_groups
+from ..util.groups import grouped, least_of_groups
 from ..util.matrices import complement, null_space, span
 from .limits import ROUNDING
 
@@ -183,8 +183,7 @@ class _Grouped:
 
 def _starts(counts: NDArray[np.integer]) -> NDArray[np.integer]:
     """Where each of several pieces of these sizes begins."""
-    starts: NDArray[np.integer] = np.cumsum(counts) - counts
-    return starts
+    return np.asarray(np.cumsum(counts) - counts)
 
 
 def _squares_by_terms(matrix: Sparse, basis: Basis) -> FloatArray:
@@ -256,12 +255,8 @@ class Piece(NamedTuple):
     """(rows, d)."""
 
 
-class _Flat(NamedTuple):
-    """The vectors that are zero in some groups: (k, d) coefficients."""
-
-    zero: int
-    """These groups, a bit each."""
-    vectors: FloatArray
+#: The vectors that are zero in some groups: these groups, a bit each, and (k, d) coefficients.
+_Flat = tuple[int, FloatArray]
 
 
 def pieces_of(
@@ -292,6 +287,17 @@ def pieces_of(
     return _independent(found, space, _sum(costs, range(len(groups))))
 
 
+def _newly_spanned(vectors: FloatArray, spanned: FloatArray) -> tuple[list[int], FloatArray]:
+    """Which vectors (k, d) are outside of what orthonormal ones span, and what all of them span."""
+    chosen = []
+    for k, one in enumerate((vectors / np.linalg.norm(vectors, axis=0)).T):
+        off = _off(one[:, None], spanned)
+        if np.linalg.norm(off) > _NEW:
+            spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
+            chosen.append(k)
+    return chosen, spanned
+
+
 def _independent(pieces: list[Piece], space: FloatArray, cost: Cost) -> list[Piece]:
     """The pieces without vectors that depend on those before, and what is missing then.
 
@@ -300,12 +306,8 @@ def _independent(pieces: list[Piece], space: FloatArray, cost: Cost) -> list[Pie
     orthonormal = np.linalg.qr(space)[0]
     spanned, made = np.zeros((space.shape[1], 0)), []
     for piece in pieces:
-        chosen, coefficients = [], orthonormal.T @ piece.vectors
-        for k, one in enumerate(coefficients.T):
-            off = _off(one[:, None] / np.linalg.norm(one), spanned)
-            if np.linalg.norm(off) > _NEW:
-                spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
-                chosen.append(k)
+        coefficients = orthonormal.T @ piece.vectors
+        chosen, spanned = _newly_spanned(coefficients, spanned)
         if chosen:
             # Rounding may have left the space where groups see little of a vector.
             made.append(piece._replace(vectors=orthonormal @ coefficients[:, chosen]))
@@ -354,8 +356,7 @@ def _reduced(block: FloatArray) -> FloatArray:
     if len(block) == 1:
         return block if np.linalg.norm(block) > ROUNDING else block[:0]
     _, values, right = np.linalg.svd(block, full_matrices=False)
-    made: FloatArray = (values[:, None] * right)[values > ROUNDING]
-    return made
+    return np.asarray((values[:, None] * right)[values > ROUNDING])
 
 
 class _Search:
@@ -405,20 +406,14 @@ class _Search:
             return
         blocks = [_reduced(self.blocks[i] @ within) for i in members]
         spanned = np.zeros((d, 0))
-        for support, flat in self._cheapest_first(members, blocks, d):
-            if not np.linalg.norm(_off(flat.vectors, spanned)) > _NEW:
+        for support, new in self._cheapest_first(members, blocks, d):
+            if not np.linalg.norm(_off(new, spanned)) > _NEW:
                 continue
-            new = flat.vectors
             if new.shape[1] > _MOST_REFINED:
                 new = span(_off(new, spanned), _NEW)
             refined = self.refine(within @ new)
-            coefficients = np.linalg.lstsq(self.space @ within, refined, rcond=None)[0]
-            chosen = []
-            for k, one in enumerate((coefficients / np.linalg.norm(coefficients, axis=0)).T):
-                off = _off(one[:, None], spanned)
-                if np.linalg.norm(off) > _NEW:
-                    spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
-                    chosen.append(k)
+            coefficients = np.asarray(np.linalg.lstsq(self.space @ within, refined, rcond=None)[0])
+            chosen, spanned = _newly_spanned(coefficients, spanned)
             if chosen:
                 yield Piece(self._cost(support), support, refined[:, chosen])
             if spanned.shape[1] == d:
@@ -428,16 +423,16 @@ class _Search:
 
     def _cheapest_first(
         self, members: list[int], blocks: list[FloatArray], d: int
-    ) -> list[tuple[tuple[int, ...], _Flat]]:
+    ) -> list[tuple[tuple[int, ...], FloatArray]]:
         if d > MOST_DIMENSIONS:
             return []
-        whole = _Flat(0, np.eye(d))
+        whole = 0, np.eye(d)
         flats = [whole] if d == 1 else _all_flats(blocks, d) or [*_by_descent(blocks, d), whole]
         supports = [
-            tuple(i for k, i in enumerate(members) if not flat.zero >> k & 1) for flat in flats
+            tuple(i for k, i in enumerate(members) if not zero >> k & 1) for zero, _ in flats
         ]
         order = sorted(range(len(flats)), key=lambda n: (self._cost(supports[n]), supports[n]))
-        return [(supports[n], flats[n]) for n in order]
+        return [(supports[n], flats[n][1]) for n in order]
 
     def _cost(self, support: Iterable[int]) -> Cost:
         return _sum(self.costs, support)
@@ -456,8 +451,7 @@ def _norm(block: FloatArray) -> float:
 def _off(vectors: FloatArray, spanned: FloatArray) -> FloatArray:
     """What of some vectors is outside of what orthonormal ones span."""
     off = vectors - spanned @ (spanned.T @ vectors)
-    made: FloatArray = off - spanned @ (spanned.T @ off)
-    return made
+    return off - spanned @ (spanned.T @ off)
 
 
 def _components(blocks: list[FloatArray]) -> list[list[int]]:
@@ -470,10 +464,7 @@ def _components(blocks: list[FloatArray]) -> list[list[int]]:
     square = np.add.reduceat((stacked @ stacked.T) ** 2, start, axis=0)
     joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * ROUNDING
     group = least_of_groups(len(there), *np.nonzero(joined)).tolist()
-    made: dict[int, list[int]] = {}
-    for k, first in zip(there, group, strict=True):
-        made.setdefault(first, []).append(k)
-    return list(made.values())
+    return list(grouped(zip(group, there, strict=True)).values())
 
 
 class _Stack:
@@ -489,16 +480,14 @@ class _Stack:
     def norms(self, vectors: FloatArray) -> FloatArray:
         """Of each block that has rows."""
         squares = np.sum((self._rows @ vectors) ** 2, axis=1)
-        made: FloatArray = np.sqrt(np.add.reduceat(squares, self._start))
-        return made
+        return np.sqrt(np.add.reduceat(squares, self._start))
 
     def smaller(self, vector: FloatArray, row: FloatArray) -> FloatArray:
         """(k,) of least sum of squares over present norms, of those with one product with a row."""
         norms = self.norms(vector[:, None])
         weights = np.repeat(1.0 / np.maximum(norms, 1.0e-8 * norms.max()), self._counts)
         matrix = self._rows.T @ (weights[:, None] * self._rows)
-        made: FloatArray = np.linalg.lstsq(matrix, row, rcond=None)[0]
-        return made
+        return np.asarray(np.linalg.lstsq(matrix, row, rcond=None)[0])
 
     def zero(self, vectors: FloatArray) -> int:
         """The blocks in which they are zero, a bit each."""
@@ -513,25 +502,25 @@ def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
     this is the first, and later than those before, tells it from its repetitions (Ganter 1984).
     """
     stack = _Stack(blocks)
-    whole = _Flat(stack.zero(np.eye(d)), np.eye(d))
+    whole = stack.zero(np.eye(d)), np.eye(d)
     made, cuts = [whole], 0
     open_flats = [(whole, -1)]
     while open_flats:
-        flat, last = open_flats.pop()
+        (flat, within), last = open_flats.pop()
         for i in range(last + 1, len(blocks)):
-            if flat.zero >> i & 1:
+            if flat >> i & 1:
                 continue
             cuts += 1
             if cuts > _MOST_CUTS:
                 return None
-            left = null_space(blocks[i] @ flat.vectors, ROUNDING)
+            left = null_space(blocks[i] @ within, ROUNDING)
             if not left.shape[1]:
                 continue
-            vectors = flat.vectors @ left
+            vectors = within @ left
             zero = stack.zero(vectors)
-            new = zero & ~flat.zero
+            new = zero & ~flat
             if new & -new == 1 << i:
-                made.append(_Flat(zero, vectors))
+                made.append((zero, vectors))
                 open_flats.append((made[-1], i))
     return made
 
@@ -560,4 +549,4 @@ def _by_descent(blocks: list[FloatArray], d: int) -> Iterator[_Flat]:
                 left = vectors @ null_space(blocks[k] @ vectors, ROUNDING)
                 if left.shape[1] and np.linalg.norm(blocks[i] @ left) > _NEW:
                     vectors = left
-            yield _Flat(stack.zero(vectors), vectors)
+            yield stack.zero(vectors), vectors

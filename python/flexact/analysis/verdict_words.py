@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core.elements import NodeKind
-from ..deck.diagnostics import Diagnostic, Severity
+from ..deck.diagnostics import Diagnostic, warning
 from ..util.text import MOST_TYPED, significant_digits
 from .certainty import Doubt, DoubtKind
 from .decomposition import Accuracy
@@ -38,7 +38,7 @@ _ANY_MISALIGNMENT = (
 def margin_line(result: Result) -> Line:
     """What would change the verdict, and by how much; then the accuracy, where it was given."""
     margin, accuracy = result.margin, result.accuracy
-    length, angle = _small(result)
+    length, angle = _small(margin, result.characteristic_length, accuracy)
     told: Pieces = ()
     if margin.exact_alignment:
         told = (_ANY_MISALIGNMENT,)
@@ -59,31 +59,14 @@ def margin_line(result: Result) -> Line:
 
 def margin_in_short(result: Result) -> str:
     """The margin in a few words."""
-    if result.margin.exact_alignment:
+    return margin_of_sizes(result.margin, result.characteristic_length, result.accuracy)
+
+
+def margin_of_sizes(margin: Margin, characteristic: float, accuracy: Accuracy | None) -> str:
+    """The margin in the same words, of its numbers and the characteristic length [m]."""
+    if margin.exact_alignment:
         return f"only {_ALIGNED}"
-    return _of_sizes(*_small(result))
-
-
-def margin_of_sizes(
-    length: float | None, angle: float | None, characteristic: float, *, exact: bool
-) -> str:
-    """The margin in the same words, of its numbers alone.
-
-    Args:
-        length: The smallest move of a node [m], None where none changes the verdict.
-        angle: The smallest turn of an element [rad], likewise.
-        characteristic: The characteristic length [m].
-        exact: Whether it is there in exact alignment only.
-    """
-    if exact:
-        return f"only {_ALIGNED}"
-    is_short = length is not None and length < SMALL_MARGIN * characteristic
-    is_small = angle is not None and angle < SMALL_MARGIN
-    return _of_sizes(length if is_short else None, angle if is_small else None)
-
-
-def _of_sizes(length: float | None, angle: float | None) -> str:
-    sizes = _sizes(length, angle)
+    sizes = _sizes(*_small(margin, characteristic, accuracy))
     return f"margin {' or '.join(sizes)}" if sizes else "no small margin"
 
 
@@ -91,7 +74,7 @@ def margin_cells(result: Result) -> tuple[str, str]:
     """The margin in the cell of a table: in eight letters or so, and with the angle besides."""
     if result.margin.exact_alignment:
         return "aligned", _ALIGNED.removeprefix("in ")
-    sizes = _sizes(*_small(result))
+    sizes = _sizes(*_small(result.margin, result.characteristic_length, result.accuracy))
     return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
 
 
@@ -127,10 +110,12 @@ def word_of(verdict: Verdict, *, is_marginal: bool) -> str:
     return verdict.value
 
 
-def _small(result: Result) -> tuple[float | None, float | None]:
-    """Length and angle of the margin, None where they are large, and so is the accuracy."""
-    margin, accuracy = result.margin, result.accuracy or Accuracy(0.0)
-    length = max(SMALL_MARGIN * result.characteristic_length, accuracy.length)
+def _small(
+    margin: Margin, characteristic: float, given: Accuracy | None
+) -> tuple[float | None, float | None]:
+    """Length and angle of a margin, None where they are large, and so is the accuracy."""
+    accuracy = given or Accuracy(0.0)
+    length = max(SMALL_MARGIN * characteristic, accuracy.length)
     angle = max(SMALL_MARGIN, accuracy.angle or 0.0)
     return (
         margin.length if margin.length is not None and margin.length < length else None,
@@ -285,12 +270,11 @@ def warnings_of(result: Result) -> tuple[Diagnostic, ...]:
     if small is not None and is_close and not result.assessment.doubts:
         part = f"{small / largest:.1e} of the largest"
         made.append(
-            Diagnostic(
-                Severity.WARNING,
+            warning(
                 "close-decision",
                 f"the smallest singular value that counts as non-zero is {part}: a small "
                 "misalignment would change the verdict",
-                help="look at the margin, and at the geometry",
+                "look at the margin, and at the geometry",
             )
         )
     return tuple(made)
@@ -307,8 +291,7 @@ def _digits(result: Result) -> str:
 
 def warning_of(result: Result, doubt: Doubt) -> Diagnostic:
     """A doubt as a warning: its code, a sentence, and what helps."""
-    sentence, advice = _words(result, doubt)
-    return Diagnostic(Severity.WARNING, doubt.code, sentence, help=advice)
+    return warning(doubt.code, *_words(result, doubt))
 
 
 def _counting(values: int) -> str:

@@ -152,17 +152,12 @@ def model_arrays(**given: ArrayLike) -> ModelArrays:
         TypeError: an array is not numeric.
     """
     nodes, elements = np.size(given["node_number"]), np.size(given["element_number"])
-    for name in _LAYOUT:
-        shape = _shape(name, nodes, elements)
+    for name, (leading, last, _) in _LAYOUT.items():
+        size = nodes if last == "nn" else elements
+        shape = (size,) if leading is None else (leading, size)
         if np.shape(given[name]) != shape:
             raise ValueError(f"{name} has shape {np.shape(given[name])}, but must have {shape}")
     return ModelArrays(**{name: _converted(name, given[name]) for name in _LAYOUT})
-
-
-def _shape(name: str, nodes: int, elements: int) -> tuple[int, ...]:
-    leading, last, _ = _LAYOUT[name]
-    size = nodes if last == "nn" else elements
-    return (size,) if leading is None else (leading, size)
 
 
 def _converted(name: str, given: ArrayLike) -> NDArray[Any]:

@@ -8,29 +8,26 @@ from __future__ import annotations
 
 import math
 import sys
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..util.machine import address_space
+from ..util.records import read_only
 from . import _core
 from .arrays import Basis, FloatArray, IntArray, PackedModel, room_for, unpacked
 from .raw import (
     ElementKind,
     Meaning,
     RawAnalysis,
-    RawAppearance,
     RawAssembly,
     RawCount,
     RawDeck,
     RawDiagnostics,
     RawEchelon,
     RawFrames,
-    RawLoads,
-    RawProperties,
-    RawSensitivities,
-    RawTokens,
     RawVariants,
 )
 
@@ -51,11 +48,15 @@ _OF_BYTE, _OF_LINE = 3, 110
 _OF_ELEMENT, _OF_END = (110, 210), (120, 200)
 #: How statements of these begin: EM, ESTIFF, XM, MASS, XF, FORCE, DELXF, GRAVITY, VISUALIZATION.
 _VALUES = [256 * a + b for a, b in (b"EM", b"ES", b"XM", b"MA", b"XF", b"FO", b"DE", b"GR", b"VI")]
+#: What a deck says of elements and nodes, in the order of its arrays.
+_SAID = (
+    *("cross_section", "drawn", "dimensions", "colour", "edge_colour", "opacity"),
+    *("stiffness", "mass", "node_mass", "force", "increment"),
+)
 #: Lines that begin with more blanks count as elements.
 _INDENT = 4
 
-_NO_VECTORS = np.zeros(1, np.int32)
-_NO_VECTORS.setflags(write=False)
+_NO_VECTORS = read_only(np.zeros(1, np.int32))
 
 
 def names_of(enumeration: str) -> dict[str, int]:
@@ -97,8 +98,9 @@ _MOST_PAIRS = 6
 _PROOFS = dict(zip((None, True, False), names_of("proofs").values(), strict=True))
 
 
-def element_rows() -> list[ElementKind]:
-    """The core's element table."""
+@cache
+def element_kinds() -> tuple[ElementKind, ...]:
+    """All kinds of elements, in the order of their numbers 1, 2, ..."""
     rows: list[ElementKind] = []
     count = 1
     while len(rows) < count:
@@ -113,7 +115,7 @@ def element_rows() -> list[ElementKind]:
                 *(n[6] == 1, n[7], n[8:14], n[14:], says, *map(_meanings, numbered)),
             )
         )
-    return rows
+    return tuple(rows)
 
 
 def _meanings(listed: str) -> tuple[Meaning, ...]:
@@ -169,28 +171,40 @@ def read_deck(text: bytes) -> RawDeck:
         _require_room(reading - of_node * (most.nodes - nodes) + needed.bytes, left)
         made = needed.made()
         found = _core.read_deck(data, *made)
-    element_name, node_name, *look, stiffness, mass, node_mass, force, increment = made[4:]
-    section, drawings, sizes, colour, edges, opacity = (each[..., :elements] for each in look)
+    element_name, node_name, *said = made[4:]
+    # What was read lies in larger arrays.
+    many = (elements,) * 8 + (nodes,) * 3
+    views = [each[..., :count].T for each, count in zip(said, many, strict=True)]
+    views[1] = views[1] == 1
+
+    def of(first: int, last: int) -> dict[str, NDArray[Any]]:
+        return {name: views[k].copy() for k, name in enumerate(_SAID[first:last], first)}
+
     return RawDeck(
         unpacked(PackedModel(*made[:4]), nodes, elements),
         element_name[:, :elements],
         node_name[:, :nodes],
         planar == 1,
-        RawDiagnostics(*found[8:]),
-        RawAppearance(section, drawings, sizes, colour, edges, opacity) if drawn else None,
-        RawProperties(stiffness[:, :elements], mass[:, :elements], node_mass[:, :nodes])
-        if given
-        else None,
-        RawLoads(force[:, :nodes], increment[:, :nodes], found[7]) if loaded else None,
+        found[8:],
+        of(0, 6) if drawn else {},
+        of(6, 9) if given else {},
+        of(9, 11) | {"gravity": found[7].copy()} if loaded else {},
         long == 1,
     )
 
 
-def find_tokens(text: bytes) -> RawTokens:
+def find_tokens(text: bytes) -> tuple[IntArray, IntArray]:
     """The lines of a deck and their words, as they are read; a deck need not be sound for this.
 
     Args:
         text: bytes of the deck, fewer than 2**31.
+
+    Returns:
+        (7, lines) first byte, the byte behind the last, where the comment starts (behind the line
+        without one), words up to its end, block, kind of the element that it makes or 0, row of
+        the keyword table from 1, 0 without one and -1 where it ends a block; and (5, words) first
+        byte, the byte behind the last, letter, kind that the node of an element must be (-1:
+        warping), whole number from 1 that it is, or 0. Places are bytes from 0.
     """
     data = np.frombuffer(text, np.int8)
     blank = (data >= 0) & (data <= ord(" "))
@@ -200,7 +214,7 @@ def find_tokens(text: bytes) -> RawTokens:
     words = np.empty((5, most), np.int32, order="F")
     _core.find_tokens(data, lines, words)
     used = int(lines[3, -1])
-    return RawTokens(lines, words[:, :used] if 2 * used > most else words[:, :used].copy("F"))
+    return lines, words[:, :used] if 2 * used > most else words[:, :used].copy("F")
 
 
 class _Room(NamedTuple):
@@ -267,8 +281,8 @@ def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnosti
     if name.size and not 0 <= name.min() <= name.max() <= len(text):
         raise ValueError("a name stands outside the text")
     require_room_for(model)
-    return RawDiagnostics(
-        *_core.check_model(np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32))
+    return _core.check_model(
+        np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32)
     )
 
 
@@ -351,7 +365,8 @@ def analyse_model(
     scale, scaled_value = np.empty(size), np.empty(size)
     pair_vector = np.empty((size, _MOST_PAIRS), order="F")
     # Where the address space is limited, what is set aside counts as used.
-    room = max(1, min((m + n) ** 2, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
+    most = min((m + n) ** 2, _MOST_ENTRIES, _PART_OF_VECTORS * memory / 12.0)
+    room = max(1, int(most))
     place, value = np.empty(room, np.int32), np.empty(room)
     require_room_for(model)
     facts, pair_value = _core.analyse_model(
@@ -448,24 +463,22 @@ def find_echelon(
     )
 
 
-def _part(memory: float, part: float) -> int:
-    return int(min(part * memory, 2.0**62))
-
-
 def _basis_of(size: int, start: IntArray, place: IntArray, value: FloatArray, before: int) -> Basis:
     """Some of the vectors that stand in a row, whose places lie behind `before` others."""
     first, last = int(start[0]), int(start[-1])
     if first == last:
         return Basis(size, _NO_VECTORS, place[:0], value[:0])
-    made = Basis(size, start - first, place[first:last] - before, value[first:last])
-    for array in made[1:]:
-        array.setflags(write=False)
-    return made
+    return Basis(
+        size,
+        read_only(start - first),
+        read_only(place[first:last] - before),
+        read_only(value[first:last]),
+    )
 
 
 def find_sensitivities(
     model: PackedModel, stresses: FloatArray, motions: FloatArray, pairs: IntArray
-) -> RawSensitivities:
+) -> tuple[FloatArray, IntArray]:
     """What small changes of the geometry make of singular values of D(c), to first order.
 
     Args:
@@ -473,6 +486,12 @@ def find_sensitivities(
         stresses: (m, a) left vectors, in the sense of D(c) without its scales.
         motions: (n, b) right vectors, likewise.
         pairs: (2, p) the columns of both that belong together, from 0.
+
+    Returns:
+        (5, p) what rounding in the last bits can make of the value of each pair, half a unit of
+        the last digits typed, and storing it or printing it with ten digits or a few more; its
+        largest change by the move of one node [1/m] and by the turn of one element [1/rad]. And
+        (2, p) indices of that node and that element, -1 without one.
 
     Raises:
         ValueError: a shape is not that of the model, or a pair names no column.
@@ -488,40 +507,33 @@ def find_sensitivities(
     beyond = (pairs < 0).any() or (pairs >= np.array(many)[:, None]).any()
     if used != rows + columns or beyond:
         raise ValueError("the vectors are not of the model's size, or a pair names none of them")
-    return RawSensitivities(*effect, *(place - 1))
-
-
-class VariantWishes(NamedTuple):
-    """What is asked of variants."""
-
-    near: float
-    """Values up to this multiple of the noise are looked at closely."""
-    cut_off: float
-    """Values up to this multiple of what half a unit of the last digits makes are in doubt."""
-    most_reach: float
-    """No more than that can missing digits make."""
-    with_values: bool
-    """Whether values and what changes them are wanted beside the rank."""
-    memory: float = math.inf
-    """Bytes that may be used."""
-    prove: bool | None = None
-    as_stored: bool = False
-    """Whether numbers are no decimals as typed, whatever they look like."""
-    zeros: tuple[int, int, float, float] = (0, 0, 0.0, 0.0)
-    """How many zeros are looked at, each against how many vectors of the other side, how many
-    pairs times nodes and elements there may be, and what change of a zero is none."""
+    return effect, place - 1
 
 
 def analyse_variants(
-    model: PackedModel, wishes: VariantWishes, positions: FloatArray, classes: IntArray
+    model: PackedModel,
+    positions: FloatArray,
+    classes: IntArray,
+    limits: tuple[float, float, float],
+    with_values: bool,
+    memory: float,
+    as_stored: bool,
+    zeros: tuple[int, int, float, float],
 ) -> RawVariants:
     """Analyse some variants of a model, the interpreter lock dropped.
 
     Args:
         model: the model.
-        wishes: what is asked.
         positions: (variants, nodes, 3), or (1, nodes, 3) for all.
         classes: (variants, elements, 6), or (1, elements, 6) for all.
+        limits: values up to this multiple of the noise are looked at closely; those up to this
+            multiple of what half a unit of the last digits makes are in doubt; and no more than
+            that can missing digits make.
+        with_values: whether values and what changes them are wanted beside the rank.
+        memory: bytes that may be used.
+        as_stored: whether numbers are no decimals as typed, whatever they look like.
+        zeros: how many are looked at, each against how many vectors of the other side, how many
+            pairs times nodes and elements there may be, and what change of a zero is none.
 
     Raises:
         ValueError: a shape does not fit.
@@ -536,12 +548,13 @@ def analyse_variants(
     facts, *pairs = _core.analyse_variants(
         many,
         *model,
-        *wishes[:4],
-        min(wishes.memory, sys.float_info.max),
-        _PROOFS[wishes.prove],
-        wishes.as_stored,
-        np.array(wishes.zeros[:2], np.int32),
-        np.array(wishes.zeros[2:]),
+        *limits,
+        with_values,
+        min(memory, sys.float_info.max),
+        _PROOFS[None],
+        as_stored,
+        np.array(zeros[:2], np.int32),
+        np.array(zeros[2:]),
         np.ascontiguousarray(positions, float).T,
         np.ascontiguousarray(classes, np.int32).T,
     )

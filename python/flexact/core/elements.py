@@ -9,6 +9,7 @@ from functools import cache
 
 import numpy as np
 
+from ..util.records import read_only
 from . import calls
 from .arrays import IntArray
 from .raw import ElementKind
@@ -102,10 +103,8 @@ def coordinate_name(kind: int, axis: int) -> str:
     return POSITION_NAMES[axis] if is_position(kind) else ROTATION_NAMES[axis]
 
 
-@cache
-def element_kinds() -> tuple[ElementKind, ...]:
-    """All kinds, in the order of their numbers 1, 2, ..."""
-    return tuple(calls.element_rows())
+#: All kinds, in the order of their numbers 1, 2, ...
+element_kinds = calls.element_kinds
 
 
 @cache
@@ -152,6 +151,4 @@ def length_table() -> IntArray:
 
 
 def _table(rows: Sequence[int | tuple[int, ...]]) -> IntArray:
-    table = np.array(rows, np.int32)
-    table.flags.writeable = False
-    return table
+    return read_only(np.array(rows, np.int32))

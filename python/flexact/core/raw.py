@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from numpy.typing import NDArray
 
 from .arrays import Basis, BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
 
@@ -51,54 +53,10 @@ class ElementKind(NamedTuple):
         return sum(role != 0 for role in self.role)
 
 
-class RawDiagnostics(NamedTuple):
-    """Problems as the core reports them; at most 100 are kept."""
-
-    counts: IntArray
-    """(4,) errors, warnings, notes, kept."""
-    number: IntArray
-    """(8, 100) severity, line, columns, other line, columns; byte columns."""
-    text: ByteArray
-    """(240, 4, 100) code, message, label, help, blank padded."""
-
-
-class RawAppearance(NamedTuple):
-    """How elements are drawn, as a deck says."""
-
-    cross_section: IntArray
-    """(ne,) a `CrossSection`."""
-    drawn: IntArray
-    """(ne,) 1 where drawn."""
-    dimensions: FloatArray
-    """(2, ne) along local y and z [m]; NaN not given, also below."""
-    colour: FloatArray
-    """(3, ne)."""
-    edge_colour: FloatArray
-    """(3, ne)."""
-    opacity: FloatArray
-    """(ne,)."""
-
-
-class RawProperties(NamedTuple):
-    """Stiffness and mass, as a deck gives them; NaN not given."""
-
-    stiffness: FloatArray
-    """(6, ne) of ESTIFF."""
-    mass: FloatArray
-    """(5, ne) of EM."""
-    node_mass: FloatArray
-    """(6, nn) of XM."""
-
-
-class RawLoads(NamedTuple):
-    """Loads, as a deck gives them; zero where it gives none."""
-
-    force: FloatArray
-    """(3, nn) of XF."""
-    increment: FloatArray
-    """(3, nn) of DELXF."""
-    gravity: FloatArray
-    """(3,) of GRAVITY."""
+#: Problems as the core reports them, of which at most 100 are kept: (4,) how many errors, warnings,
+#: notes and kept ones; (8, 100) severity, line, columns, other line and columns, in bytes; and
+#: (240, 4, 100) code, message, label and help, blank padded.
+RawDiagnostics = tuple[IntArray, IntArray, ByteArray]
 
 
 class RawDeck(NamedTuple):
@@ -111,26 +69,14 @@ class RawDeck(NamedTuple):
     """(2, nn) likewise of each node's, the comment of its X statement."""
     planar: bool
     problems: RawDiagnostics
-    appearance: RawAppearance | None
-    """None where the deck has nothing of it."""
-    properties: RawProperties | None
-    """None likewise."""
-    loads: RawLoads | None
-    """None likewise."""
+    appearance: dict[str, NDArray[Any]]
+    """The fields of an `Appearance`; none where the deck has nothing of it."""
+    properties: dict[str, FloatArray]
+    """Those of `Properties`, likewise."""
+    loads: dict[str, FloatArray]
+    """Those of `Loads`, likewise."""
     has_long_numbers: bool
     """Whether its geometry was typed with more digits than its numbers hold."""
-
-
-class RawTokens(NamedTuple):
-    """The lines of a deck and their words; places are bytes from 0."""
-
-    lines: IntArray
-    """(7, lines) first byte, the byte behind the last, where the comment starts (behind the line
-    without one), words up to its end, block, kind of the element that it makes or 0, row of the
-    keyword table from 1, 0 without one and -1 where it ends a block."""
-    words: IntArray
-    """(5, words) first byte, the byte behind the last, letter, kind that the node of an element
-    must be (-1: warping), whole number from 1 that it is, or 0."""
 
 
 class RawCount(NamedTuple):
@@ -283,22 +229,3 @@ class RawEchelon(NamedTuple):
     """The column of the first entry, a one, of each row that is not zero."""
     entries: dict[tuple[int, int], int]
     """Residues of the other entries that are not zero, by column and pivot of their row."""
-
-
-class RawSensitivities(NamedTuple):
-    """What small changes of the geometry make of the singular values of p pairs of vectors."""
-
-    lift_of_bits: FloatArray
-    """(p,) what rounding in the last bits can make of each."""
-    lift_of_digits: FloatArray
-    """(p,) what half a unit of the last digits typed can make of it."""
-    lift_of_storing: FloatArray
-    """(p,) what storing it, or printing it with ten digits or a few more, can make of it."""
-    by_move: FloatArray
-    """(p,) its largest change by the move of one node [1/m]."""
-    by_turn: FloatArray
-    """(p,) its largest change by the turn of one element [1/rad]."""
-    node: IntArray
-    """(p,) index of that node, -1 without one."""
-    element: IntArray
-    """(p,) index of that element, -1 without one."""

@@ -14,10 +14,9 @@ from ..advice.releases.releases import releases_of
 from ..advice.step import tried
 from ..analysis.change import Change
 from ..analysis.decomposition import asked_for
-from ..analysis.deformation_words import deformation_word
 from ..analysis.locate import deformations_of
 from ..analysis.naming import deformation_in_words, plain
-from ..analysis.places import part_words
+from ..analysis.places import deformation_word, part_words
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.arrays import ByteArray, IntArray
 from ..core.raw import RawDiagnostics
 from ..util.records import Word, cached_property
 
@@ -124,6 +125,11 @@ class Diagnostic:
         }
 
 
+def warning(code: str, message: str, hint: str = "") -> Diagnostic:
+    """A warning without a place."""
+    return Diagnostic(Severity.WARNING, code, message, help=hint)
+
+
 @dataclass(frozen=True)
 class Problems:
     """Diagnostics that were kept, and how many there were of each severity.
@@ -171,18 +177,17 @@ NO_PROBLEMS = Problems()
 
 def problems_of(raw: RawDiagnostics, source: Source | None = None) -> Problems:
     """The core's diagnostics as values; byte columns become characters of `source`."""
-    errors, warnings, notes, kept = raw.counts.tolist()
+    counts, numbers, texts = raw
+    errors, warnings, notes, kept = counts.tolist()
     if not kept:
         return NO_PROBLEMS
-    items = tuple(_diagnostic(raw, index, source) for index in range(kept))
-    return Problems(items, errors, warnings, notes)
+    items = (_diagnostic(numbers[:, i], texts[..., i], source) for i in range(kept))
+    return Problems(tuple(items), errors, warnings, notes)
 
 
-def _diagnostic(raw: RawDiagnostics, index: int, source: Source | None) -> Diagnostic:
-    severity, *places = raw.number[:, index].tolist()
-    code, message, label, hint = (
-        decode(raw.text[:, part, index].tobytes().rstrip(b" \0")) for part in range(4)
-    )
+def _diagnostic(number: IntArray, text: ByteArray, source: Source | None) -> Diagnostic:
+    severity, *places = number.tolist()
+    code, message, label, hint = (decode(each.tobytes().rstrip(b" \0")) for each in text.T)
     place = _place(source, *places[:3])
     return Diagnostic(
         _SEVERITIES[severity - 1],

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from ..core.calls import names_of
 from ..core.elements import Member, NodeKind, Vector, element_kinds
 from ..core.raw import ElementKind, Meaning
+from ..util.groups import grouped
 
 
 class Block(IntEnum):
@@ -28,16 +29,7 @@ class Block(IntEnum):
     @property
     def words(self) -> str:
         """What the block is called."""
-        return _BLOCKS[self]
-
-
-_BLOCKS = {
-    Block.KINEMATICS: "kinematics",
-    Block.DYNAMICS: "dynamics",
-    Block.CLOSED: "closed",
-    Block.IN_OUT: "in/out",
-    Block.PICTURE: "picture",
-}
+        return "in/out" if self is Block.IN_OUT else self.name.lower()
 
 
 class Keyword(NamedTuple):
@@ -320,11 +312,12 @@ def properties_in_words(keyword: str) -> str:
             f"of a position its {listed(mass)}; of an orientation {listed(inertia)}, of a planar "
             f"one {listed(planar)}"
         )
-    owners: dict[tuple[Meaning, ...], list[str]] = {}
-    for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE):
-        for kind in element_kinds():
-            if kind.member == member and (numbers := of_element(keyword, kind)):
-                owners.setdefault(numbers, []).append(f"`{kind.keyword}`")
+    owners = grouped(
+        (numbers, f"`{kind.keyword}`")
+        for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE)
+        for kind in element_kinds()
+        if kind.member == member and (numbers := of_element(keyword, kind))
+    )
     return "; ".join(
         f"of a {' or '.join((', '.join(names[:-1]), names[-1]) if names[1:] else names)} "
         f"{listed(numbers)}"

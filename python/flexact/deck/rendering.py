@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ..util.errors import FlexactError
 from ..util.text import columns, harmless
 from .diagnostics import Diagnostic, Place, Problems, Severity, Source, decode
@@ -27,32 +25,22 @@ def render_problems(
     stands in the order of the text. Source lines with their carets are not wider than `width`,
     where there is one; words are not broken here.
     """
-    shown = _choose(problems.kept)
+    # Errors before others, in their order.
+    ranked = sorted(range(len(problems.kept)), key=lambda i: not problems.kept[i].is_error)
+    shown = [problems.kept[i] for i in sorted(ranked[:MOST_SHOWN])]
     blocks = [render(item, name, source, width) for item in shown]
     if problems.total > len(shown):
         more = problems.total - len(shown)
         blocks.append(f"... and {more} more problem{'s' if more > 1 else ''}")
-    blocks.append(_closing(problems, name))
-    return "\n\n".join(blocks)
-
-
-def _choose(kept: Sequence[Diagnostic]) -> list[Diagnostic]:
-    ranked = sorted(range(len(kept)), key=lambda i: not kept[i].is_error)
-    return [kept[i] for i in sorted(ranked[:MOST_SHOWN])]
-
-
-def _closing(problems: Problems, name: str) -> str:
-    words = [
-        f"{count} {word}{'s' if count != 1 else ''}"
-        for count, word in (
-            (problems.errors, "error"),
-            (problems.warnings, "warning"),
-            (problems.notes, "note"),
-        )
-        if count
-    ]
+    counts = (
+        (problems.errors, "error"),
+        (problems.warnings, "warning"),
+        (problems.notes, "note"),
+    )
+    words = [f"{count} {word}{'s' if count != 1 else ''}" for count, word in counts if count]
     where = f"{harmless(name)}: " if name else ""
-    return where + (", ".join(words) or "no problems")
+    blocks.append(where + (", ".join(words) or "no problems"))
+    return "\n\n".join(blocks)
 
 
 def render(

@@ -28,7 +28,7 @@ from ..core.elements import (
 )
 from ..model.attributes import CrossSection
 from ..model.data import ModelData
-from ..model.prescribed import class_statements, prescribed_in
+from ..model.writing import class_statements, prescribed_in
 from ..util.records import Frozen
 from .errors import ElasticError
 from .solution import Policy, Solution, notch_in_units, packed_with

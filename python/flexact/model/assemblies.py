@@ -5,39 +5,40 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
 from ..util.text import in_short
-from .arguments import Direction, call, count, numbers_of_size, several, text, vector
-from .draft import Draft
-from .elements import add_rigid
-from .flexures import SheetSizes, WireSizes, add_sheet, add_wire, span, width_across
-from .handles import Assembly, Body, Element, Named, Node, Part
-from .names import part_name
-from .sections import Make, Section, shape_of
-from .selection import (
+from .arguments import (
+    Direction,
     Point,
     at_place,
+    call,
     checked_name,
+    count,
     listed,
     named_part,
+    numbers_of_size,
     place,
     point,
     require_own,
+    several,
+    text,
+    vector,
 )
+from .draft import Draft
+from .handles import Assembly, Body, Element, Named, Node, Part
+from .members import Sizes, add_rigid, add_sheet, add_wire, span, width_across
+from .names import part_name
+from .sections import Make, Section, shape_of
 from .transform import on_circle
 
 #: Of one guide.
 _MOST_SHEETS = 1000
 
 
-class Mass(NamedTuple):
-    """Mass and moments of inertia of a body, as users give them; see `Model.body`."""
-
-    mass: Quantity | None
-    inertia: Quantity | Sequence[Quantity] | None
+#: Mass and moments of inertia of a body, as users give them; see `Model.body`.
+Mass = tuple[Quantity | None, Quantity | Sequence[Quantity] | None]
 
 
 def add_body(
@@ -135,18 +136,19 @@ def _from_first(draft: Draft, indices: list[int], first: Node) -> list[int]:
 
 def _masses(given: Mass, planar: bool) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Mass, and Jxx, Jxy, Jxz, Jyy, Jyz, Jzz or one J in the plane; empty where not given."""
+    own_mass, inertia = given
     mass: tuple[float, ...] = ()
-    if given.mass is not None:
-        mass = numbers_of_size(given.mass, (1,), "a mass is one number", "kg")
+    if own_mass is not None:
+        mass = numbers_of_size(own_mass, (1,), "a mass is one number", "kg")
         if mass[0] < 0.0:
             raise model_error("bad-size", "a mass is not negative", "give it in kg")
-    if given.inertia is None:
+    if inertia is None:
         return mass, ()
     if planar:
         what = "the moment of inertia in a plane is one number"
-        return mass, numbers_of_size(given.inertia, (1,), what, "kg m2")
+        return mass, numbers_of_size(inertia, (1,), what, "kg m2")
     what = "moments of inertia are Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy, Jyz, Jzz"
-    values = numbers_of_size(given.inertia, (3, 6), what, "kg m2")
+    values = numbers_of_size(inertia, (3, 6), what, "kg m2")
     if len(values) == 3:
         values = values[0], 0.0, 0.0, values[1], 0.0, values[2]
     return mass, values
@@ -160,7 +162,7 @@ def add_cross_hinge(
     carries: Iterable[Point],
     mass: Mass,
     beams: int,
-    sizes: SheetSizes,
+    sizes: Sizes,
 ) -> Assembly:
     """Sheets from points of the ground to points of a body, which cross."""
     with call("cross_hinge", name):
@@ -190,7 +192,7 @@ def add_parallel_guide(
     carries: Iterable[Point],
     mass: Mass,
     beams: int,
-    sizes: SheetSizes,
+    sizes: Sizes,
 ) -> Assembly:
     """Equal sheets side by side, and the stage that they carry."""
     with call("parallel_guide", name):
@@ -221,7 +223,7 @@ def _sheets_and_body(
     body_word: str,
     carries: Iterable[Point],
     beams: int,
-    sizes: SheetSizes,
+    sizes: Sizes,
     mass: Mass,
 ) -> Assembly:
     """Sheets between two rows of points, and the body that carries the far ones."""
@@ -245,7 +247,7 @@ def add_hexapod(
     carries: Iterable[Point],
     mass: Mass,
     beams: int,
-    sizes: WireSizes,
+    sizes: Sizes,
 ) -> Assembly:
     """Six wires between points, or between two circles, and the platform that they hold."""
     with call("hexapod", name):

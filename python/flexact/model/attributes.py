@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from ..core.arrays import BoolArray, FloatArray, IntArray, ModelArrays
 from ..core.elements import coordinate_name
-from ..core.raw import RawAppearance, RawLoads, RawProperties
 from ..util.records import Frozen
 
 
@@ -61,13 +60,6 @@ class Appearance(Frozen):
             np.broadcast_to(np.True_, (elements,)),
         )
 
-    @classmethod
-    def of(cls, raw: RawAppearance) -> Appearance:
-        """What a deck says; copies, since what was read lies in larger arrays."""
-        sizes, colour, edge_colour = (each.T.copy() for each in raw[2:5])
-        section, opacity = raw.cross_section.copy(), raw.opacity.copy()
-        return cls(section, sizes, colour, edge_colour, opacity, raw.drawn == 1)
-
 
 @dataclass(frozen=True, eq=False)
 class Loads(Frozen):
@@ -103,13 +95,6 @@ class Loads(Frozen):
                 raise ValueError(f"{name} has shape {array.shape}, but must have {shape}")
             if not np.isfinite(array).all():
                 raise ValueError(f"{name} has a number that is not finite")
-
-    @classmethod
-    def of(cls, raw: RawLoads) -> Loads | None:
-        """What a deck says; None where all of it is zero."""
-        if not any(part.any() for part in raw):
-            return None
-        return cls(raw.force.T.copy(), raw.increment.T.copy(), raw.gravity.copy())
 
 
 #: How many numbers an element or a node has at most of each.
@@ -150,14 +135,6 @@ class Properties(Frozen):
             missing = np.isnan(array)
             if np.isinf(array).any() or (missing[:, :-1] & ~missing[:, 1:]).any():
                 raise ValueError(f"{name} has a number behind one that is not given, or infinity")
-
-    @classmethod
-    def of(cls, raw: RawProperties) -> Properties | None:
-        """What a deck says; None where no number of it is used."""
-        if all(np.isnan(part).all() for part in raw):
-            return None
-        # What was read lies in a larger array.
-        return cls(*(part.T.copy() for part in raw))
 
 
 def rows_of(table: FloatArray) -> Iterator[tuple[int, tuple[float, ...]]]:

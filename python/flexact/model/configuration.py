@@ -32,7 +32,10 @@ class Configuration(Frozen):
 
     def __post_init__(self) -> None:
         """Take read-only copies and check their shape."""
-        kinds, value = _kinds(self.kinds), floats(self.value, "value").copy()
+        given, value = floats(self.kinds, "kinds"), floats(self.value, "value").copy()
+        if not np.all((given >= _FIRST) & (given <= _LAST) & (given % 1 == 0)):
+            raise ValueError("kinds has a number that is no kind of node")
+        kinds = given.astype(np.int32)
         if value.shape != (kinds.size, 4):
             raise ValueError(f"value has shape {value.shape}, not {(kinds.size, 4)}")
         object.__setattr__(self, "kinds", kinds)
@@ -62,10 +65,3 @@ class Configuration(Frozen):
         turned = self.kinds == NodeKind.ORIENTATION
         value[turned] = rotations.turned(value[turned], move[turned])
         return Configuration(self.kinds, value)
-
-
-def _kinds(given: ArrayLike) -> IntArray:
-    kinds = floats(given, "kinds")
-    if not np.all((kinds >= _FIRST) & (kinds <= _LAST) & (kinds % 1 == 0)):
-        raise ValueError("kinds has a number that is no kind of node")
-    return kinds.astype(np.int32)

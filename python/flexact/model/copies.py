@@ -12,33 +12,31 @@ from itertools import zip_longest
 from ..core.elements import AXES, Class, NodeKind, Role, element_kinds, is_position
 from ..core.elements import Vector as StatedVector
 from ..deck.rendering import ModelError, model_error
+from ..util.groups import grouped
 from ..util.quantities import Quantity
 from ..util.text import in_short
 from .arguments import (
     Direction,
+    PartLike,
+    Point,
     angle,
     count,
     cross,
     direction,
-    numbers_of_size,
-    several,
-    text,
-    unit,
-)
-from .draft import NO_VECTOR, Draft, Slots, Vector
-from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
-from .names import part_name
-from .places import ROUNDING, Places
-from .selection import (
-    PartLike,
-    Point,
     drawn_elements,
     existing,
+    numbers_of_size,
     of_indices,
     pivot,
     place,
+    several,
+    text,
+    unit,
     whole_point,
 )
+from .draft import NO_VECTOR, ROUNDING, Draft, Places, Slots, Vector
+from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
+from .names import part_name
 from .transform import IDENTITY, Transform, reflection, rotation
 
 #: How names of copies are made: "upper {}" or "{} {}", with the number of the copy as the second;
@@ -182,7 +180,10 @@ def _copies(
     join: bool | Quantity,
 ) -> list[Copy]:
     """A copy after each of some moves, with names; where one cannot be made, none is."""
-    naming = _Naming(source, target, names)
+    _renamer(names, 2)
+    # Each name stands once in the model.
+    every = (*target.names.values(), *target.node_names.values())
+    taken = {_split(name)[0] for name in every}
     # Within which points are joined [m]; None where none are.
     tolerance: float | None = None
     if join is True:
@@ -194,7 +195,7 @@ def _copies(
     with _all_or_nothing(target):
         for k, move in enumerate(moves, 2):
             made.append(copying.run(move))
-            naming.name(made[-1], k)
+            _name(source, target, made[-1], k, names, taken)
     return made
 
 
@@ -213,9 +214,9 @@ def _all_or_nothing(draft: Draft) -> Iterator[None]:
 def _assembly(source: Draft, target: Draft, made: Copy) -> Assembly:
     """The handle of a copy, by the names of the originals."""
     nodes, elements = made
-    groups: dict[str, list[int]] = {}
-    for index, new in elements.items():
-        groups.setdefault(part_name(source.names.get(index, "")), []).append(new)
+    groups = grouped(
+        (part_name(source.names.get(index, "")), new) for index, new in elements.items()
+    )
     parts: dict[str, Part | FoldedSheet | Element] = {
         name: of_indices(target, indices) for name, indices in groups.items() if name
     }
@@ -286,49 +287,36 @@ def _renamer(names: Names | None, number: int) -> Callable[[str], str]:
     return lambda name: text(made(name), "the name of a copy")
 
 
-class _Naming:
-    """Names of copies, of which each stands once in the model."""
+def _name(
+    source: Draft, target: Draft, made: Copy, number: int, names: Names | None, taken: set[str]
+) -> None:
+    """Name what was copied; where a name is taken, " (2)" and so on is added to it."""
+    rename = _renamer(names, number)
+    heads: dict[str, str] = {}
 
-    def __init__(self, source: Draft, target: Draft, names: Names | None) -> None:
-        """Note the names that are taken.
+    def new_name(name: str) -> str:
+        head, tail = _split(name)
+        if head not in heads:
+            form = free = rename(head)
+            k = max(number, 2)
+            while free in taken:
+                free = f"{form} ({k})"
+                k += 1
+            heads[head] = free
+            taken.add(free)
+        return heads[head] + tail
 
-        Raises:
-            ModelError: `names` makes no names.
-        """
-        _renamer(names, 2)
-        self._source, self._target, self._names = source, target, names
-        every = (*target.names.values(), *target.node_names.values())
-        self._taken = {_split(name)[0] for name in every}
-
-    def name(self, made: Copy, number: int) -> None:
-        """Name what was copied; where a name is taken, " (2)" and so on is added to it."""
-        source, target = self._source, self._target
-        rename = _renamer(self._names, number)
-        heads: dict[str, str] = {}
-
-        def new_name(name: str) -> str:
-            head, tail = _split(name)
-            if head not in heads:
-                form = free = rename(head)
-                k = max(number, 2)
-                while free in self._taken:
-                    free = f"{form} ({k})"
-                    k += 1
-                heads[head] = free
-                self._taken.add(free)
-            return heads[head] + tail
-
-        nodes, elements = made
-        for index, new in elements.items():
-            name = source.names.get(index)
-            if name and _is_of_one_body(source, target, index, new):
-                _go_on_with(target, new, part_name(name))
-            elif name and (source is not target or new != index):
-                target.name_element(new, new_name(name))
-        for old, new in nodes.items():
-            name = source.node_names.get(old)
-            if name and new not in target.node_names:
-                target.name_node(new, new_name(name))
+    nodes, elements = made
+    for index, new in elements.items():
+        name = source.names.get(index)
+        if name and _is_of_one_body(source, target, index, new):
+            _go_on_with(target, new, part_name(name))
+        elif name and (source is not target or new != index):
+            target.name_element(new, new_name(name))
+    for old, new in nodes.items():
+        name = source.node_names.get(old)
+        if name and new not in target.node_names:
+            target.name_node(new, new_name(name))
 
 
 def _is_of_one_body(source: Draft, target: Draft, index: int, new: int) -> bool:
@@ -609,9 +597,6 @@ def _check_classes(
 
 def _axes_of(source: Draft, number: int) -> dict[Class, set[int]]:
     """Axes of a node by the classes that they were given."""
-    found: dict[Class, set[int]] = {}
-    for axis in AXES[source.node_kind[number]]:
-        value = source.coordinate_class.get((number, axis))
-        if value is not None:
-            found.setdefault(Class(value), set()).add(axis)
-    return found
+    axes = AXES[source.node_kind[number]]
+    given = grouped((source.coordinate_class.get((number, axis)), axis) for axis in axes)
+    return {Class(value): set(found) for value, found in given.items() if value is not None}

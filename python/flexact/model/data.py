@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import overload
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..core import calls
 from ..core.arrays import BoolArray, FloatArray, IntArray, ModelArrays, PackedModel, packed
 from ..core.elements import Member, NodeKind, member_table
 from ..core.raw import RawCount, RawFrames
-from ..deck.diagnostics import Diagnostic, Problems, Severity, Source, decode, problems_of
+from ..deck.diagnostics import Diagnostic, Problems, Severity, Source, decode, problems_of, warning
 from ..deck.rendering import DeckError, ModelError
 from ..util.records import Frozen, cached_property
 from .attributes import Appearance, CrossSection, Loads, Properties
@@ -59,7 +59,7 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     found = (length > 0.0) & (thickness > length)
     if found.any():
         size = float(thickness[found][0])
-        yield _warning(
+        yield warning(
             *("thick-section", f"{_named(data, found)} {_is(found)} thicker than long"),
             f"its section is {size:.4g} m thick: sections are in metres",
         )
@@ -85,7 +85,7 @@ def _long(data: ModelData, length: FloatArray) -> Iterator[Diagnostic]:
     found = np.isin(form, (Form.SHEET, Form.WIRE)) & (whole > _LONGEST)
     if found.any():
         most = float(whole[found].max())
-        yield _warning(
+        yield warning(
             *("long-sheet", f"{_named(data, found)} {_is(found)} {most:.4g} m long"),
             f"give all positions in metres: {most:.4g} mm are {most / 1e3:.4g} m",
         )
@@ -107,14 +107,10 @@ def _outside(
         one = float(value[found][0])
         meant = next((unit for factor, unit in units if low <= one * factor <= high), "")
         has = "have" if found.sum() > 1 else "has"
-        yield _warning(
+        yield warning(
             *(code, f"{_named(data, found)} {has} {words.format(one)}"),
             f"{one:.4g} is a usual number in {meant}: {plain}" if meant else plain,
         )
-
-
-def _warning(code: str, message: str, hint: str) -> Diagnostic:
-    return Diagnostic(Severity.WARNING, code, message, help=hint)
 
 
 def _is(found: BoolArray) -> str:
@@ -151,12 +147,8 @@ class DeckNames(Sequence[str]):
         """Number of elements or nodes."""
         return int(self._places.shape[1])
 
-    @overload
-    def __getitem__(self, index: int) -> str: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[str, ...]: ...
-    def __getitem__(self, index: int | slice) -> str | tuple[str, ...]:
-        """The name of an element or a node by its index; empty where it has none."""
+    def __getitem__(self, index: Any) -> Any:
+        """The name of an element or a node by its index, empty where it has none; or several."""
         if isinstance(index, slice):
             return tuple(self[i] for i in range(*index.indices(len(self))))
         return self._between(*self._places[:, index].tolist())

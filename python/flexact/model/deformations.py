@@ -9,26 +9,28 @@ from ..core.elements import Class, Role, element_kinds
 from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.text import in_short
-from .arguments import whole
+from .arguments import existing, indices_of, part, whole
 from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Part, Sheet
 from .names import is_coordinate, nearest
-from .selection import existing, indices_of, part
+from .parts.forms import PLANAR, XY, XZ
 
-_XZ = (Role.BENDING_XZ_P, Role.BENDING_XZ_Q)
-_XY = (Role.BENDING_XY_P, Role.BENDING_XY_Q)
-_PLANAR = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
 #: Roles of what happens at p, and at q; what is not among them has no end.
 AT_P = frozenset((Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P))
 AT_Q = frozenset((Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q))
+#: Local axis about or along which a deformation is, by role; x, or none of its own, of others.
+LOCAL_AXIS: dict[int, int] = {
+    **dict.fromkeys((*XZ, Role.OFFSET_Y, Role.TILT_Y), 1),
+    **dict.fromkeys((*XY, Role.OFFSET_Z, Role.TILT_Z), 2),
+}
 #: What each word means, as `_plain` spells it.
 _ROLES: dict[str, tuple[Role, ...]] = {
     "elongation": (Role.ELONGATION,),
     "twist": (Role.TORSION,),
     "torsion": (Role.TORSION,),
-    "bending": (*_XZ, *_XY, *_PLANAR),
-    "bending about y": _XZ,
-    "bending about z": (*_XY, *_PLANAR),
+    "bending": (*XZ, *XY, *PLANAR),
+    "bending about y": XZ,
+    "bending about z": (*XY, *PLANAR),
     "rotation": (Role.ROTATION, Role.ANGLE),
     "tilt": (Role.TILT_Y, Role.TILT_Z),
 }
@@ -38,10 +40,10 @@ WORDS = (*_ROLES, *_IN_PLANES)
 #: Of a flexure, the bendings in its plane and out of it.
 Planes = tuple[tuple[Role, ...], tuple[Role, ...]]
 #: Of a sheet whose width is along local z, as the builder makes it.
-_WIDE_Z: Planes = (_XZ, _XY)
-_WIDE_Y: Planes = (_XY, _XZ)
+_WIDE_Z: Planes = (XZ, XY)
+_WIDE_Y: Planes = (XY, XZ)
 #: Of a sheet in a planar model, which sees it from its side.
-_SIDE_VIEW: Planes = ((), _PLANAR)
+_SIDE_VIEW: Planes = ((), PLANAR)
 
 
 def is_word(given: str) -> bool:

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..core.arrays import FloatArray, IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, is_position, kind_of
-from ..deck.diagnostics import Diagnostic, Problems, Severity
+from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
+from ..util.groups import groups_of
 from ..util.text import in_short
 from .attributes import NUMBERS, Appearance, Loads, Properties, rows_of
 from .data import ModelData
@@ -100,7 +101,15 @@ def data_of(draft: Draft, name: str) -> ModelData:
     elements, in_use = len(draft.kinds), set(numbers)
     in_vain = {number for number, _ in draft.named if number not in in_use}
     in_vain.update(both[0] for both in draft.whole if in_use.isdisjoint(both))
-    wrong = [_unused(draft.node_words(number)) for number in sorted(in_vain)]
+    wrong = [
+        Diagnostic(
+            Severity.ERROR,
+            "no-such-node",
+            f"{draft.node_words(number)} is given a class, but no element uses it",
+            help="name the node in an element, or leave its class out",
+        )
+        for number in sorted(in_vain)
+    ]
     return ModelData(
         arrays,
         draft.planar,
@@ -216,14 +225,14 @@ def _left_over(draft: Draft, used: set[int]) -> Iterator[Diagnostic]:
         if is_position(kind) and used.isdisjoint((number, draft.orientation_at.get(number)))
     ]
     if points:
-        yield _warning(
+        yield warning(
             "unused-node",
             f"no element uses {_listed(draft, points)}",
             "join it to something, or leave it out",
         )
     for what, given in (("mass", draft.node_mass), ("load", draft.loaded)):
         if unused := [number for number in given if number not in used]:
-            yield _warning(
+            yield warning(
                 "unused-node",
                 f"{_listed(draft, unused)} is given a {what}, but no element uses it",
                 "give it to a node that an element uses",
@@ -240,7 +249,7 @@ def _same_names(draft: Draft) -> Iterator[Diagnostic]:
         if found[-1] < draft.elements_given or twins or not draft.shares(found):
             continue
         if _is_one(draft, found):
-            yield _warning(
+            yield warning(
                 "repeated-name",
                 f"several parts that hang together are called {in_short(name)}",
                 "give each a name of its own: this one finds none of them",
@@ -249,14 +258,10 @@ def _same_names(draft: Draft) -> Iterator[Diagnostic]:
 
 def _is_one(draft: Draft, indices: Sequence[int]) -> bool:
     """Whether elements hang together by their nodes."""
-    left, nodes = list(indices[1:]), {*draft.slots[indices[0]]} - {0}
-    grown = True
-    while left and grown:
-        near = [index for index in left if not nodes.isdisjoint(draft.slots[index])]
-        grown = bool(near)
-        nodes.update(node for index in near for node in draft.slots[index] if node)
-        left = [index for index in left if index not in near]
-    return not left
+    numbers = sorted({node for index in indices for node in draft.slots[index] if node})
+    place = {number: k for k, number in enumerate(numbers, len(indices))}
+    ends = [(k, place[n]) for k, index in enumerate(indices) for n in draft.slots[index] if n]
+    return not groups_of(len(indices) + len(place), ends)[: len(indices)].any()
 
 
 def _listed(draft: Draft, numbers: Sequence[int]) -> str:
@@ -267,16 +272,3 @@ def _listed(draft: Draft, numbers: Sequence[int]) -> str:
     ]
     more = len(numbers) - _MOST_LISTED
     return ", ".join(words) + (f" and {more} more" if more > 0 else "")
-
-
-def _warning(code: str, message: str, hint: str) -> Diagnostic:
-    return Diagnostic(Severity.WARNING, code, message, help=hint)
-
-
-def _unused(node: str) -> Diagnostic:
-    return Diagnostic(
-        Severity.ERROR,
-        "no-such-node",
-        f"{node} is given a class, but no element uses it",
-        help="name the node in an element, or leave its class out",
-    )

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ..deck.comments import DeckComments, Key, key_of
 from ..deck.keywords import Block
 from ..deck.rendering import DeckError
-from ..deck.tokens import Line, Tokens
+from ..deck.tokens import DeckComments, Key, Line, Tokens, key_of
+from ..util.groups import grouped
 from .data import ModelData
 from .reading import read_bytes
 from .writing import deck_of, dynamics_of, statements_of
@@ -81,10 +81,7 @@ def _lines(tokens: Tokens, edited: dict[Key, str]) -> Iterable[str]:
             kept.append(("" if key is None else key[0], [line.text]))
         else:
             kept.append((key[0], list(_written(line, left.pop(key, "")))))
-    new: dict[str, list[str]] = {}
-    for (keyword, _), statement in left.items():
-        if statement:
-            new.setdefault(keyword, []).append(statement)
+    new = grouped((keyword, each) for (keyword, _), each in left.items() if each)
     ending = "\r" if any(line.endswith("\r") for _, some in kept for line in some) else ""
     last = {keyword: place for place, (keyword, _) in enumerate(kept)}
     made: list[str] = []

@@ -78,8 +78,7 @@ def deformations(
     require_kind(model, Model, "deformations are those of a Model")
     raw = assembled(model, configuration, c_t)
     exists = model.data.arrays.deformation_class != Class.NONE
-    values: FloatArray = raw.deformation.T[exists.T]
-    return values
+    return np.asarray(raw.deformation.T[exists.T])
 
 
 def jacobian(

@@ -17,17 +17,32 @@ from ..deck.rendering import model_error
 from ..util.errors import require_kind
 from ..util.loading import feature
 from ..util.quantities import Quantity
+from ..util.records import read_only
 from ..util.text import in_short
-from . import assemblies, coordinates, copies, edits, elements, flexures
-from .arguments import Direction, call, text, whole
-from .assemblies import Mass
+from . import assemblies, copies, edits, members
+from .arguments import (
+    Direction,
+    PartLike,
+    Point,
+    add_point,
+    call,
+    checked_name,
+    drawn_elements,
+    existing,
+    handle,
+    part,
+    pivot,
+    place,
+    text,
+    whole,
+)
+from .arguments import position as position_number
 from .configuration import Configuration
 from .copies import Names, Parts
 from .data import ModelData
 from .deformations import give_deformations, means_part
 from .draft import NO_VECTOR, Draft
 from .draft_arrays import data_of, draft_of
-from .flexures import SheetSizes, WireSizes
 from .handles import (
     Assembly,
     Body,
@@ -39,21 +54,9 @@ from .handles import (
     Sheet,
     Wire,
 )
+from .members import Sizes
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
-from .selection import (
-    PartLike,
-    Point,
-    add_point,
-    checked_name,
-    drawn_elements,
-    existing,
-    handle,
-    part,
-    pivot,
-    place,
-)
-from .selection import position as position_number
 from .variation import held_given, positions_given, with_held, with_positions
 from .writing import deck_of
 
@@ -249,7 +252,7 @@ class Model:
         `material` gives it stiffness and mass, see `wire`.
         """
         with call("truss", name):
-            return elements.add_truss(self._change(), p, q, name, section, thickness, material)
+            return members.add_truss(self._change(), p, q, name, section, thickness, material)
 
     def beam(
         self,
@@ -278,7 +281,7 @@ class Model:
             material: Gives it stiffness and mass, see `wire`.
         """
         with call("beam", name):
-            return elements.add_releasing_beam(
+            return members.add_releasing_beam(
                 self._change(), p, q, y, release, name, section, material
             )
 
@@ -294,7 +297,7 @@ class Model:
         `section` is how it is drawn, see `look`.
         """
         with call("rigid", name):
-            return elements.add_rigid(self._change(), p, q, name, Make(shape_of(section)))
+            return members.add_rigid(self._change(), p, q, name, Make(shape_of(section)))
 
     def hinge(
         self,
@@ -322,7 +325,7 @@ class Model:
             The point beyond the hinge.
         """
         draft = self._change()
-        return elements.add_hinge(draft, "hinge", p, axis, q, name, independent, stiffness).q
+        return members.add_hinge(draft, "hinge", p, axis, q, name, independent, stiffness).q
 
     def notch(
         self,
@@ -344,7 +347,7 @@ class Model:
             The notch, with its points p and q.
         """
         draft = self._change()
-        return elements.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
+        return members.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
 
     def wire(
         self,
@@ -377,8 +380,8 @@ class Model:
             ModelError: something of it is wrong; its text begins with the name of the wire.
         """
         draft = self._change()
-        sizes = WireSizes(section, thickness, material)
-        return flexures.add_wire(draft, p, q, y, name, beams, sizes)
+        sizes = Sizes(section, thickness, material)
+        return members.add_wire(draft, p, q, y, name, beams, sizes)
 
     def sheet(
         self,
@@ -417,8 +420,8 @@ class Model:
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the sheet.
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
-        return flexures.add_sheet(self._change(), p, q, width, beams, name, sizes)
+        sizes = Sizes(section, thickness, material, breadth, warping)
+        return members.add_sheet(self._change(), p, q, width, beams, name, sizes)
 
     def folded_sheet(
         self,
@@ -457,8 +460,8 @@ class Model:
         Raises:
             ModelError: something of it is wrong, such as three points on a line and no width.
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
-        return flexures.add_folded_sheet(self._change(), (a, fold, b), width, beams, name, sizes)
+        sizes = Sizes(section, thickness, material, breadth, warping)
+        return members.add_folded_sheet(self._change(), (a, fold, b), width, beams, name, sizes)
 
     def body(
         self,
@@ -486,7 +489,7 @@ class Model:
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the body.
         """
-        return assemblies.add_body(self._change(), points, name, Mass(mass, inertia), section)
+        return assemblies.add_body(self._change(), points, name, (mass, inertia), section)
 
     def cross_hinge(
         self,
@@ -530,10 +533,9 @@ class Model:
         Returns:
             Parts "sheet 1", ..., "body" and points "ground 1", ..., "body 1", ...
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
-        masses = Mass(mass, inertia)
+        sizes = Sizes(section, thickness, material, breadth, warping)
         return assemblies.add_cross_hinge(
-            self._change(), (ground, moving), width, name, carries, masses, beams, sizes
+            self._change(), (ground, moving), width, name, carries, (mass, inertia), beams, sizes
         )
 
     def parallel_guide(
@@ -580,10 +582,18 @@ class Model:
         Returns:
             Parts "sheet 1", ..., "stage" and points "ground 1", ..., "stage 1", ...
         """
-        sizes = SheetSizes(section, thickness, breadth, material, warping)
-        masses = Mass(mass, inertia)
+        sizes = Sizes(section, thickness, material, breadth, warping)
         return assemblies.add_parallel_guide(
-            self._change(), (p, q), offset, width, name, sheets, carries, masses, beams, sizes
+            self._change(),
+            (p, q),
+            offset,
+            width,
+            name,
+            sheets,
+            carries,
+            (mass, inertia),
+            beams,
+            sizes,
         )
 
     def hexapod(
@@ -628,10 +638,10 @@ class Model:
         Returns:
             Parts "wire 1", ..., "wire 6", "platform" and points "ground 1", ..., "platform 1", ...
         """
-        ends, masses = (base, platform), Mass(mass, inertia)
-        wires = WireSizes(section, thickness, material)
+        ends = base, platform
+        wires = Sizes(section, thickness, material)
         return assemblies.add_hexapod(
-            self._change(), ends, height, name, spread, at, carries, masses, beams, wires
+            self._change(), ends, height, name, spread, at, carries, (mass, inertia), beams, wires
         )
 
     # What is said of them ---------------------------------------------------
@@ -649,9 +659,9 @@ class Model:
             ModelError: there is no such point or coordinate, or it has another class.
         """
         draft = self._change()
-        targets, names = coordinates.fixed_targets(draft, points)
+        targets, names = edits.fixed_targets(draft, points)
         with call("fix", targets[0] if len(targets) == 1 else ""):
-            coordinates.give_coordinates(draft, targets, names, Class.FIXED)
+            edits.give_coordinates(draft, targets, names, Class.FIXED)
 
     def independent(
         self,
@@ -674,7 +684,7 @@ class Model:
             if at is not None or means_part(draft, target, which):
                 give_deformations(draft, target, which, Class.INDEPENDENT, at)
             else:
-                coordinates.give_coordinates(draft, [target], which, Class.INDEPENDENT)
+                edits.give_coordinates(draft, [target], which, Class.INDEPENDENT)
 
     def release(
         self, part: PartLike | FoldedSheet, *which: str | int, at: Point | None = None
@@ -717,7 +727,7 @@ class Model:
             *names: Coordinates out of x, y, z, rx, ry, rz; by default all.
         """
         with call("clear", point):
-            coordinates.clear_coordinates(self._change(), point, names)
+            edits.clear_coordinates(self._change(), point, names)
 
     def declare_internal_motions(self) -> None:
         """Make independent what is inside divided sheets and wires, so that each is one beam.
@@ -751,8 +761,8 @@ class Model:
         """
         draft = self._change()
         with call("force", point):
-            node = coordinates.node_with(draft, point, wants_position=True)
-            made = coordinates.load(draft, x, y, z, "force", "N")
+            node = edits.node_with(draft, point, wants_position=True)
+            made = edits.load(draft, x, y, z, "force", "N")
         (draft.increment if increment else draft.force)[node] = made
 
     def moment(
@@ -780,8 +790,8 @@ class Model:
         """
         draft = self._change()
         with call("moment", point):
-            node = coordinates.node_with(draft, point, wants_position=False)
-            made = coordinates.moment(draft, node, x, y, z)
+            node = edits.node_with(draft, point, wants_position=False)
+            made = edits.moment(draft, node, x, y, z)
         (draft.increment if increment else draft.force)[node] = made
 
     def gravity(
@@ -800,7 +810,7 @@ class Model:
             ModelError: a component is no finite number.
         """
         draft = self._change()
-        draft.gravity = coordinates.load(draft, x, y, z, "acceleration", "m/s2")
+        draft.gravity = edits.load(draft, x, y, z, "acceleration", "m/s2")
 
     def made_of(
         self,
@@ -1069,9 +1079,8 @@ class Model:
     def positions(self) -> FloatArray:
         """(nodes, 3) reference positions [m]; zero for nodes that are orientations."""
         a = self.data.arrays
-        made = np.where((a.node_kind <= NodeKind.POSITION)[:, None], a.node_value.T[:, :3], 0.0)
-        made.flags.writeable = False
-        return made
+        places = (a.node_kind <= NodeKind.POSITION)[:, None]
+        return read_only(np.where(places, a.node_value.T[:, :3], 0.0))
 
     @property
     def coordinate_classes(self) -> IntArray:
@@ -1096,9 +1105,7 @@ class Model:
     @property
     def element_nodes(self) -> IntArray:
         """(elements, 4) node indices from 0 in the slots p, op, q, oq; -1 where unused."""
-        made = self.data.arrays.element_node.T - 1
-        made.flags.writeable = False
-        return made
+        return read_only(self.data.arrays.element_node.T - 1)
 
     @property
     def element_vectors(self) -> FloatArray:

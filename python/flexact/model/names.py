@@ -45,19 +45,6 @@ def own_number(element_name: str) -> int:
     return int(found[0]) if found else 0
 
 
-def renamed(element_name: str, part: str) -> str:
-    """The name of an element after its part was named anew."""
-    return part + element_name[len(part_name(element_name)) :]
-
-
-def grouped(pairs: Iterable[tuple[Key, int]]) -> dict[Key, list[int]]:
-    """Numbers by what they have in common, in their order."""
-    made: dict[Key, list[int]] = {}
-    for key, number in pairs:
-        made.setdefault(key, []).append(number)
-    return made
-
-
 def unknown(code: str, what: str, name: str, known: Iterable[str]) -> ModelError:
     """The error for a name that nothing has, with the nearest names."""
     near = nearest(name, known)

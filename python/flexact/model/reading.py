@@ -10,6 +10,8 @@ import sys
 from dataclasses import replace
 from typing import BinaryIO
 
+import numpy as np
+
 from ..core import calls
 from ..deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, problems_of
 from ..deck.rendering import DeckError
@@ -115,6 +117,9 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
     problems = problems_of(deck.problems, source)
     if problems.errors:
         raise DeckError(problems, name, source)
+    # Numbers may stand where they mean nothing, and loads be zero.
+    is_given = not all(np.isnan(part).all() for part in deck.properties.values())
+    is_loaded = any(part.any() for part in deck.loads.values())
     made = ModelData(
         deck.arrays,
         deck.planar,
@@ -123,9 +128,9 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
         DeckNames(raw, deck.node_name),
         source=source,
         found=problems,
-        given_appearance=Appearance.of(deck.appearance) if deck.appearance is not None else None,
-        properties=Properties.of(deck.properties) if deck.properties is not None else None,
-        loads=Loads.of(deck.loads) if deck.loads is not None else None,
+        given_appearance=Appearance(**deck.appearance) if deck.appearance else None,
+        properties=Properties(**deck.properties) if is_given else None,
+        loads=Loads(**deck.loads) if is_loaded else None,
         has_long_numbers=deck.has_long_numbers,
     )
     slips = tuple(slips_in(made))

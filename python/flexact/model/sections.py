@@ -221,7 +221,7 @@ _SIZES = {
 
 
 def sheet_section(
-    section: Sequence[Quantity] | None, thickness: Quantity | None, breadth: Quantity | None
+    section: Section | None, thickness: Quantity | None, breadth: Quantity | None
 ) -> Shape | None:
     """The section of a sheet, whose breadth is along local z.
 

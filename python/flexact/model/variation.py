@@ -152,8 +152,7 @@ def classes_held(data: ModelData, held: BoolArray) -> IntArray:
     own = data.arrays.deformation_class
     released = np.where(own == Class.INDEPENDENT, own, np.int32(Class.DEPENDENT))
     made = np.where(np.swapaxes(held, -1, -2), np.int32(Class.FIXED), released)
-    there: IntArray = np.where(own == Class.NONE, own, made).astype(np.int32)
-    return there
+    return np.where(own == Class.NONE, own, made).astype(np.int32)
 
 
 def _changed(data: ModelData, replace_arrays: dict[str, np.ndarray]) -> ModelData:

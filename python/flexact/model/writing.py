@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A model in the deck language."""
+"""A model in the deck language, and what a deck states that its model does not keep."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
-from ..deck.comments import ELEMENT, GRAVITY, DeckComments, comments_of
+from ..deck.keywords import Block
+from ..deck.tokens import ELEMENT, GRAVITY, DeckComments, comments_of, tokens_of
+from ..util.groups import grouped
 from .attributes import Appearance, CrossSection, rows_of
 from .data import ModelData
 from .names import one_line
@@ -72,10 +75,17 @@ def _kinematics(data: ModelData, comments: DeckComments) -> Iterator[tuple[str, 
     """The statements of the kinematics by keyword, in the order of a deck."""
     yield ELEMENT, _elements(data)
     yield "X", _values(data, comments)
-    yield "FIX", _coordinates(data, Class.FIXED, "FIX")
-    yield "DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")
-    yield "RLSE", _deformations(data, Class.DEPENDENT, "RLSE")
-    yield "DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")
+    a = data.arrays
+    first = np.array([0, *(FIRST_COMPONENT[kind] for kind in NodeKind)], np.int32)[a.node_kind]
+    nodes = a.node_number, a.coordinate_class, first
+    elements = a.element_number, a.deformation_class, np.ones(a.element_number.size, np.int32)
+    for keyword, owners, wanted in (
+        ("FIX", nodes, Class.FIXED),
+        ("DYNX", nodes, Class.INDEPENDENT),
+        ("RLSE", elements, Class.DEPENDENT),
+        ("DYNE", elements, Class.INDEPENDENT),
+    ):
+        yield keyword, _classes(*owners, keyword, wanted)
 
 
 def _elements(data: ModelData) -> _Statements:
@@ -111,28 +121,17 @@ def _values(data: ModelData, comments: DeckComments) -> _Statements:
             yield number, f"{line} % {name}" if name else line
 
 
-def _coordinates(data: ModelData, wanted: Class, keyword: str) -> _Statements:
-    a = data.arrays
-    chosen = a.coordinate_class == wanted
+def _classes(
+    numbers: IntArray, classes: IntArray, first: IntArray, keyword: str, wanted: Class
+) -> _Statements:
+    """Statements of a class of nodes or elements, whose parts count from `first` of each."""
+    chosen = classes == wanted
     for index in np.flatnonzero(chosen.any(axis=0)).tolist():
-        kind = int(a.node_kind[index])
-        axes = np.flatnonzero(chosen[:, index]).tolist()
-        number = int(a.node_number[index])
+        parts = np.flatnonzero(chosen[:, index]) + first[index]
+        number = int(numbers[index])
         words = [keyword, str(number)]
-        if len(axes) < len(AXES[kind]):
-            words += [str(axis + FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
-        yield number, " ".join(words)
-
-
-def _deformations(data: ModelData, wanted: Class, keyword: str) -> _Statements:
-    a = data.arrays
-    chosen = a.deformation_class == wanted
-    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
-        modes = (np.flatnonzero(chosen[:, index]) + 1).tolist()
-        number = int(a.element_number[index])
-        words = [keyword, str(number)]
-        if len(modes) < np.count_nonzero(a.deformation_class[:, index]):
-            words += map(str, modes)
+        if parts.size < np.count_nonzero(classes[:, index]):
+            words += map(str, parts.tolist())
         yield number, " ".join(words)
 
 
@@ -183,10 +182,8 @@ def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:
         ("BEAMPROPS", _cross_sections(appearance)),
         ("GRAPHICS", _colours(appearance)),
     ):
-        alike: dict[tuple[str, ...], list[int]] = {}
-        for number, lines in zip(numbers.tolist(), options, strict=True):
-            if lines:
-                alike.setdefault(lines, []).append(number)
+        pairs = zip(options, numbers.tolist(), strict=True)
+        alike = grouped((lines, number) for lines, number in pairs if lines)
         for lines, elements in alike.items():
             # Without numbers a group is all elements.
             all_of_them = len(elements) == numbers.size
@@ -225,3 +222,68 @@ def _colours(appearance: Appearance) -> Iterable[tuple[str, ...]]:
             for name, values in given
             if values[0] == values[0]
         )
+
+
+class Prescribed(NamedTuple):
+    """What is prescribed; the other independent coordinates and deformations are dynamic.
+
+    Attributes:
+        coordinates: (3, nodes) by axis.
+        deformations: (6, elements).
+    """
+
+    coordinates: BoolArray
+    deformations: BoolArray
+
+
+def prescribed_in(data: ModelData) -> Prescribed:
+    """What the deck of a model states with INPUTX and INPUTE; nothing in a model without one.
+
+    An analysis needs no difference between inputs and degrees of freedom, so that the model
+    itself does not keep it.
+    """
+    arrays = data.arrays
+    coordinates = np.zeros(arrays.coordinate_class.shape, np.bool_)
+    deformations = np.zeros(arrays.deformation_class.shape, np.bool_)
+    for letter, number, components in class_statements(data, "INPUT"):
+        if letter == "X":
+            if (node := data.node_index.get(number)) is None:
+                # Of warping, which a model does not have.
+                continue
+            first = FIRST_COMPONENT[NodeKind(int(arrays.node_kind[node]))]
+            _mark(coordinates[:, node], components, first)
+        else:
+            _mark(deformations[:, data.element_index[number]], components, 1)
+    return Prescribed(
+        coordinates & (arrays.coordinate_class == Class.INDEPENDENT),
+        deformations & (arrays.deformation_class == Class.INDEPENDENT),
+    )
+
+
+def class_statements(data: ModelData, word: str) -> Iterator[tuple[str, int, list[int]]]:
+    """The statements of a class in a deck's kinematics, as it has them.
+
+    Args:
+        data: A model; one that was made in Python has none.
+        word: DYN or INPUT.
+
+    Yields:
+        X or E, node or element, and components.
+    """
+    if data.source is None:
+        return
+    tokens = tokens_of(data.source)
+    for number in tokens.lines_of(f"{word}X", f"{word}E").tolist():
+        line = tokens[number]
+        if line.block is Block.KINEMATICS:
+            owner, *components = (each.number for each in line.words[1:])
+            yield line.name[-1], owner, components
+
+
+def _mark(marks: BoolArray, components: list[int], first: int) -> None:
+    """Mark some components, all where none is named; lambda0 and warping are none of its own."""
+    if not components:
+        marks[:] = True
+    for component in components:
+        if first <= component < first + marks.size:
+            marks[component - first] = True

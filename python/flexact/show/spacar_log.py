@@ -22,8 +22,7 @@ from ..deck.tokens import Tokens, tokens_of
 from ..model.data import ModelData
 from ..model.jacobian import jacobian
 from ..model.model import Model
-from ..model.prescribed import prescribed_in
-from ..model.writing import deck_of
+from ..model.writing import deck_of, prescribed_in
 from ..util.loading import VERSION
 from ..util.text import harmless
 

@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..analysis.certainty import least_misalignments
 from ..analysis.decomposition import Asked
 from ..analysis.limits import CUT_OFF, NEAR, NO_CHANGE, REACH_OF_DIGITS
-from ..analysis.margin import least_misalignments
 from ..analysis.rank_evidence import MOST_OTHERS, MOST_WORK, MOST_ZEROS
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import AnalysisError, Certainty, Verdict
@@ -323,14 +323,13 @@ def _fill(some: Positions, want: str, room: float, common: BoolArray | None, par
 
 def _decided_by_core(some: Positions, with_values: bool, room: float) -> tuple[Columns, BoolArray]:
     """The columns that the core gives, and (variants,) for which of them they hold."""
-    wishes = calls.VariantWishes(
-        *(NEAR, CUT_OFF, REACH_OF_DIGITS, with_values, room, None),
-        some.data.has_long_numbers,
-        (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NO_CHANGE),
-    )
     own = some.data.arrays.node_value[:3].T[None]
     positions = own if some.positions is None else some.positions
-    raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())
+    raw = calls.analyse_variants(
+        *(some.data.packed, positions, some.classes(), (NEAR, CUT_OFF, REACH_OF_DIGITS)),
+        *(with_values, room, some.data.has_long_numbers),
+        zeros=(MOST_ZEROS, MOST_OTHERS, MOST_WORK, NO_CHANGE),
+    )
     under, over = raw.columns - raw.rank, raw.rows - raw.rank
     made: Columns = {
         "verdict": _VERDICTS[(under > 0) + 2 * (over > 0)],

@@ -1,12 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Groups of things that are joined two by two: connected components."""
+"""Groups of things: of those with one key, and of those that are joined two by two."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+Key = TypeVar("Key", bound=Hashable)
+Thing = TypeVar("Thing")
+
+
+def grouped(pairs: Iterable[tuple[Key, Thing]]) -> dict[Key, list[Thing]]:
+    """Things by their keys, in their order."""
+    made: dict[Key, list[Thing]] = {}
+    for key, thing in pairs:
+        made.setdefault(key, []).append(thing)
+    return made
 
 
 def groups_of(count: int, pairs: Iterable[tuple[int, int]]) -> NDArray[np.int64]:

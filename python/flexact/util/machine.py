@@ -13,7 +13,6 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 from .loading import load
 
@@ -53,7 +52,7 @@ def available() -> float:
     Those of the machine, of this process (`ulimit`), and of the container, cluster or job that it
     is in. On Linux and Windows the system is asked, on other systems psutil.
     """
-    return min(_of_machine(), address_space(), _of_groups())
+    return min(_of_machine(), address_space(), memory_left_of_group())
 
 
 def address_space(limits: dict[int, float] | None = None, root: Path = _ROOT) -> float:
@@ -115,12 +114,18 @@ def _of_other_systems() -> float:
     return math.inf
 
 
-def _of_groups(root: Path = _ROOT) -> float:
-    """What the control groups of this process and those round them leave it."""
-    if sys.platform != "linux":
-        return math.inf
-    left: float = memory_left_of_group(root)
-    return left
+def memory_left_of_group(root: Path = _ROOT) -> float:
+    """Bytes that the groups of this process, and those round them, leave; infinity without a bound.
+
+    Args:
+        root: Where `proc` and `sys` are, which other systems have not.
+    """
+    return min((_left(old, folder) for old, folder in _groups(root, "memory")), default=math.inf)
+
+
+def processors_of_group(root: Path) -> float:
+    """How many processors' time the groups may use, such as 1.5; infinity without a bound."""
+    return min((_share(old, folder) for old, folder in _groups(root, "cpu")), default=math.inf)
 
 
 def processors(root: Path = Path("/")) -> int:
@@ -154,28 +159,6 @@ def _given() -> int:
 _ESCAPED = re.compile(r"\\([0-7]{3})")
 #: Where they are mounted if `mountinfo` does not say: that of version 2, and those of version 1.
 _USUAL = "/sys/fs/cgroup"
-
-
-class _Mount(NamedTuple):
-    """Where groups can be seen: the group at the top of what is mounted, and the folder."""
-
-    is_first_version: bool
-    top: str
-    folder: str
-
-
-def memory_left_of_group(root: Path) -> float:
-    """Bytes that the groups leave; infinity without a bound.
-
-    Args:
-        root: Where `proc` and `sys` are.
-    """
-    return min((_left(old, folder) for old, folder in _groups(root, "memory")), default=math.inf)
-
-
-def processors_of_group(root: Path) -> float:
-    """How many processors' time the groups may use, such as 1.5; infinity without a bound."""
-    return min((_share(old, folder) for old, folder in _groups(root, "cpu")), default=math.inf)
 
 
 def _left(is_first_version: bool, folder: Path) -> float:
@@ -215,21 +198,17 @@ def _groups(root: Path, controller: str) -> Iterator[tuple[bool, Path]]:
         is_first_version = bool(controllers)
         if is_first_version and controller not in controllers.split(","):
             continue
-        for mount in _mounts(root, controller, is_first_version):
-            parts = _below(mount.top, group)
-            folder = root / mount.folder.lstrip("/")
+        for top, folder in _mounts(root, controller, is_first_version):
+            # From the group at the top of what is mounted.
+            below = group[len(top) :] if top != "/" and f"{group}/".startswith(f"{top}/") else group
+            parts = [part for part in below.split("/") if part not in ("", "..")]
+            place = root / folder.lstrip("/")
             for depth in range(len(parts), -1, -1):
-                yield is_first_version, folder.joinpath(*parts[:depth])
+                yield is_first_version, place.joinpath(*parts[:depth])
 
 
-def _below(top: str, group: str) -> list[str]:
-    """The path of a group from the one at the top of what is mounted."""
-    if top != "/" and (group == top or group.startswith(f"{top}/")):
-        group = group[len(top) :]
-    return [part for part in group.split("/") if part not in ("", "..")]
-
-
-def _mounts(root: Path, controller: str, is_first_version: bool) -> list[_Mount]:
+def _mounts(root: Path, controller: str, is_first_version: bool) -> list[tuple[str, str]]:
+    """Where groups can be seen: the group at the top of what is mounted, and the folder."""
     found = []
     for line in _text(root / "proc/self/mountinfo").splitlines():
         before, _, behind = line.partition(" - ")
@@ -238,9 +217,9 @@ def _mounts(root: Path, controller: str, is_first_version: bool) -> list[_Mount]
             continue
         is_old = kinds[0] == "cgroup" and controller in kinds[2].split(",")
         if is_old if is_first_version else kinds[0] == "cgroup2":
-            found.append(_Mount(is_first_version, _plain(words[3]), _plain(words[4])))
+            found.append((_plain(words[3]), _plain(words[4])))
     usual = f"{_USUAL}/{controller}" if is_first_version else _USUAL
-    return found or [_Mount(is_first_version, "/", usual)]
+    return found or [("/", usual)]
 
 
 def _plain(path: str) -> str:

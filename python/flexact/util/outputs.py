@@ -109,8 +109,6 @@ def _system() -> str:
 
 #: What stands for standard output.
 STDOUT = Path("-")
-#: Loaded where it is wanted: a first word comes sooner without.
-_NAMES = "flexact.util.outputs"
 #: On Windows others, such as a virus scanner, may hold a new file for a moment [s].
 _PAUSES = (0.01, 0.03, 0.1, 0.3)
 
@@ -145,8 +143,7 @@ def plan_files(
     _check_folder(folder)
     plan = {}
     decks = [deck for deck in decks if deck.error is None]
-    names = load(_NAMES)
-    written, sources = names.Owners(), names.Owners()
+    written, sources = Owners(), Owners()
     for deck in decks:
         sources.add(os.path.realpath(deck.path), deck.path)
     for deck in decks:
@@ -191,7 +188,6 @@ def require_replaceable(target: Path) -> None:
 def _shared(target: Path, first: str, second: str) -> str:
     if first == second:
         return f"{target} is a link to another file of the results of {first}"
-    folded = load(_NAMES).folded
     if folded(first) == folded(second):
         return (
             f"{first} and {second} would both write {target}: capitals, and how accents are "
@@ -204,7 +200,7 @@ def _shared(target: Path, first: str, second: str) -> str:
 
 
 def _require_fit(target: Path) -> None:
-    if sys.platform == "win32" and (why := load(_NAMES).why_unfit(target)):
+    if sys.platform == "win32" and (why := why_unfit(target)):
         raise OutputError(f"cannot write {target}: {why}")
 
 
@@ -338,7 +334,7 @@ def _place(target: Path) -> Path:
     _require_fit(target)
     place = Path(os.path.realpath(target))
     if sys.platform == "win32":
-        place = Path(load(_NAMES).reachable(str(place)))
+        place = Path(reachable(str(place)))
     try:
         mode = place.stat().st_mode
     except FileNotFoundError:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -41,6 +41,15 @@ def _freeze(values: Iterable[object], *, every: bool = False) -> None:
             value.setflags(write=False)
         elif isinstance(value, tuple) and (every or not hasattr(value, "is_read_only")):
             _freeze(value, every=every)
+
+
+Array = TypeVar("Array", bound=np.ndarray)
+
+
+def read_only(array: Array) -> Array:
+    """An array that was just made, closed to changes."""
+    array.setflags(write=False)
+    return array
 
 
 class Word(str, Enum):

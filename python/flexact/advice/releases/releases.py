@@ -18,10 +18,10 @@ from ...analysis import ways
 from ...analysis.calls import taken_back
 from ...analysis.change import Change
 from ...analysis.decomposition import row_duals
-from ...analysis.deformation_words import deformation_words
 from ...analysis.mode_basis import row_key
 from ...analysis.mode_words import joined
 from ...analysis.naming import Pieces, coordinate_in_words, named_element
+from ...analysis.places import deformation_words
 from ...analysis.result import Result
 from ...analysis.sparse_basis import groups_of
 from ...analysis.ways import Coordinate, Deformation

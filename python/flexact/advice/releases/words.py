@@ -12,7 +12,6 @@ import numpy as np
 from ...analysis.calls import HOLD, calls_of_change, method_of
 from ...analysis.change import Change
 from ...analysis.decomposition import Decomposition
-from ...analysis.deformation_words import bending_of, deformation_words, role_of
 from ...analysis.naming import (
     Named,
     Piece,
@@ -22,7 +21,15 @@ from ...analysis.naming import (
     named_element,
     plain,
 )
-from ...analysis.places import end_words, listed, place_words, with_article
+from ...analysis.places import (
+    bending_of,
+    deformation_words,
+    end_words,
+    listed,
+    place_words,
+    role_of,
+    with_article,
+)
 from ...analysis.result import Result
 from ...analysis.ways import Coordinate, coordinate_of
 from ...core.elements import AXES, Class, NodeKind, Role, coordinate_name, planar_table
@@ -337,7 +344,7 @@ def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
     inside: dict[Part, int] = {}
-    insides = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    insides = {node: part for part, nodes in outcome.carriers.insides for node in nodes}
     own = {node for node, _ in outcome.carriers.own_ends}
     part_of = {node: part for node, part in insides.items() if node not in own}
     shared = _of_several_points(outcome, change)

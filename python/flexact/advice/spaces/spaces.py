@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...analysis.carriers import Joint
 from ...analysis.change import Change
 from ...analysis.naming import Line, Pieces, coordinate_in_words, in_words, named_element, sentence
 from ...analysis.places import axis_words, joint_words, part_words
@@ -16,7 +15,7 @@ from ...analysis.result import Result
 from ...analysis.screws import ScrewKind
 from ...core.arrays import FloatArray
 from ...deck.rendering import model_error
-from ...model.parts.parts import Part
+from ...model.parts.parts import Joint, Part
 from ...util.records import Frozen
 from ...util.text import in_short
 from ..step import Step

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.carriers import Joint
 from ...analysis.decomposition import Asked, column_weights, decompose
 from ...analysis.limits import ROUNDING
 from ...analysis.result import Result
@@ -20,7 +19,7 @@ from ...core.raw import RawAnalysis
 from ...deck.rendering import ModelError, model_error
 from ...model.data import ModelData
 from ...model.names import nearest
-from ...model.parts.parts import Part, PartKind, natural
+from ...model.parts.parts import Joint, Part, PartKind, natural
 from ...util.records import cached_property
 from ...util.text import in_short
 from .screws import Family, FamilyKind, ScrewSpace, canonical

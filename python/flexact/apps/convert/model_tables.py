@@ -10,7 +10,7 @@ import numpy as np
 from ...core.arrays import ModelArrays
 from ...core.elements import AXES, Class, Member, NodeKind, Vector, element_kinds
 from ...core.raw import ElementKind
-from ...deck.comments import comments_of
+from ...deck.tokens import comments_of
 from ...model.attributes import CrossSection
 from ...model.data import ModelData
 from ...model.draft import Shape

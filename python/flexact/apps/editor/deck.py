@@ -265,7 +265,7 @@ class Index:
 
 
 class Told(NamedTuple):
-    """A model of which is spoken without an analysis; see `analysis.deformation_words.Told`."""
+    """A model of which is spoken without an analysis; see `analysis.places.Told`."""
 
     data: ModelData
     condensed: Condensed

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...analysis.deformation_words import deformation_word, deformation_words
 from ...analysis.naming import length_in_words
-from ...analysis.places import node_words, part_words
+from ...analysis.places import deformation_word, deformation_words, node_words, part_words
 from ...core.elements import AXES, Class, NodeKind, coordinate_name, element_kinds
 from ...core.raw import ElementKind, Meaning
 from ...deck import keywords as meanings

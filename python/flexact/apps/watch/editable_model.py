@@ -22,7 +22,7 @@ from ...advice.releases.words import outcome_as_given
 from ...analysis.calls import MOST_TRIED, Call, coordinate_call, deformation_call, made, named_part
 from ...analysis.change import Change
 from ...analysis.decomposition import Decomposition
-from ...analysis.deformation_words import part_of, role_of
+from ...analysis.places import part_of, role_of
 from ...analysis.result import Result
 from ...core.elements import AXES, Class, NodeKind, Role, coordinate_name, element_kinds
 from ...deck.diagnostics import decode

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ...analysis.deformation_words import bending_of, deformation_words
 from ...analysis.places import (
+    bending_of,
+    deformation_words,
     end_words,
     listed,
     node_words,

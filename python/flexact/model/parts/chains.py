@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.arrays import BoolArray, FloatArray, IntArray, ModelArrays
-from ...core.elements import Class, Member, Role, member_table, role_table
+from ...core.elements import Class, Member, member_table, role_table
 from ..names import part_name
-from .forms import Form, forms_of
+from .forms import PLANAR, XY, XZ, Form, forms_of
 
 #: Cosine of the largest angle between neighbours in a row; between those of one name.
 _IN_ROW = 0.7071
@@ -123,12 +122,27 @@ def chains_of(
     in the same way about the same axes, and lie nearly in line; those with different names do
     not belong together. `frames` gives those of the elements, (elements, 3, 3).
     """
-    return tuple(
-        row
-        for row in _Neighbours(arrays, names, frames).rows()
+    next_of: dict[tuple[int, int], tuple[int, int]] = {}
+    beams, ends = _joined(arrays, _is_bendable(arrays))
+    likely = _nearly_in_line(arrays, beams, ends)
+    for one, other in _as_pairs(beams[likely], ends[likely]):
+        if _go_on(arrays, names, frames, one, other):
+            next_of[one], next_of[other] = other, one
+    made: list[Chain] = []
+    seen: set[int] = set()
+    for start in sorted({beam for beam, _ in next_of}):
+        if start in seen:
+            continue
+        # From that end whose beam comes first.
+        row = _followed(next_of, start)
+        seen.update(beam for beam, _ in row)
+        if row[0][0] > row[-1][0]:
+            row = [(beam, not turned) for beam, turned in reversed(row)]
+        chain = _row(arrays, row)
         # Its ends turn apart: no beam has one node at both ends.
-        if row.orientations[0] != row.orientations[-1] and _is_stretched(arrays, row)
-    )
+        if chain.orientations[0] != chain.orientations[-1] and _is_stretched(arrays, chain):
+            made.append(chain)
+    return tuple(made)
 
 
 def _is_stretched(arrays: ModelArrays, row: Chain) -> bool:
@@ -207,132 +221,96 @@ def _nearly_in_line(arrays: ModelArrays, beams: IntArray, ends: IntArray) -> Boo
     along = way * np.where(ends == [1, 0], 1.0, -1.0)
     products = np.einsum("ij,ij->j", along[:, :, 0], along[:, :, 1])
     lengths = np.sqrt(np.einsum("ijk,ijk->jk", way, way)).prod(axis=1)
-    made: BoolArray = products >= (min(_IN_ROW, _OF_ONE_NAME) - _SLACK) * lengths
-    return made
+    return np.asarray(products >= (min(_IN_ROW, _OF_ONE_NAME) - _SLACK) * lengths)
 
 
-class _Neighbours:
-    """Pairs of beams that continue each other."""
+def _go_on(
+    arrays: ModelArrays,
+    names: Sequence[str],
+    frames: Callable[[], FloatArray],
+    one: tuple[int, int],
+    other: tuple[int, int],
+) -> bool:
+    """Whether two beams, each by its index and the end that is joined, continue each other."""
+    (i, at_i), (j, at_j) = one, other
+    if arrays.element_kind[i] != arrays.element_kind[j]:
+        return False
+    # In the sense of the row: i ends where j begins.
+    first, second = _classes_of(arrays, i, at_i == 0), _classes_of(arrays, j, at_j == 1)
+    inner = ((3, 2), (5, 4)) if arrays.deformation_class[3, i] else ((2, 1),)
+    if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
+        return False
+    if not _may_be_one_part(names, i, j):
+        return False
+    mine = part_name(names[i])
+    limit = _OF_ONE_NAME if mine and mine == part_name(names[j]) else _IN_ROW
+    along = _direction(arrays, i) * (1.0 if at_i == 1 else -1.0)
+    if not along @ _direction(arrays, j) * (1.0 if at_j == 0 else -1.0) > limit:
+        return False
+    if Class.FIXED not in first[2:] or np.array_equal(*arrays.element_vector[:, [i, j]].T):
+        return True
+    # Their local y axes are nearly one line.
+    across = frames()[[i, j], :, 1]
+    return bool(abs(across[0] @ across[1]) > _IN_ROW)
 
-    def __init__(
-        self, arrays: ModelArrays, names: Sequence[str], frames: Callable[[], FloatArray]
-    ) -> None:
-        self.arrays = arrays
-        self.names = names
-        self.frames = frames
-        self.next_of: dict[tuple[int, int], tuple[int, int]] = {}
-        beams, ends = _joined(arrays, _is_bendable(arrays))
-        likely = _nearly_in_line(arrays, beams, ends)
-        for pair in _as_pairs(beams[likely], ends[likely]):
-            if self._continue(*pair):
-                one, other = pair
-                self.next_of[one], self.next_of[other] = other, one
 
-    def _continue(self, one: tuple[int, int], other: tuple[int, int]) -> bool:
-        a, (i, at_i), (j, at_j) = self.arrays, one, other
-        if a.element_kind[i] != a.element_kind[j]:
-            return False
-        # In the sense of the row: i ends where j begins.
-        first, second = self._classes(i, at_i == 0), self._classes(j, at_j == 1)
-        inner = ((3, 2), (5, 4)) if a.deformation_class[3, i] else ((2, 1),)
-        if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
-            return False
-        if not _may_be_one_part(self.names, i, j):
-            return False
-        mine = part_name(self.names[i])
-        limit = _OF_ONE_NAME if mine and mine == part_name(self.names[j]) else _IN_ROW
-        along = self._direction(i) * (1.0 if at_i == 1 else -1.0)
-        if not along @ self._direction(j) * (1.0 if at_j == 0 else -1.0) > limit:
-            return False
-        return Class.FIXED not in first[2:] or self._turned_alike(i, j)
+def _classes_of(arrays: ModelArrays, element: int, turned: bool) -> tuple[int, ...]:
+    """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""
+    own: list[int] = arrays.deformation_class[:, element].tolist()
+    if not turned:
+        return tuple(own)
+    swap = _OTHER_END if own[3] else _OTHER_END_IN_PLANE
+    return tuple(own[swap.get(d, d)] for d in range(6))
 
-    def _turned_alike(self, i: int, j: int) -> bool:
-        """Whether the local y axes of two beams are nearly one line."""
-        one, other = self.arrays.element_vector[:, [i, j]].T
-        if np.array_equal(one, other):
-            return True
-        across = self.frames()[[i, j], :, 1]
-        return bool(abs(across[0] @ across[1]) > _IN_ROW)
 
-    def _classes(self, element: int, turned: bool) -> tuple[int, ...]:
-        """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""
-        own: list[int] = self.arrays.deformation_class[:, element].tolist()
-        if not turned:
-            return tuple(own)
-        swap = _OTHER_END if own[3] else _OTHER_END_IN_PLANE
-        return tuple(own[swap.get(d, d)] for d in range(6))
+def _direction(arrays: ModelArrays, element: int) -> FloatArray:
+    p, q = arrays.element_node[[0, 2], element] - 1
+    way: FloatArray = arrays.node_value[:3, q] - arrays.node_value[:3, p]
+    length = float(np.linalg.norm(way))
+    return way / length if length > 0.0 else way
 
-    def _direction(self, element: int) -> FloatArray:
-        p, q = self.arrays.element_node[[0, 2], element] - 1
-        way: FloatArray = self.arrays.node_value[:3, q] - self.arrays.node_value[:3, p]
-        length = float(np.linalg.norm(way))
-        return way / length if length > 0.0 else way
 
-    def rows(self) -> Iterator[Chain]:
-        """The rows, by their first beams; each from that end whose beam comes first."""
-        seen: set[int] = set()
-        for start in sorted({beam for beam, _ in self.next_of}):
-            if start in seen:
-                continue
-            beams = self._followed(start)
-            seen.update(beam for beam, _ in beams)
-            if beams[0][0] > beams[-1][0]:
-                beams = [(beam, not turned) for beam, turned in reversed(beams)]
-            yield self._row(beams)
-
-    def _followed(self, start: int) -> list[tuple[int, bool]]:
-        """Beams of the row of one of them, each with whether it is turned; a ring once."""
-        back = [(start, False)]
-        here = (start, 0)
-        while here in self.next_of:
-            beam, end = self.next_of[here]
+def _followed(
+    next_of: dict[tuple[int, int], tuple[int, int]], start: int
+) -> list[tuple[int, bool]]:
+    """Beams of the row of one of them, each with whether it is turned; a ring once."""
+    sides: tuple[list[tuple[int, bool]], ...] = ([], [])
+    for end, side in enumerate(sides):
+        here = (start, end)
+        while here in next_of:
+            beam, at = next_of[here]
             if beam == start:
                 # A ring has no ends: it is cut at its first beam.
-                return [back[0], *back[:0:-1]]
-            back.append((beam, end == 0))
-            here = (beam, 1 - end)
-        made = back[::-1]
-        here = (start, 1)
-        while here in self.next_of:
-            beam, end = self.next_of[here]
-            made.append((beam, end == 1))
-            here = (beam, 1 - end)
-        return made
+                return [(start, False), *side[::-1]]
+            side.append((beam, at == end))
+            here = (beam, 1 - at)
+    return [*sides[0][::-1], (start, False), *sides[1]]
 
-    def _row(self, beams: list[tuple[int, bool]]) -> Chain:
-        first, turned = beams[0]
-        nodes, slots = self.arrays.element_node, [(2 if turned else 0, first)]
-        slots += [(0 if against else 2, beam) for beam, against in beams]
-        return Chain(
-            tuple(beam for beam, _ in beams),
-            tuple(against for _, against in beams),
-            tuple(int(nodes[slot, beam]) - 1 for slot, beam in slots),
-            tuple(int(nodes[slot + 1, beam]) - 1 for slot, beam in slots),
-            tuple(self._classes(beam, against) for beam, against in beams),
-        )
+
+def _row(arrays: ModelArrays, beams: list[tuple[int, bool]]) -> Chain:
+    """Beams in a row, each with whether it is turned."""
+    first, turned = beams[0]
+    nodes, slots = arrays.element_node, [(2 if turned else 0, first)]
+    slots += [(0 if against else 2, beam) for beam, against in beams]
+    return Chain(
+        tuple(beam for beam, _ in beams),
+        tuple(against for _, against in beams),
+        tuple(int(nodes[slot, beam]) - 1 for slot, beam in slots),
+        tuple(int(nodes[slot + 1, beam]) - 1 for slot, beam in slots),
+        tuple(_classes_of(arrays, beam, against) for beam, against in beams),
+    )
 
 
 def _is_beam(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams, (elements,)."""
-    made: BoolArray = member_table()[arrays.element_kind] == Member.BEAM
-    return made
+    return np.asarray(member_table()[arrays.element_kind] == Member.BEAM)
 
 
 def _is_bendable(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams that do not hold every bending, (elements,)."""
-    free = _bendings()[arrays.element_kind] & (arrays.deformation_class.T != Class.FIXED)
-    made: BoolArray = _is_beam(arrays) & free.any(axis=1)
-    return made
-
-
-@cache
-def _bendings() -> BoolArray:
-    """(kinds + 1, 6) which deformations bend, by element kind."""
-    bends = (
-        *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
-        *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
-    )
-    return np.isin(role_table(), bends)
+    bends = np.isin(role_table(), (*XZ, *XY, *PLANAR))[arrays.element_kind]
+    free = bends & (arrays.deformation_class.T != Class.FIXED)
+    return np.asarray(_is_beam(arrays) & free.any(axis=1))
 
 
 #: Beside the largest component of a direction one below this part is small; and an axis is steep
@@ -377,8 +355,7 @@ def directions_across(
 
 
 def _unit(vector: FloatArray) -> FloatArray:
-    made: FloatArray = vector / np.linalg.norm(vector, axis=-1, keepdims=True)
-    return made
+    return np.asarray(vector / np.linalg.norm(vector, axis=-1, keepdims=True))
 
 
 def signs_of(direction: FloatArray) -> FloatArray:

@@ -60,6 +60,8 @@ class Condensed(Frozen):
         Returns:
             The same for the nodes of `given`.
         """
+        if not self.chains:
+            return displacement, rotation
         moved, turned = np.zeros((2, self.given.arrays.node_number.size, 3))
         moved[self.nodes], turned[self.nodes] = displacement, rotation
         for inner in self.inner:

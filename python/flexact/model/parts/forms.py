@@ -10,9 +10,10 @@ import numpy as np
 from ...core.arrays import IntArray, ModelArrays
 from ...core.elements import Class, Member, Role, member_table, role_table
 
-#: Roles of the bendings in each of the two local planes, xz and xy.
-_BENDINGS = ((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), (Role.BENDING_XY_P, Role.BENDING_XY_Q))
-_PLANAR_BENDINGS = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
+#: Roles of the bendings in the local planes xz and xy, and of planar beams: at p and at q.
+XZ = (Role.BENDING_XZ_P, Role.BENDING_XZ_Q)
+XY = (Role.BENDING_XY_P, Role.BENDING_XY_Q)
+PLANAR = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
 
 
 class Form(IntEnum):
@@ -38,20 +39,18 @@ def is_member(kind: IntArray, *members: Member) -> np.ndarray:
 def _held_of(arrays: ModelArrays, roles: tuple[Role, ...]) -> np.ndarray:
     """(elements,) how many of the deformations of some roles are held."""
     held = arrays.deformation_class.T == Class.FIXED
-    made: np.ndarray = np.sum(held & np.isin(role_table()[arrays.element_kind], roles), axis=1)
-    return made
+    return np.asarray(np.sum(held & np.isin(role_table()[arrays.element_kind], roles), axis=1))
 
 
 def all_held(arrays: ModelArrays) -> np.ndarray:
     """(elements,) whether every deformation of an element is held."""
     classes = arrays.deformation_class
-    made: np.ndarray = np.all((classes == Class.NONE) | (classes == Class.FIXED), axis=0)
-    return made
+    return np.asarray(np.all((classes == Class.NONE) | (classes == Class.FIXED), axis=0))
 
 
 def bending_held(arrays: ModelArrays) -> np.ndarray:
     """(2, elements) how many of the two bendings of a spatial beam are held, in xz and in xy."""
-    return np.stack([_held_of(arrays, roles) for roles in _BENDINGS])
+    return np.stack([_held_of(arrays, roles) for roles in (XZ, XY)])
 
 
 def forms_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
@@ -62,14 +61,14 @@ def forms_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
     """
     kind = arrays.element_kind
     in_xz, in_xy = bending_held(arrays)
-    planar = np.any(np.isin(role_table()[kind], _PLANAR_BENDINGS), axis=1)
+    planar = np.any(np.isin(role_table()[kind], PLANAR), axis=1)
     spatial = is_member(kind, Member.BEAM) & ~planar
     form = np.zeros(kind.size, np.int64)
     form[spatial] = Form.WIRE
     form[spatial & (in_xz != in_xy)] = Form.SHEET
     form[spatial & (in_xz == 2) & (in_xy == 2)] = Form.BEAM
     form[planar] = Form.SHEET
-    form[planar & (_held_of(arrays, _PLANAR_BENDINGS) == 2)] = Form.BEAM
+    form[planar & (_held_of(arrays, PLANAR) == 2)] = Form.BEAM
     form[(spatial | planar) & all_held(arrays)] = Form.RIGID
     form[is_member(kind, Member.BAR)] = Form.BAR
     form[is_member(kind, Member.LINK)] = Form.RIGID

@@ -1,44 +1,176 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Flexures of a draft: wires, sheets and folded sheets, of one or several beams each."""
+"""Members of a draft: bars, beams, rigid links and hinges; wires, sheets and folded sheets."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from ..core.elements import Class
+from ..core.elements import Class, kind_of
+from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
 from ..util.text import in_short
-from .arguments import Direction, call, cross, direction, text, unit, whole
-from .deformations import give_deformations
+from .arguments import (
+    Direction,
+    Point,
+    add_point,
+    call,
+    checked_name,
+    cross,
+    direction,
+    numbers_of_size,
+    pivot,
+    point,
+    position,
+    text,
+    unit,
+    whole,
+)
+from .deformations import deformations, give_deformations
 from .draft import LARGEST, NO_VECTOR, Draft, Vector
-from .elements import add_beam, kind
-from .handles import Element, FoldedSheet, Node, Sheet, Wire
-from .sections import Make, MaterialLike, Section, made_of, round_section, sheet_section
-from .selection import Point, add_point, checked_name, point
+from .handles import Element, FoldedSheet, Node, Notch, Sheet, Wire
+from .sections import Make, MaterialLike, Section, made_of, round_section, shape_of, sheet_section
+
+
+def kind(draft: Draft, keyword: str) -> ElementKind:
+    """The kind of this keyword, in a planar model the planar one."""
+    return kind_of("PL" + keyword if draft.planar else keyword)
+
+
+def add_truss(
+    draft: Draft,
+    p: Point | int,
+    q: Point | int,
+    name: str,
+    section: Section | None,
+    thickness: Quantity | None,
+    material: MaterialLike | None,
+) -> Element:
+    """A bar between two points."""
+    name = text(name, "the name of an element")
+    shape = round_section(section, thickness)
+    bar = kind(draft, "TRUSS")
+    make = made_of(bar, shape, material, "bar")
+    slots = (position(draft, p), 0, position(draft, q), 0)
+    number = draft.add_element(bar, slots, name, shape=shape)
+    draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+    return Element(number, draft)
+
+
+def add_beam(
+    draft: Draft,
+    p: Point,
+    q: Point,
+    y: Direction | None,
+    released: tuple[int, ...],
+    name: str,
+    make: Make,
+) -> Element:
+    """A beam between two points; `released` are part of what it is."""
+    if y is not None and draft.planar:
+        raise model_error("surplus-vector", "a planar beam takes no y vector")
+    hint = NO_VECTOR if y is None else direction(y, "y vector")
+    name = text(name, "the name of an element")
+    a, b = point(draft, p), point(draft, q)
+    slots = (position(draft, a), a.orientation, position(draft, b), b.orientation)
+    number = draft.add_element(kind(draft, "BEAM"), slots, name, hint, released, make.shape)
+    draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+    return Element(number, draft)
+
+
+def add_releasing_beam(
+    draft: Draft,
+    p: Point,
+    q: Point,
+    y: Direction | None,
+    release: Iterable[int | str],
+    name: str,
+    section: Section | None,
+    material: MaterialLike | None,
+) -> Element:
+    """A beam of which deformations are released one by one, as if they were said afterwards."""
+    beam = kind(draft, "BEAM")
+    released = deformations(beam, release)
+    make = made_of(beam, shape_of(section), material, "beam")
+    element = add_beam(draft, p, q, y, (), name, make)
+    index = draft.index_of(element.number)
+    draft.state_deformations([(index, k) for k in released], Class.DEPENDENT)
+    for number in released:
+        draft.set_deformation(index, number, Class.DEPENDENT)
+    return element
+
+
+def add_rigid(draft: Draft, p: Point, q: Point, name: str, make: Make) -> Element:
+    """A rigid link, whose kind is decided when arrays are made."""
+    element = add_beam(draft, p, q, None, (), name, make)
+    draft.rigid.add(len(draft.kinds) - 1)
+    return element
+
+
+def add_hinge(
+    draft: Draft,
+    method: str,
+    p: Point,
+    axis: Direction | None,
+    q: Node | None,
+    name: str,
+    independent: bool,
+    stiffness: Quantity | Sequence[Quantity] | None,
+) -> Notch:
+    """A hinge between two points at one position; `method` is what users called."""
+    with call(method, name):
+        name = text(name, "the name of an element")
+        given = None if stiffness is None else _hinge_stiffness(stiffness, draft.planar)
+        along = NO_VECTOR if axis is None else direction(axis, "axis")
+        if draft.planar:
+            if any(along[:2]):
+                raise model_error("surplus-vector", "the axis of a planar hinge is z")
+            along = NO_VECTOR
+        elif axis is None:
+            raise model_error("missing-vector", "a hinge needs an axis", "give axis=(x, y, z)")
+        near = point(draft, p)
+        if q is None:
+            q = pivot(draft, position(draft, near))
+        elif (q := point(draft, q)).position != near.position:
+            raise model_error(
+                "two-positions",
+                "a hinge joins two points at one position node",
+                "make the second point with pivot(p), or leave it out",
+            )
+        slots = (0, near.orientation, 0, q.orientation)
+        number = draft.add_element(kind(draft, "HINGE"), slots, name, along, (1,))
+        index = len(draft.kinds) - 1
+        draft.give_properties(index, given)
+        if independent:
+            draft.state_deformations([(index, 1)], Class.INDEPENDENT)
+            draft.set_deformation(index, 1, Class.INDEPENDENT)
+        return Notch((Element(number, draft),), (near, q))
+
+
+def _hinge_stiffness(stiffness: Quantity | Sequence[Quantity], planar: bool) -> tuple[float, ...]:
+    """ESTIFF of a hinge."""
+    what = "the stiffness of a hinge is one number" + ("" if planar else ", or three")
+    made = numbers_of_size(stiffness, (1,) if planar else (1, 3), what, "N m/rad")
+    if min(made) < 0.0:
+        raise model_error("bad-size", "a stiffness is not negative", "give it in N m/rad")
+    return made
+
 
 #: As the core's check of a y vector.
 _PARALLEL = 1.0e-6
 
 
-class WireSizes(NamedTuple):
-    """What a wire is made of, as users give it; see `Model.wire`."""
+class Sizes(NamedTuple):
+    """What a flexure is made of, as users give it; see `Model.wire` and `Model.sheet`."""
 
     section: Section | None
     thickness: Quantity | None
     material: MaterialLike | None
-
-
-class SheetSizes(NamedTuple):
-    """What a sheet is made of, as users give it; see `Model.sheet`."""
-
-    section: Sequence[Quantity] | None
-    thickness: Quantity | None
-    breadth: Quantity | None
-    material: MaterialLike | None
-    warping: bool | float
+    breadth: Quantity | None = None
+    """Of a sheet, as is what follows."""
+    warping: bool | float = False
 
 
 def add_wire(
@@ -48,7 +180,7 @@ def add_wire(
     y: Direction | None,
     name: str,
     beams: int,
-    sizes: WireSizes,
+    sizes: Sizes,
 ) -> Wire:
     """A wire flexure."""
     released = (2, 3) if draft.planar else (2, 3, 4, 5, 6)
@@ -65,7 +197,7 @@ def add_sheet(
     width: Direction | None,
     beams: int,
     name: str,
-    sizes: SheetSizes,
+    sizes: Sizes,
 ) -> Sheet:
     """A sheet flexure."""
     with call("sheet", name):
@@ -78,7 +210,7 @@ def add_folded_sheet(
     width: Direction | None,
     beams: int,
     name: str,
-    sizes: SheetSizes,
+    sizes: Sizes,
 ) -> FoldedSheet:
     """Two sheets from the first of three points over the fold to the last."""
     with call("folded_sheet", name):
@@ -99,7 +231,7 @@ def add_folded_sheet(
     return FoldedSheet((first, second), (start, middle, end))
 
 
-def _sheet_make(draft: Draft, sizes: SheetSizes) -> Make:
+def _sheet_make(draft: Draft, sizes: Sizes) -> Make:
     shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
     return made_of(kind(draft, "BEAM"), shape, sizes.material, "sheet")
 
