@@ -24,7 +24,7 @@ from ..analysis.places import listed
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..core.progress import Progress
-from ..motion.extent import EvidenceKind, Extent, Extents, Kind, Reason, finite_in_words
+from ..motion.extent import EvidenceKind, Extent, Extents, Kind, finite_in_words
 from ..motion.finiteness import extents_of
 from ..util.errors import FlexactError
 from ..util.partial import attempted
@@ -109,7 +109,7 @@ class Advice(Frozen, Sequence[Step]):
     @cached_property
     def extents(self) -> Extents:
         """Whether motions go on, or only begin."""
-        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
+        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, "not given")
         none = Extents((unknown,) * len(self.analysis.motions), None)
         return self.made("how far motions go", lambda: extents_of(self.analysis), none)
 
@@ -252,7 +252,7 @@ class Advice(Frozen, Sequence[Step]):
         if any(one.kind is CauseKind.UNKNOWN for one in (*causes.motions, *causes.self_stresses)):
             yield "whether another geometry would have them, too"
         yield from self.failed
-        if count := sum(one.reason is Reason.TOO_LARGE for one in self.extents.motions):
+        if count := sum(one.reason == "too large" for one in self.extents.motions):
             yield f"how far {counted(count, 'motion', ' goes', 's go')}: too large to be followed"
 
     def found(self, progress: Progress | None = None) -> Advice:

@@ -213,14 +213,14 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
     if stop.ending is Ending.ELEMENT:
         element = int(result.data.arrays.element_number[stop.element])
         raise TraceError(f"the path cannot be begun: element {element} is at the end of its range")
-    least = least_error(held, start.tangent, _TRIED)
+    _, largest = least_error(held, start.tangent, _TRIED)
     tried = (
-        f"{_TRIED * held.size:.2g} m along it, held deformations of {least.largest:.2g} of the "
+        f"{_TRIED * held.size:.2g} m along it, held deformations of {largest:.2g} of the "
         "model's size are left at the least"
     )
     if start.directions > 1:
         here = f"the mechanism can move in {start.directions} independent directions here"
-        if least.largest <= TRUE:
+        if largest <= TRUE:
             raise TraceError(
                 f"the path cannot be begun: {here}, and the paths that are near leave in others "
                 "than this one. Trace from a configuration a little way along one of them"

@@ -141,7 +141,7 @@ class Drive(NamedTuple):
         part, owner = self.freedom.place
         if not self.freedom.is_coordinate:
             value = self.held.deformation(where, 6 * owner + part)
-            return value * self.held.sizes.unit if drive_unit(self.freedom) == "m" else value
+            return value * self.held.unit if drive_unit(self.freedom) == "m" else value
         analysis = self.freedom.analysis
         node = int(analysis.condensed.nodes[owner])
         if drive_unit(self.freedom) == "m":

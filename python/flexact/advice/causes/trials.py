@@ -17,11 +17,11 @@ from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
-from ...util.records import Frozen, cached_property
+from ...util.records import Frozen
 from ...util.rotations import matrix_of
-from .cause import LineKind, Relation, RelationKind
+from .cause import Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
-from .gradients import Geometry, rank_at
+from .gradients import rank_at
 
 #: Of more joints no symmetry is looked for.
 _MOST_JOINTS = 36
@@ -45,22 +45,11 @@ def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
     places = result.given.arrays.node_value[:3, nodes].T
     middle = places.mean(axis=0)
     held = [result.parts.is_held(node) for node in nodes]
-    for axis, fold in _operations(places - middle, bars, held, result.given.planar):
-        kind = RelationKind.ROTATION if fold else RelationKind.REFLECTION
-        what = LineKind.MEMBER, tuple(parts), tuple(nodes)
-        yield Relation(kind, *what, without_sense(axis), middle, fold=max(fold, 1))
-
-
-def _operations(
-    places: FloatArray, bars: set[frozenset[int]], held: list[bool], planar: bool
-) -> Iterator[tuple[FloatArray, int]]:
-    """Axes and folds of what takes bars onto bars.
-
-    Half-turns, then reflections, of fold 0, then other rotations; about the middle of the joints.
-    """
-    size = float(np.abs(places).max())
+    places = places - middle
+    size, planar = float(np.abs(places).max()), result.given.planar
     axes = _candidates(places / size, planar)
     in_plane = [axis for axis in axes if abs(float(axis[2])) <= _SAME]
+    # Half-turns, then reflections, of fold 0, then other rotations; about the middle of the joints.
     for fold in (_FOLDS[0], 0, *_FOLDS[1:]):
         for axis in axes if fold or not planar else in_plane:
             matrix = matrix_of(2.0 * np.pi / fold * axis) if fold else _reflection(axis)
@@ -69,7 +58,9 @@ def _operations(
                 continue
             moved = {frozenset(image[k] for k in bar) for bar in bars}
             if moved == bars and all(held[k] == held[image[k]] for k in range(len(image))):
-                yield axis, fold
+                where = tuple(parts), tuple(nodes), without_sense(axis), middle
+                kind: RelationKind = "rotation" if fold else "reflection"
+                yield Relation(kind, "member", *where, fold=max(fold, 1))
 
 
 def _candidates(places: FloatArray, planar: bool) -> list[FloatArray]:
@@ -104,7 +95,7 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
 
 def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
     """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
-    is_turn = one.kind is RelationKind.ROTATION
+    is_turn = one.kind == "rotation"
     matrix = matrix_of(2.0 * np.pi / one.fold * one.direction)
     matrix = matrix if is_turn else _reflection(one.direction)
     own = np.searchsorted(result.condensed.nodes, one.nodes)
@@ -151,18 +142,11 @@ class Trials(Frozen):
     def __init__(self, result: Result, generic: int) -> None:
         """Keep the result."""
         self.result, self.generic = result, generic
+        #: The lines and planes of its parts, and its places and vectors.
+        self.figures = Figures(result)
+        self.geometry = self.figures.geometry
         # How many ranks may still be found.
         self.left = [int(np.clip(_MOST_WORK // max(result.rows, 1), _FEWEST, _MOST))]
-
-    @property
-    def geometry(self) -> Geometry:
-        """The places and vectors of the mechanism."""
-        return self.figures.geometry
-
-    @cached_property
-    def figures(self) -> Figures:
-        """The lines and planes of its parts."""
-        return Figures(self.result)
 
     def are_enough(self, relations: Sequence[Relation], special: int = 1) -> bool:
         """Whether what has all of these relations has so many special self-stresses.
@@ -193,10 +177,10 @@ class Trials(Frozen):
         conditions = []
         turned = rng.uniform(-_MOVED, _MOVED, 3)
         for one in relations:
-            if one.kind is RelationKind.POSITION:
+            if one.kind == "position":
                 self._keep(one.parts, places, vectors)
                 continue
-            if one.of is LineKind.MEMBER and one.kind in _SYMMETRIES:
+            if one.of == "member" and one.kind in _SYMMETRIES:
                 make_symmetric(self.result, one, places)
                 continue
             about = one.couple + turned * bool(one.couple.any())
@@ -204,9 +188,7 @@ class Trials(Frozen):
             if made is None:
                 return None
             conditions.append(made)
-        if not conditions:
-            return places, vectors
-        return self._led(conditions, places, vectors, rng)
+        return self._led(conditions, places, vectors, rng) if conditions else (places, vectors)
 
     def _keep(self, parts: Sequence[Part], places: FloatArray, vectors: FloatArray) -> None:
         """Put some parts back to where they are."""
@@ -269,8 +251,18 @@ class Trials(Frozen):
             change = np.linalg.lstsq(slope, off, rcond=1.0e-9)[0]
             # Far from the end it leads anywhere.
             value = value - change / max(1.0, float(np.abs(change).max(initial=0.0)) / _FARTHEST)
-        first, last = ((at[0], turned[0]) for at, turned in map(put, (before[None], value[None])))
-        return last if done and self._is_sound(first, last) else None
+        if not done:
+            return None
+        # Whether no member and no vector has become nearly none.
+        p, q = self.result.data.arrays.element_node[[0, 2]] - 1
+        there = (p >= 0) & (q >= 0)
+        at, turned = put(np.stack((before, value)))
+        lengths = np.linalg.norm(at[:, q] - at[:, p], axis=2)[:, there]
+        sizes = np.linalg.norm(turned, axis=2)
+        is_sound = np.all(lengths[1] >= _SHRUNK * lengths[0]) and np.all(
+            sizes[1] >= _SHRUNK * sizes[0]
+        )
+        return (at[1], turned[1]) if is_sound else None
 
     def _held(self, conditions: Sequence[Condition], before: int = 0) -> list[int]:
         """Of directions and points that are free besides those across the plane of a mechanism."""
@@ -281,22 +273,9 @@ class Trials(Frozen):
             before += count
         return made
 
-    def _is_sound(
-        self, before: tuple[FloatArray, FloatArray], after: tuple[FloatArray, FloatArray]
-    ) -> bool:
-        """Whether no member and no vector has become nearly none."""
-        p, q = self.result.data.arrays.element_node[[0, 2]] - 1
-        both = (p >= 0) & (q >= 0)
-        lengths = [np.linalg.norm(places[q] - places[p], axis=1) for places, _ in (before, after)]
-        sizes = [np.linalg.norm(vectors, axis=1) for _, vectors in (before, after)]
-        return bool(
-            np.all(lengths[1][both] >= _SHRUNK * lengths[0][both])
-            and np.all(sizes[1] >= _SHRUNK * sizes[0])
-        )
-
 
 def _unit(vector: FloatArray) -> FloatArray:
     return np.asarray(vector / max(float(np.linalg.norm(vector)), 1.0e-300))
 
 
-_SYMMETRIES = (RelationKind.ROTATION, RelationKind.REFLECTION)
+_SYMMETRIES = ("rotation", "reflection")
