@@ -185,7 +185,7 @@ def of_causes(result: Result, advice: Advice, done: Counter[str]) -> Iterator[Of
         seen.append(cause.relations)
         done["causes"] += 1
         for one in cause.relations:
-            done[f"{one.of.name.lower()} {one.kind.name.lower()}"] += 1
+            done[f"{one.of} {one.kind}"] += 1
         assert generic is not None
         assert generic == generic_rank(whole)[0]
         words = _insufficient(Trials(whole, generic), cause.relations, generic)
@@ -196,7 +196,7 @@ def of_causes(result: Result, advice: Advice, done: Counter[str]) -> Iterator[Of
 
 def _are_same(one: Sequence[Relation], other: Sequence[Relation]) -> bool:
     return len(one) == len(other) and all(
-        a.kind is b.kind and a.parts == b.parts for a, b in zip(one, other, strict=True)
+        a.kind == b.kind and a.parts == b.parts for a, b in zip(one, other, strict=True)
     )
 
 

@@ -37,8 +37,7 @@ from .causes.realignment import both_in_words
 from .describe import MOST_MODES, verdict_in_words
 from .motions import AdvisedMotion, AdvisedStress
 from .releases.releases import (
-    Declarations,
-    Releases,
+    Sets,
     declarations_of,
     releases_of,
     undeclarations_of,
@@ -114,15 +113,15 @@ class Advice(Frozen, Sequence[Step]):
         return self.made("how far motions go", lambda: extents_of(self.analysis), none)
 
     @cached_property
-    def releases(self) -> Releases:
+    def releases(self) -> Sets:
         """Sets of deformations whose release leaves no self-stress."""
-        result, none = self.analysis, Releases(self.analysis.over_constrained, None)
+        result, none = self.analysis, Sets(self.analysis.over_constrained, None)
         return self.made("releases", lambda: releases_of(result, self.bodies), none)
 
     @cached_property
-    def declarations(self) -> Declarations:
+    def declarations(self) -> Sets:
         """Sets of coordinates whose declaration, or holding, leaves no motion."""
-        none = Declarations(self.analysis.under_constrained, None)
+        none = Sets(self.analysis.under_constrained, None)
         return self.made("declarations", lambda: declarations_of(self.analysis), none)
 
     @cached_property
@@ -189,9 +188,9 @@ class Advice(Frozen, Sequence[Step]):
             "declarations to take back", lambda: undeclarations_of(self.analysis), ()
         )
         self._find("releases", progress)
-        yield from (*self.releases.sets, *self.releases.supports)
+        yield from (*self.releases.sets, *self.releases.others)
         self._find("declarations", progress)
-        yield from (*self.declarations.sets, *self.declarations.holds)
+        yield from (*self.declarations.sets, *self.declarations.others)
         self._find("spaces", progress)
         yield from self._as_it_stands(() if self.spaces is None else self.spaces.steps)
 
@@ -241,7 +240,7 @@ class Advice(Frozen, Sequence[Step]):
         ):
             if not sets.size:
                 continue
-            if sets.left_out.is_too_large:
+            if sets.is_too_large:
                 yield f"sets of {what}, for so many {many}"
             elif sets.count is None:
                 yield f"how many sets of {what} there are: too many to be counted"
@@ -284,8 +283,8 @@ class Advice(Frozen, Sequence[Step]):
         told = {(step.purpose, step.change) for step in self.steps}
         result, spaces = self.analysis, self.spaces
         return {
-            "releases": json.of_sets(self.releases, told),
-            "declarations": json.of_sets(self.declarations, told),
+            "releases": json.of_sets("deformations", self.releases, told),
+            "declarations": json.of_sets("coordinates", self.declarations, told),
             "motions": list(map(json.of_motion, self.motions)),
             "self_stresses": list(map(json.of_self_stress, self.self_stresses)),
             "spaces": None if spaces is None else json.of_spaces(result, spaces, self.wanted),

@@ -87,19 +87,13 @@ def holds_of(result: Result) -> tuple[Hold, ...]:
     pairs = {each.bodies for each in found}
     if any(len(own) != 2 or tuple(sorted(own)) not in pairs for own in net.pins.values()):
         return ()
-    sines = _sines([net.on_bodies(each) for each in found])
-    return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
-
-
-def _sines(rows: list[FloatArray]) -> list[float]:
-    """Of the smallest angle between the span of each block of rows and that of all others.
-
-    The least norm of motions that only one block sees, when it sees unit rates, is one over it.
-    """
-    blocks = [_orthonormal(each) for each in rows]
-    inverse = np.linalg.pinv(np.concatenate(blocks))
+    # Of the smallest angle between the span of each block of rows and that of all others: the least
+    # norm of motions that only one block sees, when it sees unit rates, is one over it.
+    blocks = [_orthonormal(net.on_bodies(each)) for each in found]
     ends = np.cumsum([len(each) for each in blocks])[:-1]
-    return [1.0 / float(np.linalg.norm(each, 2)) for each in np.split(inverse, ends, axis=1)]
+    inverse = np.split(np.linalg.pinv(np.concatenate(blocks)), ends, axis=1)
+    sines = [1.0 / float(np.linalg.norm(each, 2)) for each in inverse]
+    return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
 
 
 def _orthonormal(rows: FloatArray) -> FloatArray:
@@ -204,7 +198,10 @@ class _Net:
         for k, node in enumerate(nodes):
             block = rates[:, 3 * k : 3 * k + 3]
             if self.owner[node] == ends[1]:
-                body += block @ self._moved(node, middle)
+                # The velocity of a node of a body from its twist (v, w) about the middle.
+                turned = np.cross(self.place[node] - middle, np.eye(3))
+                moved_by = np.hstack((np.eye(3), turned)) if self.placed[node] else np.eye(3, 6, 3)
+                body += block @ moved_by
             elif self.owner[node] == -2:
                 classes = self.data.arrays.coordinate_class[:3, node]
                 inner.append(block[:, np.isin(classes, (Class.DEPENDENT, Class.INDEPENDENT))])
@@ -240,16 +237,6 @@ class _Net:
             made[place] += raw.value[i]
         return made
 
-    def _moved(self, node: int, middle: FloatArray) -> FloatArray:
-        """(3, 6) the velocity of a node of a body from its twist (v, w) about a point."""
-        made = np.zeros((3, 6))
-        if self.placed[node]:
-            made[:, :3] = np.eye(3)
-            made[:, 3:] = -_cross(self.place[node] - middle)
-        else:
-            made[:, 3:] = np.eye(3)
-        return made
-
     def on_bodies(self, carried: _Carried) -> FloatArray:
         """(k, 6 bodies) wrenches on the twists of all bodies, each about its own middle."""
         made = np.zeros((len(carried.wrenches), 6 * self.bodies))
@@ -280,12 +267,6 @@ class _Net:
         )
         kept = tuple(part for part in parts if part.kind is not PartKind.BODY)
         return Hold(kept, space, sine, extent)
-
-
-def _cross(arm: FloatArray) -> FloatArray:
-    """(3, 3) that makes cross products with an arm."""
-    x, y, z = arm.tolist()
-    return np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
 
 
 #: What the number is.

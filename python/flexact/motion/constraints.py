@@ -140,15 +140,6 @@ class Held:
         value[placed, :axes] += self.middle[:axes]
         return Configuration(here.kinds, value)
 
-    def inside(self, there: Configuration) -> Configuration:
-        """The other way round."""
-        value = there.value.copy()
-        placed = there.kinds <= NodeKind.POSITION
-        axes = 2 if self.data.planar else 3
-        value[placed, :axes] -= self.middle[:axes]
-        value[placed, :3] /= self.unit
-        return Configuration(there.kinds, value)
-
     def direction(self, motion: Velocities) -> FloatArray:
         """(n,) a motion: displacements by the size, rotations in radians."""
         both = (motion.displacement / self.size + motion.rotation).ravel()

@@ -196,25 +196,6 @@ _MOST_TRIES, _FEWEST_TRIES, _MOST_OPERATIONS = 100, 4, 6.0e10
 _EQUAL, _TINY = 1.0e-6, 1.0e-9
 
 
-class LeftOut(NamedTuple):
-    """What was not looked at, or did not work."""
-
-    untried: int = 0
-    """Sets that look right and were not tried, of those that were looked at."""
-    failed: int = 0
-    """Sets that were tried and did not work."""
-    doubtful: int = 0
-    """Sets that work for the numbers as they are, though rounding may hide that they do not."""
-    is_too_large: bool = False
-    """Whether the model is so large that one set at most was looked for."""
-
-
-#: Nothing was left out.
-NOTHING_LEFT_OUT = LeftOut()
-#: Steps that work, and what was left out.
-Listed = tuple[tuple[Release, ...], LeftOut]
-
-
 class _Works(NamedTuple):
     """A set that works."""
 
@@ -257,7 +238,7 @@ def decades(condition: FloatArray) -> FloatArray:
 
 def listed(
     result: Result, reach: Reach, purpose: Purpose, found: list[Candidate], most: int = MOST_SETS
-) -> Listed:
+) -> tuple[Release, ...]:
     """The best sets of rows that work, each tried.
 
     First one of each group that may be equal is tried, then the others of these groups: those
@@ -298,15 +279,14 @@ def listed(
     # How many analyses may be made.
     operations = float(result.rows) * result.columns * min(result.rows, result.columns)
     tries = _MOST_OPERATIONS / max(operations, 1.0)
-    left, failed = int(np.clip(tries, _FEWEST_TRIES, _MOST_TRIES)), 0
+    left = int(np.clip(tries, _FEWEST_TRIES, _MOST_TRIES))
     works: list[_Works] = []
 
     def is_good(candidate: Candidate) -> bool:
-        nonlocal left, failed
+        nonlocal left
         left -= 1
         one = _tried(result, purpose, candidate, together(map(change, candidate.members)))
         works.extend(() if one is None else (one,))
-        failed += one is None
         return one is not None
 
     good: list[list[Candidate]] = []
@@ -318,23 +298,19 @@ def listed(
         for group in good:
             if turn < len(group) and left:
                 is_good(group[turn])
-    untried = len(found) - len(works) - failed
     place = {candidate.members: i for i, candidate in enumerate(found)}
     works.sort(key=lambda one: place[one.candidate.members])
-    certain = [one for one in works if one.is_certain]
-    doubtful = len(works) - len(certain) if certain else 0
     alike: list[list[_Works]] = []
-    for one in certain or works:
+    for one in [one for one in works if one.is_certain] or works:
         equal = next((each for each in alike if are_equal(each[0], one)), None)
         if equal is None:
             alike.append([one])
         else:
             equal.append(one)
-    made = (
+    return tuple(
         replace(first.step, alternatives=tuple(other.step.change for other in others))
         for first, *others in alike[:most]
     )
-    return tuple(made), LeftOut(untried, failed, doubtful)
 
 
 def _tried(result: Result, purpose: Purpose, candidate: Candidate, change: Change) -> _Works | None:

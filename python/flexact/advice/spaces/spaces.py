@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...analysis.carriers import Joint
 from ...analysis.change import Change
 from ...analysis.naming import Line, Pieces, coordinate_in_words, in_words, named_element, sentence
 from ...analysis.places import axis_words, joint_words, part_words
@@ -52,11 +51,6 @@ class Spaces(Frozen):
     stoppable: int = 0
     steps: tuple[Step, ...] = ()
     tried: bool = True
-
-    @property
-    def body(self) -> Part | Joint:
-        """The body, or the joint with an orientation."""
-        return self.subject.body
 
     @property
     def new_wires(self) -> FloatArray:
@@ -174,12 +168,14 @@ def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
     start = f"{body[:1].upper()}{body[1:]}"
     free, held = spaces.freedom.dimension, spaces.constraint.dimension
     if free:
-        head = f"Freedom of {body}, with nothing declared: {_independent(free, 'motion')}: "
+        many = f"{in_words(free)} independent motion{'s' * (free != 1)}"
+        head = f"Freedom of {body}, with nothing declared: {many}: "
         yield Line((head,), space_in_words(geometry, spaces.freedom))
     else:
         yield sentence(f"{start} cannot move, with nothing declared.")
     if held:
-        head = f"Constraint of {body}: {_independent(held, 'force or moment')}: "
+        many = "force or moment" if held == 1 else "forces and moments"
+        head = f"Constraint of {body}: {in_words(held)} independent {many}: "
         yield Line((head,), space_in_words(geometry, spaces.constraint))
     else:
         yield sentence(f"Nothing holds {body}.")
@@ -208,15 +204,32 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
     besides = f"Besides, {body} moves" if had else f"{body[:1].upper()}{body[1:]} moves"
     others = "other " if had else ""
     yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
-    if spaces.stoppable < count:
-        yield sentence(_impossible(spaces))
+    left = count - spaces.stoppable
+    if left and not spaces.stoppable:
+        what = "it" if left == 1 else "any of them"
+        yield sentence(
+            f"No wire can stop {what}: a force along any line that does no work on what is "
+            "wanted does none on it either; a moment would be needed."
+        )
+    elif left:
+        yield sentence(
+            f"Wires can stop {in_words(spaces.stoppable)} of them; for the other "
+            f"{in_words(left)} a moment would be needed, which no force along a line gives without "
+            "work on what is wanted."
+        )
     if not spaces.tried and not result.is_told_by_parts:
         yield sentence("The mechanism is so large that no wires were tried.")
     if spaces.tried and spaces.stoppable and not spaces.steps:
         yield sentence(
             "Of the wires that were tried none stops only that and causes no self-stress."
         )
-    yield from _taken_back(result, spaces)
+    # Which declarations of what is not wanted go with the wires.
+    items: list[Pieces] = []
+    for change in [step.change for step in spaces.steps[:1]]:
+        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
+        items += [(named_element(result, element),) for element, _, _ in change.deformations]
+    if items:
+        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
 
 
 def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
@@ -245,32 +258,6 @@ def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
         )
 
 
-def _taken_back(result: Result, spaces: Spaces) -> Iterator[Line]:
-    """Which declarations of what is not wanted go with the wires."""
-    changes = [step.change for step in spaces.steps[:1]]
-    items: list[Pieces] = []
-    for change in changes:
-        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
-        items += [(named_element(result, element),) for element, _, _ in change.deformations]
-    if items:
-        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
-
-
-def _impossible(spaces: Spaces) -> str:
-    left = spaces.unwanted - spaces.stoppable
-    if not spaces.stoppable:
-        what = "it" if left == 1 else "any of them"
-        return (
-            f"No wire can stop {what}: a force along any line that does no work on what is "
-            "wanted does none on it either; a moment would be needed."
-        )
-    return (
-        f"Wires can stop {in_words(spaces.stoppable)} of them; for the other "
-        f"{in_words(left)} a moment would be needed, which no force along a line gives without "
-        "work on what is wanted."
-    )
-
-
 def _wanted(geometry: Geometry, wanted: Wanted) -> str:
     if wanted.kind is ScrewKind.TRANSLATION:
         return f"translation along {axis_words(wanted.direction)}"
@@ -287,14 +274,7 @@ def dashed_in_words(wires: int) -> str:
 
 def body_words(result: Result, spaces: Spaces) -> str:
     """What the body is called within a sentence, such as "the stage"."""
-    body = spaces.body
+    body = spaces.subject.body
     if isinstance(body, Part):
         return part_words(body)
     return joint_words(result.parts, body)
-
-
-def _independent(count: int, word: str) -> str:
-    if word == "force or moment":
-        word = "independent force or moment" if count == 1 else "independent forces and moments"
-        return f"{in_words(count)} {word}"
-    return f"{in_words(count)} independent {word}{'s' * (count != 1)}"
