@@ -370,12 +370,13 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
         ),
         (),
     )
+    missing = tuple((each,) for each in advice.left_out)
     made = (
         tuple(_motions(advice, known)),
         tuple(_stresses(advice, known)),
         advice.made("a pair", lambda: _both(advice), ()),
         *_steps(advice, most),
-        tuple(_left_out(advice)),
+        ((Line(("Left out: ",), missing), False),) if missing else (),
         spaces,
     )
     return tuple(section for section in made if section)
@@ -464,11 +465,6 @@ def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
     if numbers := tuple(map(str, advice.exact_by)):
         how = f"--apply {','.join(numbers)}"
         yield (_said(f"Steps {listed(numbers)} together make it exactly constrained ({how})."),)
-
-
-def _left_out(advice: Advice) -> Iterator[Told]:
-    if missing := tuple((each,) for each in advice.left_out):
-        yield Line(("Left out: ",), missing), False
 
 
 def _item(number: int, pieces: Pieces) -> Told:

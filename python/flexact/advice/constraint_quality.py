@@ -84,7 +84,7 @@ def holds_of(result: Result) -> tuple[Hold, ...]:
     if not found or len(found) < len(net.groups):
         return ()
     # Bodies that share a point have a hinge there, which has it in what it holds.
-    pairs = {each.bodies for each in found}
+    pairs = {bodies for _, bodies, _, _ in found}
     if any(len(own) != 2 or tuple(sorted(own)) not in pairs for own in net.pins.values()):
         return ()
     # Of the smallest angle between the span of each block of rows and that of all others: the least
@@ -101,14 +101,9 @@ def _orthonormal(rows: FloatArray) -> FloatArray:
     return np.asarray(turned[sizes > _ROUNDING * sizes.max(initial=0.0)])
 
 
-@dataclass(frozen=True, eq=False)
-class _Carried(Frozen):
-    """Wrenches (k, 6), force and moment about the middle [m], on the second of two bodies."""
-
-    elements: tuple[int, ...]
-    bodies: tuple[int, int]
-    middle: FloatArray
-    wrenches: FloatArray
+#: What elements carry: they, two bodies, a point, and wrenches (k, 6), force and moment about it,
+#: on the second of the bodies.
+_Carried = tuple[tuple[int, ...], tuple[int, int], FloatArray, FloatArray]
 
 
 class _Net:
@@ -220,7 +215,7 @@ class _Net:
             return None
         # A twist is (v, w length) there, and a wrench (f, m/length).
         wrenches = held * np.repeat((1.0, self.length), 3)
-        return _Carried(elements, (ends[0], ends[1]), middle, wrenches)
+        return elements, (ends[0], ends[1]), middle, wrenches
 
     def _rates(self, elements: tuple[int, ...], nodes: list[int]) -> FloatArray:
         """(held, 3 nodes) rates of what elements hold, rotations by the length of the mechanism."""
@@ -239,28 +234,28 @@ class _Net:
 
     def on_bodies(self, carried: _Carried) -> FloatArray:
         """(k, 6 bodies) wrenches on the twists of all bodies, each about its own middle."""
-        made = np.zeros((len(carried.wrenches), 6 * self.bodies))
-        for body, sign in zip(carried.bodies, (-1.0, 1.0), strict=True):
+        _, bodies, middle, wrenches = carried
+        made = np.zeros((len(wrenches), 6 * self.bodies))
+        for body, sign in zip(bodies, (-1.0, 1.0), strict=True):
             if body != _GROUND:
-                force, moment = carried.wrenches[:, :3], carried.wrenches[:, 3:]
-                about = moment + np.cross(carried.middle - self.centres[body], force)
+                force, moment = wrenches[:, :3], wrenches[:, 3:]
+                about = moment + np.cross(middle - self.centres[body], force)
                 both = np.concatenate((force, about / self.length), axis=1)
                 made[:, 6 * body : 6 * body + 6] = sign * both
         return made
 
     def told(self, carried: _Carried, sine: float) -> Hold:
         """A flexure in the words of the model as it was given."""
-        elements = self.result.condensed.elements
-        parts = dict.fromkeys(
-            self.result.parts.of_element(int(elements[e])) for e in carried.elements
-        )
-        nodes = [n for e in carried.elements for n in self.slots[e, [0, 2]].tolist() if n >= 0]
+        elements, _, middle, wrenches = carried
+        given = self.result.condensed.elements
+        parts = dict.fromkeys(self.result.parts.of_element(int(given[e])) for e in elements)
+        nodes = [n for e in elements for n in self.slots[e, [0, 2]].tolist() if n >= 0]
         places = self.place[nodes] if nodes else np.zeros((1, 3))
         extent = float(np.linalg.norm(np.ptp(places, axis=0))) or _OF_A_HINGE * self.length
-        scaled = _orthonormal(carried.wrenches * np.repeat((self.length, 1.0), 3))
+        scaled = _orthonormal(wrenches * np.repeat((self.length, 1.0), 3))
         space = ScrewSpace(
             scaled / np.repeat((self.length, 1.0), 3),
-            carried.middle,
+            middle,
             self.length,
             of_wrenches=True,
             planar=self.result.given.planar,

@@ -22,6 +22,7 @@ from ..util.groups import least_of_groups
 from ..util.matrices import complement, null_space, span
 from ..util.records import Frozen, cached_property
 from .constraints import Held
+from .stations import solved
 
 #: Entries of a vector of unit norm that are rounding.
 _UNSEEN = 1.0e-10
@@ -272,7 +273,7 @@ def _dense(basis: Basis, vectors: tuple[int, ...]) -> FloatArray:
 
 _MOST_STEPS = 14
 #: A correction below this is rounding, where it no longer gets smaller.
-_SETTLED, _ROUNDING, _SHRINKS = 1.0e-15, 1.0e-10, 0.7
+_ROUNDING, _SHRINKS = 1.0e-10, 0.7
 #: What is left of g where it is zero, and where that may be rounding, so that steps have to gain.
 _EXTENTS_REDUCED_ZERO, _ROUNDED, _GAIN_IN_ROUNDING = 1.0e-18, 1.0e-15, 0.5
 #: The steps to the least of g: how many, their damping times its square, and what ends them.
@@ -324,32 +325,17 @@ class Reduced:
         felt, held, self._left = self.felt, self.felt.held, self._left - 1
         if self._left < 0:
             return None
-        ahead, last = felt.motions @ shares, np.inf
-        across = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
-        for _ in range(_MOST_STEPS):
-            change = ahead + self._across @ across
-            place = held.at(held.reference, change)
-            if not place.is_finite:
-                return None
-            by_rest = self._rest.T @ place.jacobian
-            matrix = by_rest @ self._across
-            try:
-                both = np.linalg.solve(
-                    matrix,
-                    np.column_stack([self._rest.T @ place.error, by_rest @ felt.motions]),
-                )
-            except np.linalg.LinAlgError:
-                return None
-            now = float(np.linalg.norm(both[:, 0]))
-            if now <= _SETTLED or _SHRINKS * last < now <= _ROUNDING:
-                along = felt.motions - self._across @ both[:, 1:]
-                by_stress = self.stresses.T @ place.jacobian
-                left = self.stresses.T @ place.error
-                return Here(shares, change, left, by_stress @ along, place.residual)
-            if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
-                return None
-            across, last = across - both[:, 0], now
-        return None
+        start = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
+        ahead, bases = felt.motions @ shares, (self._rest, self._across)
+        near = solved(held, held.reference, ahead, bases, start, (_MOST_STEPS, _ROUNDING, _SHRINKS))
+        if near is None:
+            return None
+        by_rest = self._rest.T @ near.place.jacobian
+        back = np.linalg.solve(by_rest @ self._across, by_rest @ felt.motions)
+        along = felt.motions - self._across @ back
+        slope = self.stresses.T @ near.place.jacobian @ along
+        left = self.stresses.T @ near.place.error
+        return Here(shares, ahead + near.across, left, slope, near.place.residual)
 
     def least(self, start: FloatArray, basis: FloatArray, reach: float) -> Here | None:
         """The position with the least of g near some shares (N,), changed within a basis (N, k).

@@ -50,25 +50,49 @@ class Chart:
 
     def near(self, ahead: FloatArray) -> Near | None:
         """The place after a change (n,) in the null space; None where Newton finds none."""
-        share, last = np.zeros(self.right.shape[1]), np.inf
-        for _ in range(_MOST_STEPS):
-            across = self.right @ share
-            place = self.held.at(self.middle, ahead + across)
-            if not place.is_finite:
-                return None
-            try:
-                change = np.linalg.solve(
-                    self.left.T @ place.jacobian @ self.right, self.left.T @ place.error
-                )
-            except np.linalg.LinAlgError:
-                return None
-            now = float(np.linalg.norm(change))
-            if now <= _SETTLED or (now <= _ROUNDING and now > _SHRINKS * last):
-                return Near(place, across)
-            if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
-                return None
-            share, last = share - change, now
-        return None
+        start, limits = np.zeros(self.right.shape[1]), (_MOST_STEPS, _ROUNDING, _SHRINKS)
+        return solved(self.held, self.middle, ahead, (self.left, self.right), start, limits)
+
+
+def solved(
+    held: Held,
+    middle: Configuration,
+    ahead: FloatArray,
+    bases: tuple[FloatArray, FloatArray],
+    share: FloatArray,
+    limits: tuple[int, float, float],
+) -> Near | None:
+    """The place, by Newton's method, at which some combinations of the held deformations are zero.
+
+    Args:
+        held: What is held.
+        middle: Where it begins.
+        ahead: (n,) a change that stays.
+        bases: Orthonormal columns: the combinations, and the changes that are sought.
+        share: With so much of these it begins.
+        limits: How many steps; up to where a correction that no longer gets smaller is rounding;
+            by how much they have to.
+
+    Returns:
+        None where it does not converge.
+    """
+    (left, right), (most, rounding, shrinks), last = bases, limits, np.inf
+    for _ in range(most):
+        across = right @ share
+        place = held.at(middle, ahead + across)
+        if not place.is_finite:
+            return None
+        try:
+            change = np.linalg.solve(left.T @ place.jacobian @ right, left.T @ place.error)
+        except np.linalg.LinAlgError:
+            return None
+        now = float(np.linalg.norm(change))
+        if now <= _SETTLED or shrinks * last < now <= rounding:
+            return Near(place, across)
+        if now > max(shrinks * last, rounding) or not np.isfinite(now):
+            return None
+        share, last = share - change, now
+    return None
 
 
 @dataclass(frozen=True, eq=False)

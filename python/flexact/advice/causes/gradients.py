@@ -367,8 +367,8 @@ def node_key(result: Result, node: int) -> tuple[object, ...]:
     given = int(result.condensed.nodes[node])
     parts = result.parts
     name = parts.name_of_point(given) or next((part.name for part in parts.at(given)), "")
-    place = np.round(result.given.arrays.node_value[:3, given] / _step(result)) + 0.0
-    return parts.is_held(given), natural(name), tuple(place.tolist())
+    place = place_key(result, result.given.arrays.node_value[:3, given])
+    return parts.is_held(given), natural(name), place
 
 
 def _element_key(result: Result, element: int) -> tuple[object, ...]:
@@ -378,12 +378,13 @@ def _element_key(result: Result, element: int) -> tuple[object, ...]:
     nodes = result.given.arrays.element_node[[0, 2], given] - 1
     places = [result.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
     middle = np.mean(places, axis=0) if places else np.zeros(3)
-    rounded = np.round(middle / _step(result)) + 0.0
-    return part.kind is PartKind.BODY, natural(part.name), tuple(rounded.tolist())
+    return part.kind is PartKind.BODY, natural(part.name), place_key(result, middle)
 
 
-def _step(result: Result) -> float:
-    return 1.0e-9 * result.characteristic_length
+def place_key(result: Result, place: FloatArray) -> tuple[float, ...]:
+    """A place by which equals are sorted, without what rounding makes of it."""
+    rounded = np.round(place / (1.0e-9 * result.characteristic_length)) + 0.0
+    return tuple(rounded.tolist())
 
 
 #: A told vector of which less than this lies in the space of the undivided mechanism is not there.

@@ -25,6 +25,7 @@ from ...model.parts.parts import Part, PartKind, natural
 from ...util.groups import groups_of
 from ...util.records import cached_property
 from .cause import LineKind, Relation, RelationKind
+from .gradients import place_key
 
 
 class Limb(NamedTuple):
@@ -383,7 +384,14 @@ def clusters_of(result: Result) -> tuple[frozenset[int], ...]:
     # Those of which no coordinate of a joint is fixed.
     classes = result.given.arrays.coordinate_class
     free = [body for body in made if not np.any(classes[:, sorted(body)] == Class.FIXED)]
-    return tuple(sorted(free, key=lambda body: (-len(body), _key(result, body))))
+
+    def key(body: frozenset[int]) -> tuple[object, ...]:
+        """By the names of its joints, then by their places."""
+        places = result.given.arrays.node_value[:3, sorted(body)].T
+        names = sorted(natural(result.parts.name_of_point(node)) for node in body)
+        return -len(body), names, sorted(place_key(result, place) for place in places)
+
+    return tuple(sorted(free, key=key))
 
 
 def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[int]:
@@ -393,11 +401,3 @@ def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[
         if not new:
             return frozenset(body)
         body |= new
-
-
-def _key(result: Result, body: frozenset[int]) -> object:
-    """By the names of its joints, then by their places."""
-    step = 1.0e-9 * result.characteristic_length
-    places = np.round(result.given.arrays.node_value[:3, sorted(body)].T / step) + 0.0
-    names = sorted(natural(result.parts.name_of_point(node)) for node in body)
-    return names, sorted(map(tuple, places.tolist()))

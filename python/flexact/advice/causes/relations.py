@@ -32,6 +32,7 @@ from .conditions import (
     half_turned,
     on_two_lines,
 )
+from .gradients import place_key
 from .lines import (
     Limb,
     Limbs,
@@ -491,11 +492,10 @@ class _Ladder:
         elements = [index for part in self.parts for index in part.elements]
         found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist()) - {-1}
         able = [p for p in found if arrays.node_kind[p] <= NodeKind.POSITION]
-        step = 1.0e-9 * self.result.characteristic_length
 
         def key(position: int) -> tuple[object, ...]:
-            place = np.round(self.limbs.place(position) / step) + 0.0
-            return natural(self.result.parts.name_of_point(position)), tuple(place.tolist())
+            name = natural(self.result.parts.name_of_point(position))
+            return name, place_key(self.result, self.limbs.place(position))
 
         return tuple(sorted(able, key=key))
 

@@ -217,7 +217,12 @@ class Trials(Frozen):
         ends = np.cumsum([0, *sizes])
         besides = np.concatenate([one.free for one in conditions])
         besides = besides + _MOVED * rng.uniform(-1.0, 1.0, besides.size)
-        besides[self._held(conditions)] = 0.0
+        # Of directions and points those across the plane of a mechanism are not free.
+        across: list[int] = []
+        for one, first in zip(conditions, ends.tolist(), strict=False):
+            if one.is_directed and self.result.given.planar:
+                across += range(first + 2, first + one.free.size, 3)
+        besides[across] = 0.0
         value = np.concatenate((places[node, axis] / length, vectors[elements].ravel(), besides))
         split = node.size, node.size + 3 * elements.size
 
@@ -236,7 +241,7 @@ class Trials(Frozen):
             ]
             return np.concatenate(made, axis=1)
 
-        held = self._held(conditions, split[1])
+        held = [split[1] + k for k in across]
         before, done = value, 0
         steps = _STEP * np.eye(value.size)
         for _ in range(_STEPS):
@@ -263,15 +268,6 @@ class Trials(Frozen):
             sizes[1] >= _SHRUNK * sizes[0]
         )
         return (at[1], turned[1]) if is_sound else None
-
-    def _held(self, conditions: Sequence[Condition], before: int = 0) -> list[int]:
-        """Of directions and points that are free besides those across the plane of a mechanism."""
-        made: list[int] = []
-        for one in conditions if self.result.given.planar else ():
-            count = one.free.size
-            made += range(before + 2, before + count, 3) if one.is_directed else ()
-            before += count
-        return made
 
 
 def _unit(vector: FloatArray) -> FloatArray:

@@ -285,9 +285,7 @@ def _told(pitches: FloatArray, rows: FloatArray) -> Iterator[FloatArray]:
 def _rank(rows: FloatArray) -> int:
     """How many of some rows are independent."""
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
-    if not len(rows):
-        return 0
-    return int(np.sum(np.linalg.svd(rows / sizes, compute_uv=False) > SAME))
+    return int(np.linalg.matrix_rank(rows / sizes, SAME)) if len(rows) else 0
 
 
 def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Family, ...]:
@@ -513,15 +511,14 @@ class ScrewSpace(Frozen):
         d = floats(direction, "a direction")
         return np.concatenate((np.zeros(3), d / np.linalg.norm(d)))
 
-    def distance(self, screw: FloatArray) -> float:
-        """Which part of a twist or a wrench, (6,), is not in the space: from 0 to 1."""
+    def has(self, screw: FloatArray, limit: float = SAME) -> bool:
+        """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space.
+
+        No larger part of it than the limit may be beyond.
+        """
         scaled = screw * self.factors
         rest = scaled - self.scaled.T @ (self.scaled @ scaled)
-        return float(np.linalg.norm(rest) / np.linalg.norm(scaled))
-
-    def has(self, screw: FloatArray, limit: float = SAME) -> bool:
-        """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space."""
-        return self.distance(screw) <= limit
+        return float(np.linalg.norm(rest) / np.linalg.norm(scaled)) <= limit
 
     def sine_to(self, other: ScrewSpace) -> float:
         """The sine of the largest angle of this space with another one about the same point."""

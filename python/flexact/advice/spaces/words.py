@@ -39,11 +39,11 @@ class Geometry:
         """Of the mechanism as it was given."""
         self.outcome = outcome
         self._values = outcome.given.arrays.node_value[:3].T
+        self._near = SAME * outcome.characteristic_length
 
     def of(self, family: Family) -> str:
         """What belongs to a family, such as "all lines through A in the plane z = 0.04 m"."""
-        planar = self.outcome.given.planar
-        made = self._in_plane(family) if planar else ""
+        made = self._in_plane(family) if self.outcome.given.planar else ""
         return made or self._in_space(family)
 
     def _in_space(self, family: Family) -> str:
@@ -86,10 +86,6 @@ class Geometry:
         if kind is FamilyKind.DIRECTIONS_IN_PLANE:
             return "every direction"
         return ""
-
-    @property
-    def _near(self) -> float:
-        return SAME * self.outcome.characteristic_length
 
     @cached_property
     def _named(self) -> tuple[tuple[str, FloatArray], ...]:
