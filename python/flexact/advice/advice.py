@@ -370,16 +370,16 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
         ),
         (),
     )
-    missing = tuple((each,) for each in advice.left_out)
-    made = (
+    made = [
         tuple(_motions(advice, known)),
         tuple(_stresses(advice, known)),
         advice.made("a pair", lambda: _both(advice), ()),
         *_steps(advice, most),
-        ((Line(("Left out: ",), missing), False),) if missing else (),
-        spaces,
-    )
-    return tuple(section for section in made if section)
+    ]
+    # What has failed until now is among it.
+    if missing := tuple((each,) for each in advice.left_out):
+        made.append(((Line(("Left out: ",), missing), False),))
+    return tuple(section for section in (*made, spaces) if section)
 
 
 def _said(words: str, hangs: bool = False) -> Told:

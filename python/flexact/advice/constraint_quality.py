@@ -27,7 +27,7 @@ from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
 from ..model.parts.parts import Part, PartKind
-from ..util.groups import groups_of
+from ..util.groups import grouped, groups_of
 from ..util.records import Frozen
 from .spaces.screws import ScrewSpace
 from .spaces.words import Geometry, space_in_words
@@ -163,17 +163,12 @@ class _Net:
 
     def _grouped(self) -> list[tuple[int, ...]]:
         """Flexible elements that hang together away from bodies and ground."""
-        at: dict[int, list[int]] = {}
-        for k, e in enumerate(self.flexible):
-            for node in self.slots[e].tolist():
-                if node >= 0 and self.owner[node] == -2:
-                    at.setdefault(node, []).append(k)
-        pairs = [(one, other) for every in at.values() for one in every[:1] for other in every[1:]]
-        owner = groups_of(len(self.flexible), pairs).tolist()
-        made: dict[int, list[int]] = {}
-        for e, group in zip(self.flexible, owner, strict=True):
-            made.setdefault(group, []).append(e)
-        return [tuple(each) for each in made.values()]
+        count, free = len(self.flexible), np.flatnonzero(self.owner == -2)
+        # Elements and nodes, side by side.
+        ends = np.argwhere(np.isin(self.slots[self.flexible], free)).tolist()
+        pairs = ((k, count + int(self.slots[self.flexible[k], slot])) for k, slot in ends)
+        group = groups_of(count + self.owner.size, pairs)[:count].tolist()
+        return list(map(tuple, grouped(zip(group, self.flexible, strict=True)).values()))
 
     def wrenches(self, elements: tuple[int, ...]) -> _Carried | None:
         """What a flexure carries; None unless it stands between two bodies."""

@@ -12,10 +12,11 @@ from ..core.elements import Class, Member, NodeKind, coordinate_name, is_positio
 from ..core.raw import ElementKind
 from ..deck.diagnostics import Source
 from ..deck.rendering import ModelError, model_error
+from ..util.groups import grouped
 from ..util.records import cached_property
 from ..util.text import in_short
 from .attributes import NUMBERS
-from .names import grouped, one_line, part_name
+from .names import one_line, part_name
 from .places import ROUNDING, Places, RigidComponents
 
 Colour = tuple[float, float, float]

@@ -5,14 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import TypeVar
 
 from ..core.elements import POSITION_NAMES, ROTATION_NAMES
 from ..deck.rendering import ModelError, model_error
 from ..util.loading import load
 from ..util.text import in_short
 
-Key = TypeVar("Key")
 #: Names of coordinates, which no point can have.
 COORDINATES = frozenset((*POSITION_NAMES, *ROTATION_NAMES))
 
@@ -48,14 +46,6 @@ def own_number(element_name: str) -> int:
 def renamed(element_name: str, part: str) -> str:
     """The name of an element after its part was named anew."""
     return part + element_name[len(part_name(element_name)) :]
-
-
-def grouped(pairs: Iterable[tuple[Key, int]]) -> dict[Key, list[int]]:
-    """Numbers by what they have in common, in their order."""
-    made: dict[Key, list[int]] = {}
-    for key, number in pairs:
-        made.setdefault(key, []).append(number)
-    return made
 
 
 def unknown(code: str, what: str, name: str, known: Iterable[str]) -> ModelError:

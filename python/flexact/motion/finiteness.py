@@ -20,7 +20,7 @@ from ..analysis.decomposition import column_weights
 from ..analysis.limits import CLEAR_SLOPE, RIGID, ROUNDING, STRAINED, UNSTRAINED
 from ..analysis.result import Motion, Result
 from ..core.arrays import FloatArray
-from ..model.parts.parts import Part
+from ..util.groups import distinct, grouped
 from ..util.loading import load
 from .extent import Branch, EvidenceKind, Extent, Extents, Kind, Reason
 from .paths import MOST_MOTIONS, by_path, is_without_strain, positions_near
@@ -203,12 +203,8 @@ def branches_of(lines: Sequence[FloatArray], vectors: dict[int, FloatArray]) -> 
         vectors: (N,) the told motions by index.
     """
     told = np.stack(list(vectors.values()), axis=1)
-    made: list[FloatArray] = []
-    for line in lines:
-        if not any(abs(line @ other) > _SAME for other in made):
-            made.append(line)
     found = []
-    for line in made:
+    for line in distinct(lines, lambda line, other: bool(abs(line @ other) > _SAME)):
         shares = np.asarray(np.linalg.lstsq(told, line, rcond=None)[0], np.float64)
         # The largest share is 1, of equal ones the first.
         size = np.abs(shares)
@@ -324,11 +320,8 @@ class Judge:
         strained = [k for k, each in motions.items() if each.reason == "strained"]
         if not (strained and self._is_indefinite and self.spaces.is_told_by_parts):
             return {}
-        groups: dict[tuple[Part, ...], list[int]] = {}
-        for k in vectors:
-            motion = Motion(k, self.spaces)
-            if motion.is_internal:
-                groups.setdefault(motion.internal_to, []).append(k)
+        inside = [motion for k in vectors if (motion := Motion(k, self.spaces)).is_internal]
+        groups = grouped((motion.internal_to, motion.index) for motion in inside)
         made: dict[int, Extent] = {}
         extent = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, "among others")
         for group in groups.values():

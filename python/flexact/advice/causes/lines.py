@@ -22,7 +22,7 @@ from ...analysis.screws import Screw, ScrewKind, screw_of
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
-from ...util.groups import groups_of
+from ...util.groups import distinct, grouped, groups_of
 from ...util.records import cached_property
 from .cause import LineKind, Relation, RelationKind
 from .gradients import place_key
@@ -71,18 +71,12 @@ class Limbs:
             for part in self.parts.all
             if part.kind not in (PartKind.BODY, PartKind.HINGE) and len(part.ends) == 2
         ]
-        ends: dict[int, list[int]] = {}
-        for k, part in enumerate(flexible):
-            for position in part.ends:
-                ends.setdefault(position, []).append(k)
+        ends = grouped((p, k) for k, part in enumerate(flexible) for p in part.ends)
         inner = {p: users for p, users in ends.items() if self._is_inner(p, len(users))}
         owner = groups_of(len(flexible), ((first, last) for first, last in inner.values())).tolist()
-        groups: dict[int, list[int]] = {}
-        for k, group in enumerate(owner):
-            groups.setdefault(group, []).append(k)
         made = []
-        for mine in groups.values():
-            members = tuple(sorted((flexible[k] for k in mine), key=by_name))
+        for mine in grouped(zip(owner, flexible, strict=True)).values():
+            members = tuple(sorted(mine, key=by_name))
             points = {position for part in members for position in part.ends}
             outer = tuple(sorted(p for p in points if p not in inner))
             made.append(Limb(members, outer, tuple(sorted(points - set(outer)))))
@@ -355,11 +349,7 @@ def _cover(lines: Lines, planar: bool) -> list[tuple[list[int], Relation]]:
     for group, normal, point in [] if planar else lines.planes():
         found.append((group, lines.relation("one plane", group, without_sense(normal), point)))
     found.sort(key=lambda each: (-len(each[0]), each[1].kind == "one plane", each[0]))
-    made: list[tuple[list[int], Relation]] = []
-    for group, one in found:
-        if all(set(group).isdisjoint(taken) for taken, _ in made):
-            made.append((group, one))
-    return made
+    return distinct(found, lambda each, taken: not set(each[0]).isdisjoint(taken[0]))
 
 
 def clusters_of(result: Result) -> tuple[frozenset[int], ...]:

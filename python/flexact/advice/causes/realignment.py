@@ -40,6 +40,7 @@ from ...core.arrays import FloatArray
 from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
+from ...util.groups import grouped
 from ...util.records import cached_property
 from ...util.rotations import matrix_of
 from ..step import After, Purpose, Step, tried
@@ -303,9 +304,7 @@ def _best(found: list[Mend]) -> list[list[Mend]]:
     # What is nearly as good and turns the limb where it is fastened is the simpler one.
     able = [one for one in able if _smallest(one) > _FAIR * best]
     able.sort(key=lambda one: (not one.is_in_place, -float(f"{_smallest(one):.5g}")))
-    equal: dict[tuple[str, bool], list[Mend]] = {}
-    for one in able:
-        equal.setdefault((f"{_smallest(one):.5g}", one.is_in_place), []).append(one)
+    equal = grouped(((f"{_smallest(one):.5g}", one.is_in_place), one) for one in able)
     turned: dict[tuple[object, ...], list[Mend]] = {}
     for group in equal.values():
         key = (group[0].parts, *np.round(group[0].direction, 6).tolist())

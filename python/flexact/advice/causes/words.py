@@ -28,6 +28,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import AXES, Class, coordinate_name
 from ...model.parts.parts import Part, PartKind
+from ...util.groups import grouped
 from ..words import row_of
 from .cause import Cause, CauseKind, Causes, Relation
 
@@ -142,10 +143,8 @@ def _head(part: Part) -> str:
 
 def limb_names(result: Result, parts: Sequence[Part]) -> list[Named]:
     """What limbs are called: what the names of their parts begin with, where it is all of them."""
-    heads: dict[str, list[Part]] = {}
-    for part in result.parts.all:
-        if _head(part) and part.kind is not PartKind.BODY:
-            heads.setdefault(_head(part), []).append(part)
+    able = (part for part in result.parts.all if _head(part) and part.kind is not PartKind.BODY)
+    heads = grouped((_head(part), part) for part in able)
     numbers = result.given.arrays.element_number
     chosen = set(parts)
     made: dict[str, Named] = {}

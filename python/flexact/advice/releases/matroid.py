@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
-from ...util.groups import groups_of
+from ...util.groups import grouped, groups_of
 
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01
@@ -221,10 +221,7 @@ class Minor:
     def alike(self, is_row: bool, judge: Judge) -> Iterator[tuple[int, int]]:
         """Pairs of rows or of columns of the factors that are multiples of each other."""
         factor = self.factor if is_row else self.factor.T
-        by_support: dict[bytes, list[int]] = {}
-        for k in range(len(factor)):
-            by_support.setdefault((factor[k] != 0.0).tobytes(), []).append(k)
-        for same in by_support.values():
+        for same in grouped(((row != 0.0).tobytes(), k) for k, row in enumerate(factor)).values():
             some = factor[same]
             p = int(np.argmax(np.abs(some).min(axis=0)))
             if len(same) < 2 or not np.all(some[:, p]):

@@ -46,20 +46,18 @@ from .candidates import (
     Candidate,
     Places,
     Reach,
-    candidates,
-    tier_of_element,
-    tier_of_node,
-)
-from .matroid import echelon_of
-from .verify import (
     as_it_stands,
+    candidates,
     changed,
     complete,
     counted,
     decades,
     left_of,
     listed,
+    tier_of_element,
+    tier_of_node,
 )
+from .matroid import echelon_of
 from .words import Release, coordinate_named, outcome_as_given
 
 #: Stresses below this part of the largest of a self-stress are none.

@@ -25,6 +25,7 @@ from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
+from ...util.groups import distinct
 from ...util.records import Frozen
 from ..step import Purpose, Step, after, analysed
 from ..words import row_of
@@ -113,11 +114,7 @@ def lines_for(site: Site, aim: Aim) -> list[Line]:
     # Lines through one point keep their order, that of the names of the flexures along which
     # they run.
     found.sort(key=lambda line: (round(line.cost, 6), line.attachment.key))
-    made: list[Line] = []
-    for line in found:
-        if all(abs(line.force @ other.force) < _ALIKE for other in made):
-            made.append(line)
-    return made
+    return distinct(found, lambda line, other: bool(abs(line.force @ other.force) >= _ALIKE))
 
 
 def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
@@ -341,15 +338,13 @@ def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[
         return
     near = SAME * site.result.characteristic_length
 
-    chosen: list[Plane] = []
-    for plane in sorted(_planes(site, aim), key=lambda one: (round(one[3], 6), one[0].key)):
-        at, normal = plane[:2]
-        if not any(
-            abs(float(normal @ other)) > 1.0 - SAME
-            and abs(float((at.place - there.place) @ normal)) <= near
-            for there, other, _, _ in chosen
-        ):
-            chosen.append(plane)
+    def is_same(one: Plane, other: Plane) -> bool:
+        (at, normal), (there, across) = one[:2], other[:2]
+        apart = abs(float((at.place - there.place) @ normal))
+        return abs(float(normal @ across)) > 1.0 - SAME and apart <= near
+
+    every = sorted(_planes(site, aim), key=lambda one: (round(one[3], 6), one[0].key))
+    chosen = distinct(every, is_same)
     tried = (_sheet(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
     yield from islice(filter(None, tried), _SHEETS_MOST_PROPOSALS)
 

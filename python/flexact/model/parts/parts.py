@@ -12,11 +12,11 @@ import numpy as np
 from ...core.arrays import IntArray, ModelArrays
 from ...core.elements import Class, Member, NodeKind
 from ...deck.rendering import model_error
-from ...util.groups import groups_of
+from ...util.groups import grouped, groups_of
 from ...util.records import Word, cached_property
 from ...util.text import harmless, in_short
 from ..data import ModelData
-from ..names import grouped, own_number, part_name
+from ..names import own_number, part_name
 from .forms import Form, all_held, forms_of, is_member
 
 
