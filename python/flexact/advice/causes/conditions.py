@@ -17,9 +17,10 @@ import numpy as np
 from ...analysis.result import Result
 from ...core.arrays import BoolArray, FloatArray
 from ...model.parts.parts import Part, PartKind
+from ...util.rotations import unit
 from .cause import LineKind, Relation, RelationKind
 from .gradients import Geometry
-from .lines import Limbs, position_of_hinge
+from .lines import SAME, Limbs, position_of_hinge
 
 #: Points and unit vectors, (b, 3): of a line its direction, of a plane its normal.
 Figure = tuple[FloatArray, FloatArray]
@@ -78,12 +79,12 @@ class Figures:
         if place is None:
             return None
         node = self.node(place)
-        return lambda places, vectors: (places[:, node], _unit(vectors[:, element]))
+        return lambda places, vectors: (places[:, node], unit(vectors[:, element]))
 
     def line(self, part: Part) -> FigureAt:
         """The line of a bar, wire or member from end to end."""
         p, q = self.ends(part)
-        return lambda places, _: (places[:, p], _unit(places[:, q] - places[:, p]))
+        return lambda places, _: (places[:, p], unit(places[:, q] - places[:, p]))
 
     def plane(self, part: Part) -> FigureAt:
         """The plane of a sheet."""
@@ -91,10 +92,10 @@ class Figures:
         is_width = int(self.result.parts.wide[part.elements[0]]) == 1
 
         def at(places: FloatArray, vectors: FloatArray) -> Figure:
-            along, across = _unit(places[:, q] - places[:, p]), vectors[:, element]
+            along, across = unit(places[:, q] - places[:, p]), vectors[:, element]
             if is_width:
-                return places[:, p], _unit(np.cross(along, across))
-            return places[:, p], _unit(across - _dot(across, along) * along)
+                return places[:, p], unit(np.cross(along, across))
+            return places[:, p], unit(across - _dot(across, along) * along)
 
         return at
 
@@ -118,7 +119,7 @@ class Figures:
 
         def at(places: FloatArray, vectors: FloatArray) -> Figure:
             normals = first(places, vectors)[1], second(places, vectors)[1]
-            return places[:, node], _unit(np.cross(*normals))
+            return places[:, node], unit(np.cross(*normals))
 
         return at
 
@@ -309,9 +310,6 @@ def _of_half_turn(figures: Figures, one: Relation, lines: list[FigureAt]) -> _Ma
     return residual, free
 
 
-_SAME = 1.0e-6
-
-
 def half_turned(line: Figure, axis: FloatArray, length: float) -> Figure:
     """Lines turned by half a turn about axes (b, 6): direction, and point over the length."""
     point, way = line
@@ -329,7 +327,7 @@ def _off(one: Figure, other: Figure, length: float) -> FloatArray:
 
 def are_one(one: Figure, other: Figure, length: float) -> bool:
     """Whether two lines are one."""
-    return float(np.abs(_off(one, other, length)).max()) < _SAME
+    return float(np.abs(_off(one, other, length)).max()) < SAME
 
 
 def _of_points(figures: Figures, one: Relation) -> _Made:
@@ -401,7 +399,7 @@ def on_two_lines(points: FloatArray) -> Iterator[BoolArray]:
 def _is_on_line(points: FloatArray, first: FloatArray, second: FloatArray) -> BoolArray:
     way = second - first
     off = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
-    return np.asarray(np.abs(off) <= _SAME * float(way @ way), bool)
+    return np.asarray(np.abs(off) <= SAME * float(way @ way), bool)
 
 
 def _of_two_lines(figures: Figures, nodes: list[int]) -> _Made | None:
@@ -427,11 +425,6 @@ def _through_points(at: FloatArray) -> FloatArray:
     middle = at.mean(axis=0)
     normal = np.linalg.svd(at - middle)[2][-1]
     return np.append(normal, normal @ middle)
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    sizes = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.asarray(vectors / np.maximum(sizes, 1.0e-300))
 
 
 def _dot(one: FloatArray, other: FloatArray) -> FloatArray:

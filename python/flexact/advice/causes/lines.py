@@ -18,7 +18,7 @@ import numpy as np
 from ...analysis.decomposition import Decomposition
 from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
-from ...analysis.screws import Screw, ScrewKind, screw_of
+from ...analysis.screws import ScrewKind, screw_of
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
@@ -151,7 +151,7 @@ def position_of_hinge(outcome: Decomposition, part: Part) -> int | None:
 
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
-_SAME = 1.0e-6
+SAME = 1.0e-6
 #: Of more lines only what all have in common is looked for.
 _MOST_LINES = 24
 _NONE = np.zeros(3)
@@ -203,30 +203,24 @@ class Lines:
         where = _NONE if point is None else point + self.middle
         return Relation(kind, self.of, parts, (), direction, where, pitch=pitch, fold=fold)
 
-    def _coordinates(self) -> FloatArray:
+    def coordinates(self) -> FloatArray:
         """(n, 6) Pluecker's coordinates, moments over the length."""
         return np.hstack((self.ways, np.cross(self.points, self.ways) / self.length))
 
-    @property
-    def rank(self) -> int:
-        """Of their coordinates."""
-        values = np.linalg.svd(self._coordinates(), compute_uv=False)
-        return int(np.count_nonzero(values > _SAME * values[0]))
-
     def is_parallel(self, i: int, j: int) -> bool:
         """Whether two are parallel or one."""
-        return bool(np.linalg.norm(np.cross(self.ways[i], self.ways[j])) <= _SAME)
+        return bool(np.linalg.norm(np.cross(self.ways[i], self.ways[j])) <= SAME)
 
     def is_one(self, i: int, j: int) -> bool:
         """Whether two are one line."""
         apart = np.cross(self.points[j] - self.points[i], self.ways[i])
-        return self.is_parallel(i, j) and bool(np.linalg.norm(apart) <= _SAME * self.length)
+        return self.is_parallel(i, j) and bool(np.linalg.norm(apart) <= SAME * self.length)
 
     def meeting(self, i: int, j: int) -> FloatArray | None:
         """(3,) the point where two meet; None where they do not, or are parallel."""
         normal = np.cross(self.ways[i], self.ways[j])
         size, way = float(normal @ normal), self.points[j] - self.points[i]
-        if size <= _SAME**2 or abs(float(way @ normal)) > _SAME * self.length * size**0.5:
+        if size <= SAME**2 or abs(float(way @ normal)) > SAME * self.length * size**0.5:
             return None
         t = float(np.cross(way, self.ways[j]) @ normal) / size
         return np.asarray(self.points[i] + t * self.ways[i])
@@ -258,7 +252,7 @@ class Lines:
 
         def is_in(k: int, normal: FloatArray, point: FloatArray) -> bool:
             off = abs(float((self.points[k] - point) @ normal))
-            return abs(float(self.ways[k] @ normal)) <= _SAME and off <= _SAME * self.length
+            return abs(float(self.ways[k] @ normal)) <= SAME and off <= SAME * self.length
 
         return self._largest(found, is_in)
 
@@ -267,7 +261,7 @@ class Lines:
 
         def is_through(k: int, _: FloatArray, point: FloatArray) -> bool:
             off = float(np.linalg.norm(np.cross(point - self.points[k], self.ways[k])))
-            return off <= _SAME * max(self.length, float(np.linalg.norm(point)))
+            return off <= SAME * max(self.length, float(np.linalg.norm(point)))
 
         met = (self.meeting(i, j) for i, j in self.pairs)
         return self._largest(((_NONE, point) for point in met if point is not None), is_through)
@@ -284,14 +278,6 @@ class Lines:
             if len(group) > 2:
                 made.setdefault(tuple(group), (group, normal, point))
         return list(made.values())
-
-    def unstopped(self) -> Screw | None:
-        """The one motion that a body has which is held along these lines; of rank five."""
-        values, axes = np.linalg.svd(self._coordinates())[1:]
-        if len(values) < 5 or int(np.count_nonzero(values > _SAME * values[0])) != 5:
-            return None
-        velocity, rotation = axes[5, :3], axes[5, 3:] / self.length
-        return screw_of(rotation, velocity, np.zeros(3), self.length, rounding=_SAME)
 
 
 #: Of more lines nothing is said.
@@ -316,7 +302,12 @@ def in_common(lines: Lines, *, planar: bool) -> list[Relation]:
     ]
     if ones:
         return ones
-    screw = lines.unstopped() if len(lines) >= 6 else None
+    values, axes = np.linalg.svd(lines.coordinates())[1:]
+    screw = None
+    if len(lines) >= 6 and int(np.count_nonzero(values > SAME * values[0])) == 5:
+        # The one motion that a body has which is held along these lines.
+        rotation, length = axes[5, 3:] / lines.length, lines.length
+        screw = screw_of(rotation, axes[5, :3], np.zeros(3), length, rounding=SAME)
     if screw is not None and screw.kind is not ScrewKind.SCREW:
         # Six and more that leave one motion all meet its axis, or lie across it.
         axis = without_sense(screw.direction)
@@ -335,7 +326,8 @@ def in_common(lines: Lines, *, planar: bool) -> list[Relation]:
         axis = without_sense(screw.direction)
         made.insert(0, lines.relation("complex", every, axis, screw.point, pitch=screw.pitch))
     met = (lines.is_parallel(i, j) or lines.meeting(i, j) is not None for i, j in lines.pairs)
-    if len(lines) == 4 and lines.rank == 3 and not any(met):
+    rank = int(np.count_nonzero(values > SAME * values[0]))
+    if len(lines) == 4 and rank == 3 and not any(met):
         made.insert(0, lines.relation("regulus", every, point=_NONE))
     return made
 

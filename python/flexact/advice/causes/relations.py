@@ -34,6 +34,7 @@ from .conditions import (
 )
 from .gradients import place_key
 from .lines import (
+    SAME,
     Limb,
     Limbs,
     Line,
@@ -117,10 +118,6 @@ def _couple(wrenches: list[Wrench]) -> FloatArray:
     return without_sense(total.moment / np.linalg.norm(total.moment))
 
 
-#: What is below this part of the lengths at hand, or this angle [rad], is none.
-_SAME = 1.0e-6
-
-
 #: A sheet, (3,) a point of its plane, and the normal.
 Plane = tuple[Part, FloatArray, FloatArray]
 
@@ -169,12 +166,12 @@ def _in_one_plane(
         mine = [
             part
             for part, there, other in planes
-            if float(np.linalg.norm(np.cross(normal, other))) <= _SAME
-            and abs(float((there - point) @ normal)) <= _SAME * length
+            if float(np.linalg.norm(np.cross(normal, other))) <= SAME
+            and abs(float((there - point) @ normal)) <= SAME * length
         ]
         for wire, _ in wires:
             off = [abs(float((limbs.place(end) - point) @ normal)) for end in wire.ends]
-            if max(off) <= _SAME * length:
+            if max(off) <= SAME * length:
                 mine.append(wire)
         if len(mine) > 1:
             told.update(mine)
@@ -197,14 +194,14 @@ def _on_one_line(
             off = [abs(float(normal @ axis)) * length for _, _, normal in planes]
             off += [abs(float((point - there) @ normal)) for _, there, normal in planes]
             off += [abs(float(np.cross(at - point, way) @ axis)) for _, (at, way) in wires]
-            if max(off) <= _SAME * length:
+            if max(off) <= SAME * length:
                 return (
                     Relation("one transversal", "sheet", parts, (), without_sense(axis), point),
                 )
         elif screw.kind is ScrewKind.TRANSLATION:
             across = [float(np.linalg.norm(np.cross(normal, axis))) for _, _, normal in planes]
             along = [abs(float(way @ axis)) for _, (_, way) in wires]
-            if max((*across, *along)) <= _SAME:
+            if max((*across, *along)) <= SAME:
                 return (Relation("across", "sheet", parts, (), without_sense(axis)),)
     return ()
 
@@ -309,7 +306,7 @@ def conic_of(points: FloatArray) -> RelationKind | None:
 
 def _is_dependent(rows: FloatArray) -> bool:
     values = np.linalg.svd(rows, compute_uv=False)
-    return bool(values[-1] <= _SAME * values[0])
+    return bool(values[-1] <= SAME * values[0])
 
 
 def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, ...]]:
@@ -317,7 +314,11 @@ def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relat
 
     Each is one set of relations that may be enough: of an axis, then all of them.
     """
-    if not _is_split(result):
+    arrays = result.data.arrays
+    free = np.any(arrays.coordinate_class == Class.DEPENDENT, axis=0)
+    held = np.any(np.isin(arrays.coordinate_class, (Class.FIXED, Class.INDEPENDENT)), axis=0)
+    # They do where some coordinates of a node are dependent, and others are not.
+    if not np.any(free & held):
         return
     figures = Figures(result)
     every: list[Relation] = []
@@ -328,24 +329,15 @@ def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relat
             if own is None:
                 continue
             way = own[1](*figures.here)[1][0]
-            if float(np.linalg.norm(np.cross(way, axis))) <= _SAME:
+            if float(np.linalg.norm(np.cross(way, axis))) <= SAME:
                 made.setdefault((own[0], "along"), []).append(part)
-            elif abs(float(way @ axis)) <= _SAME:
+            elif abs(float(way @ axis)) <= SAME:
                 made.setdefault((own[0], "across axis"), []).append(part)
         found = [Relation(kind, of, tuple(mine), (), axis) for (of, kind), mine in made.items()]
         for one in found:
             yield (one,)
         every += found
     yield tuple(every)
-
-
-def _is_split(result: Result) -> bool:
-    """Whether some coordinates of a node are dependent, and others are not."""
-    arrays = result.data.arrays
-    classes = arrays.coordinate_class
-    free = np.any(classes == Class.DEPENDENT, axis=0)
-    held = np.any(np.isin(classes, (Class.FIXED, Class.INDEPENDENT)), axis=0)
-    return bool(np.any(free & held))
 
 
 #: How many relations are told, and tried together; and of how many bars bodies are looked for.
@@ -458,9 +450,9 @@ class _Ladder:
         middle = points.mean(axis=0)
         values, axes = np.linalg.svd(points - middle, full_matrices=False)[1:]
         size, in_space = float(values[0]), self.are_bars and not self.result.given.planar
-        if len(values) > 1 and values[1] <= _SAME * size:
+        if len(values) > 1 and values[1] <= SAME * size:
             yield Relation("one line", "member", self.parts, (), without_sense(axes[0]), middle)
-        elif in_space and values[-1] <= _SAME * size:
+        elif in_space and values[-1] <= SAME * size:
             yield Relation("one plane", "member", self.parts, (), without_sense(axes[-1]), middle)
 
     def _of_clusters(self) -> Iterator[Relation]:
@@ -519,4 +511,4 @@ def _go_together(one: Relation, other: Relation) -> bool:
         return False
     if one.kind != "parallel" and one.parts != other.parts:
         return False
-    return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= _SAME)
+    return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= SAME)

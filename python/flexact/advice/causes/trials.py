@@ -18,16 +18,16 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...util.records import Frozen
-from ...util.rotations import matrix_of
+from ...util.rotations import matrix_of, unit
 from .cause import Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
 from .gradients import rank_at
+from .lines import SAME
 
 #: Of more joints no symmetry is looked for.
 _MOST_JOINTS = 36
 #: How many times a rotation may bring all back in one turn.
 _FOLDS = (2, 3, 4, 5, 6, 8)
-_SAME = 1.0e-6
 
 
 def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
@@ -48,7 +48,7 @@ def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
     places = places - middle
     size, planar = float(np.abs(places).max()), result.given.planar
     axes = _candidates(places / size, planar)
-    in_plane = [axis for axis in axes if abs(float(axis[2])) <= _SAME]
+    in_plane = [axis for axis in axes if abs(float(axis[2])) <= SAME]
     # Half-turns, then reflections, of fold 0, then other rotations; about the middle of the joints.
     for fold in (_FOLDS[0], 0, *_FOLDS[1:]):
         for axis in axes if fold or not planar else in_plane:
@@ -73,9 +73,9 @@ def _candidates(places: FloatArray, planar: bool) -> list[FloatArray]:
     made: dict[tuple[float, ...], FloatArray] = {}
     for axis in found:
         length = float(np.linalg.norm(axis))
-        if length > _SAME:
-            unit = without_sense(axis / length)
-            made.setdefault(tuple((np.round(unit, 5) + 0.0).tolist()), unit)
+        if length > SAME:
+            way = without_sense(axis / length)
+            made.setdefault(tuple((np.round(way, 5) + 0.0).tolist()), way)
     return list(made.values())
 
 
@@ -87,7 +87,7 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
     """Which place each moved one is at; None where one is at none."""
     apart = np.linalg.norm(moved[:, None] - places[None], axis=2)
     nearest = np.argmin(apart, axis=1)
-    if apart[np.arange(len(places)), nearest].max() > _SAME * size:
+    if apart[np.arange(len(places)), nearest].max() > SAME * size:
         return None
     image = tuple(nearest.tolist())
     return image if len(set(image)) == len(image) else None
@@ -184,7 +184,7 @@ class Trials(Frozen):
                 make_symmetric(self.result, one, places)
                 continue
             about = one.couple + turned * bool(one.couple.any())
-            made = condition_of(self.figures, one, _unit(about))
+            made = condition_of(self.figures, one, unit(about))
             if made is None:
                 return None
             conditions.append(made)
@@ -268,10 +268,6 @@ class Trials(Frozen):
             sizes[1] >= _SHRUNK * sizes[0]
         )
         return (at[1], turned[1]) if is_sound else None
-
-
-def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / max(float(np.linalg.norm(vector)), 1.0e-300))
 
 
 _SYMMETRIES = ("rotation", "reflection")

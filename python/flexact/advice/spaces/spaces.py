@@ -20,7 +20,7 @@ from ...util.records import Frozen
 from ...util.text import in_short
 from ..step import Step
 from .flexures import added_in_words, sheets_for, wire_in_words, wires_for
-from .screws import Family, ScrewSpace
+from .screws import ScrewSpace
 from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
 from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read, wanted_of
 from .words import Geometry, space_in_words
@@ -57,11 +57,6 @@ class Spaces(Frozen):
         """(w, 2, 3) ends of the wires of the first step, on the body and on the ground [m]."""
         wires = [wire for step in self.steps[:1] for wire in step.change.wires]
         return np.array([(wire.end, wire.ground) for wire in wires]).reshape(-1, 2, 3)
-
-    @property
-    def redundant(self) -> tuple[Family, ...]:
-        """Lines along which one more wire holds nothing that is not held already."""
-        return self.constraint.lines
 
 
 def spaces_of(
@@ -179,7 +174,7 @@ def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
         yield Line((head,), space_in_words(geometry, spaces.constraint))
     else:
         yield sentence(f"Nothing holds {body}.")
-    lines = tuple((geometry.of(family),) for family in spaces.redundant)
+    lines = tuple((geometry.of(family),) for family in spaces.constraint.lines)
     if lines and free:
         yield Line(("One more wire would be redundant along: ",), lines)
     elif lines:
