@@ -50,10 +50,6 @@ class Limb(NamedTuple):
         head = heads.pop()
         return head if not heads and head else " and ".join(part.name for part in self.parts)
 
-    def at(self, position: int) -> Part:
-        """The part that ends at a position node."""
-        return next(part for part in self.parts if position in part.ends)
-
 
 class Limbs:
     """The limbs of a mechanism, and where they end."""

@@ -66,8 +66,9 @@ def pushes_on(stress: SelfStress, limbs: Limbs) -> list[tuple[object, list[Push]
         for limb, position in ends:
             if not carrying & set(limb.parts):
                 continue
-            loads = stress.of(limb.at(position)).ends
-            wrench = next((end.wrench for end in loads if end.position == position), None)
+            last = next(part for part in limb.parts if position in part.ends)
+            loads = (end.wrench for end in stress.of(last).ends if end.position == position)
+            wrench = next(loads, None)
             if wrench is not None and wrench.size > _REST * largest:
                 found.append((limb, wrench))
         if found:

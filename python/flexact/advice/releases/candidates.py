@@ -136,12 +136,9 @@ def fits(basis: Basis) -> bool:
     return entries <= MOST_ENTRIES and entries * basis.vectors <= MOST_WORK
 
 
-def of_rows(result: Result, vectors: Places | None = None) -> Reach:
+def of_rows(result: Result, space: Basis | None = None) -> Reach:
     """The fixed deformations among the rows of D(c), over the self-stresses or some of them."""
-    able = is_of_class(result, Class.FIXED)
-    space = result.stress_space
-    if vectors is not None:
-        space = space.only(vectors.astype(np.int32))
+    able, space = is_of_class(result, Class.FIXED), space or result.stress_space
 
     def change(row: int) -> Change:
         return _of_deformation(result, *(result.raw.row_label[:, row] - 1).tolist())
@@ -149,17 +146,16 @@ def of_rows(result: Result, vectors: Places | None = None) -> Reach:
     return Reach(*rows_of(space, able), lambda row: row_key(result, row), change)
 
 
-def of_columns(result: Result, vectors: Places | None = None) -> Reach:
+def of_columns(result: Result, space: Basis | None = None) -> Reach:
     """The columns of D(c), over the motions or some of them."""
-    space = result.motion_space
-    if vectors is not None:
-        space = space.only(vectors.astype(np.int32))
 
     def change(column: int) -> Change:
         node, axis = (result.raw.column_label[:, column] - 1).tolist()
         return _of_coordinate(result, node, axis, Class.INDEPENDENT)
 
-    return Reach(*rows_of(space), lambda column: column_key(result, column), change)
+    return Reach(
+        *rows_of(space or result.motion_space), lambda column: column_key(result, column), change
+    )
 
 
 def of_supports(result: Result) -> Reach:

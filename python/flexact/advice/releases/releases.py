@@ -25,7 +25,7 @@ from ...analysis.naming import Pieces, coordinate_in_words, named_element
 from ...analysis.result import Result
 from ...analysis.sparse_basis import groups_of
 from ...analysis.ways import Coordinate, Deformation
-from ...core.arrays import FloatArray
+from ...core.arrays import Basis, FloatArray
 from ...core.elements import (
     Class,
     Dual,
@@ -171,7 +171,7 @@ _AT_ONCE = 60
 _LEAST_SINGULAR = 1.0e-4
 
 #: The rows over some of the vectors of a result.
-ReachOf = Callable[[Result, Places | None], Reach]
+ReachOf = Callable[[Result, Basis | None], Reach]
 #: (n,) how unwelcome each of its rows is; those of little are taken where they do.
 Unwelcome = Callable[[Result, Reach], FloatArray]
 
@@ -197,7 +197,7 @@ def by_steps(
             return None
         rows += now.rows
         for vectors in groups:
-            reach = reach_of(now, vectors)
+            reach = reach_of(now, space.only(vectors.astype(np.int32)))
             block = _block(reach, unwelcome(now, reach))
             if block is None:
                 return None
