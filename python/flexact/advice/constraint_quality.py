@@ -120,26 +120,24 @@ class _Net:
         #: Of each node its body; -1 is ground, and -2 none.
         self.owner = np.full(arrays.node_kind.size, -2)
         given = {node: k for k, node in enumerate(result.condensed.nodes.tolist())}
-        rigid: set[int] = set()
         known = {element: k for k, element in enumerate(result.condensed.elements.tolist())}
-        #: Of positions that several bodies share, which those are.
-        self.pins: dict[int, set[int]] = {}
-        count = 0
-        for body in result.parts.bodies:
-            for node in body.positions:
-                if node in given:
-                    self.pins.setdefault(given[node], set()).add(count)
-            nodes = [given[n] for n in (*body.positions, *body.orientations) if n in given]
-            rigid |= {known[e] for e in body.elements if e in known}
-            self.owner[nodes] = count
-            count += 1
+        bodies = result.parts.bodies
+        rigid = {known[e] for body in bodies for e in body.elements if e in known}
+        held_by = [(node, k) for k, body in enumerate(bodies) for node in body.positions]
+        for k, body in enumerate(bodies):
+            self.owner[[given[n] for n in (*body.positions, *body.orientations) if n in given]] = k
         fixed = np.all(np.isin(arrays.coordinate_class, (Class.FIXED, Class.NONE)), axis=0)
         self.owner[fixed] = _GROUND
-        for node in np.flatnonzero(fixed).tolist():
-            self.pins.setdefault(node, set()).add(_GROUND)
-        self.pins = {node: own for node, own in self.pins.items() if len(own) > 1}
+        shared = grouped(
+            [
+                *((given[node], k) for node, k in held_by if node in given),
+                *((node, _GROUND) for node in np.flatnonzero(fixed).tolist()),
+            ]
+        )
+        #: Of positions that several bodies share, which those are.
+        self.pins = {node: set(own) for node, own in shared.items() if len(set(own)) > 1}
         self.flexible = [e for e in range(len(self.slots)) if e not in rigid]
-        self.bodies = self._with_joints(count)
+        self.bodies = self._with_joints(len(bodies))
         self.groups = self._grouped()
         centres = [self.place[(self.owner == k) & self.placed] for k in range(self.bodies)]
         self.centres = [each.mean(axis=0) if len(each) else np.zeros(3) for each in centres]
@@ -147,16 +145,14 @@ class _Net:
     def _with_joints(self, count: int) -> int:
         """Count places where several flexures meet as bodies, with what turns there."""
         ends = Counter(n for e in self.flexible for n in self.slots[e].tolist() if n >= 0)
-        turning: dict[int, set[int]] = {}
-        for e in self.flexible:
-            p, op, q, oq = self.slots[e].tolist()
-            for position, orientation in ((p, op), (q, oq)):
-                if position >= 0:
-                    turning.setdefault(position, set()).add(orientation)
+        # Each of p and q with the orientation that is there.
+        beside = self.slots[self.flexible].reshape(-1, 2).tolist()
+        turning = grouped((position, turned) for position, turned in beside if position >= 0)
         for node, many in ends.items():
             if many >= _MEET and self.placed[node] and self.owner[node] == -2:
-                own = [n for n in turning.get(node, ()) if n >= 0 and self.owner[n] == -2]
-                if len(own) == 1 and len(turning[node]) == 1:
+                turned = set(turning.get(node, ()))
+                own = [n for n in turned if n >= 0 and self.owner[n] == -2]
+                if len(own) == len(turned) == 1:
                     self.owner[[node, *own]] = count
                     count += 1
         return count

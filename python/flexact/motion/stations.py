@@ -218,7 +218,6 @@ Function = Callable[[Near], float]
 class Passing(NamedTuple):
     """A place between two stations."""
 
-    share: float
     arc: float
     where: Configuration
     tangent: FloatArray
@@ -289,7 +288,7 @@ def _refined(
     arc = way.one.arc + arc_between(way.held, way.one, where, tangent)
     if about + share < 0.0:
         arc = 2.0 * way.one.arc - arc
-    return Passing(about + share, arc, where, tangent)
+    return Passing(arc, where, tangent)
 
 
 def _root(points: FloatArray, values: FloatArray, of_slope: bool) -> float | None:
