@@ -187,7 +187,7 @@ def of_causes(result: Result, advice: Advice, done: Counter[str]) -> Iterator[Of
         for one in cause.relations:
             done[f"{one.of} {one.kind}"] += 1
         assert generic is not None
-        assert generic == generic_rank(whole)[0]
+        assert generic == generic_rank(whole)
         words = _insufficient(Trials(whole, generic), cause.relations, generic)
         if words:
             names = ", ".join(f"{one.of} {one.kind}" for one in cause.relations)

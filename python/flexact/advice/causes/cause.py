@@ -143,11 +143,9 @@ class Causes(Frozen):
         mends: Flexures turned so that they stop what is free, tried; the best first.
         generic_rank: The rank of D(c) in almost every other geometry of the same topology, of
             divided sheets and wires as one beam each; None where none could be analysed.
-        trials: How many geometries were tried; 0 where none was needed.
     """
 
     motions: tuple[Cause, ...]
     self_stresses: tuple[Cause, ...]
     mends: tuple[Step, ...] = ()
     generic_rank: int | None = None
-    trials: int = 0

@@ -117,22 +117,21 @@ def causes_of(result: Result) -> Causes:
             each cannot be analysed.
     """
     whole = result.with_internal_declared or result
-    rank, trials = generic_rank(whole)
+    rank = generic_rank(whole)
     motions, stresses = len(result.motions), len(result.self_stresses)
     if rank is None or rank == whole.rank:
         one = Cause(CauseKind.UNKNOWN if rank is None else CauseKind.GENERIC)
-        tried = 0 if rank is None else trials
-        return Causes((one,) * motions, (one,) * stresses, (), rank, tried)
+        return Causes((one,) * motions, (one,) * stresses, (), rank)
     can_be_told = whole is result or whole.is_told_by_parts
     if can_be_told and are_affordable(whole):
-        return _Special(result, whole, rank).causes(trials)
+        return _Special(result, whole, rank).causes()
     of_motions, of_stresses = (
         (Cause(CauseKind.SPECIAL),) * count
         if generic == 0
         else tuple(by_count(range(count), min(rank - whole.rank, count)).values())
         for count, generic in ((motions, whole.columns - rank), (stresses, whole.rows - rank))
     )
-    return Causes(of_motions, of_stresses, (), rank, trials)
+    return Causes(of_motions, of_stresses, (), rank)
 
 
 class _Special:
@@ -170,7 +169,7 @@ class _Special:
                 stresses = _within(stresses, left[1], of_stresses)
         self.never_motions, self.never_stresses = motions, stresses
 
-    def causes(self, trials: int) -> Causes:
+    def causes(self) -> Causes:
         """All of it."""
         motions, stresses = self._motions_told(self.motions), self._stresses_told(self.stresses)
         mends: tuple[Step, ...] = ()
@@ -199,7 +198,6 @@ class _Special:
             ),
             mends,
             self.rank,
-            trials,
         )
 
     # Which are special ------------------------------------------------------

@@ -113,26 +113,22 @@ def rank_at(geometry: Geometry, places: FloatArray, vectors: FloatArray) -> int 
     return raw.rank
 
 
-def generic_rank(result: Result) -> tuple[int | None, int]:
-    """The largest rank that was found, and how many geometries were tried.
-
-    None where none of them could be analysed.
-    """
+def generic_rank(result: Result) -> int | None:
+    """The largest rank of some random geometries; None where none could be analysed."""
     full = min(result.rows, result.columns)
     if result.rank == full:
-        return full, 0
+        return full
     geometry = Geometry(result.data)
     arrays = result.data.arrays
     large = max(arrays.node_number.size, arrays.element_number.size) > _MOST_FOR_MORE
     best: int | None = None
-    trials = 1 if large else 3
-    for trial in range(trials):
+    for trial in range(1 if large else 3):
         found = rank_at(geometry, *geometry.random(trial))
         if found is not None:
             best = max(found, result.rank, best or 0)
         if best == full:
-            return best, trial + 1
-    return best, trials
+            break
+    return best
 
 
 class DetachedElements:

@@ -34,12 +34,10 @@ class Limb(NamedTuple):
     Attributes:
         parts: They, by name.
         ends: Indices of the position nodes at both ends in the model as given, ascending.
-        inner: Indices of the position nodes between its parts.
     """
 
     parts: tuple[Part, ...]
     ends: tuple[int, ...]
-    inner: tuple[int, ...]
 
     @property
     def name(self) -> str:
@@ -75,7 +73,7 @@ class Limbs:
             members = tuple(sorted(mine, key=by_name))
             points = {position for part in members for position in part.ends}
             outer = tuple(sorted(p for p in points if p not in inner))
-            made.append(Limb(members, outer, tuple(sorted(points - set(outer)))))
+            made.append(Limb(members, outer))
         return tuple(sorted(made, key=lambda limb: natural(limb.name)))
 
     def _is_inner(self, position: int, users: int) -> bool:

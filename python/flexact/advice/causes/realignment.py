@@ -41,7 +41,6 @@ from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
 from ...util.groups import grouped
-from ...util.records import cached_property
 from ...util.rotations import matrix_of
 from ..step import After, Purpose, Step, tried
 from .cause import CauseKind, Causes, Relation
@@ -158,11 +157,9 @@ def _and_then(mend: Step, what: str) -> str:
 def hub_name(result: Result, end: int) -> Named:
     """The body or point that a limb holds."""
     body = result.parts.body_at.get(end)
-    arrays = result.given.arrays
     if body is None:
-        return named_node(result, int(arrays.node_number[end]))
-    part = result.parts.of_body(body)
-    return named_element(result, int(arrays.element_number[part.elements[0]]))
+        return named_node(result, int(result.given.arrays.node_number[end]))
+    return named_element(result, result.parts.of_body(body).number)
 
 
 def motion_of(screw: Screw, on: Pieces) -> Pieces:
@@ -447,12 +444,6 @@ class _TurnSearch:
         ends = self._hub_of[limb.parts, end]
         return np.asarray(np.mean([self.limbs.place(position) for _, position in ends], axis=0))
 
-    @cached_property
-    def _moved(self) -> list[FloatArray]:
-        """The directions of special motions."""
-        motions = self.special[:_MOST_LIMBS]
-        return [one.screw.direction for motion in motions for one in motion.bodies[:1]]
-
     def _directions(self, limb: Limb, end: int) -> list[FloatArray]:
         """Of the relations and of the motions, then of limbs, and across two of them."""
         if self.whole.given.planar:
@@ -468,9 +459,12 @@ class _TurnSearch:
                 if all(float(np.linalg.norm(np.cross(unit, other))) > _EQUAL for other in made):
                     made.append(unit)
 
-        relations = self.relations
-        couples, lines = ([one.couple for one in relations], [one.direction for one in relations])
-        for axis in (*couples, *lines, *self._moved):
+        screws = [one.screw for each in self.special[:_MOST_LIMBS] for one in each.bodies[:1]]
+        for axis in (
+            *(one.couple for one in self.relations),
+            *(one.direction for one in self.relations),
+            *(screw.direction for screw in screws),
+        ):
             add(axis)
         for other, position in self._hub_of[limb.parts, end]:
             away = next((p for p in other.ends if p != position), position)
