@@ -106,7 +106,7 @@ class Line(Frozen):
 def lines_for(site: Site, aim: Aim) -> list[Line]:
     """Lines that stop one unwanted motion and nothing wanted, the best first."""
     own = [line for each in site.own for line in _through(site, aim, each)]
-    carried = site.carried([aim.may_hold])
+    carried = site.carried(aim.may_hold)
     found = [*own, *(line for each in carried for line in _through(site, aim, each))]
     if not found:
         # Of a body that is small, or all on one line, links reach out.
@@ -351,7 +351,7 @@ def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[
 
 def _planes(site: Site, aim: Aim) -> Iterator[Plane]:
     space = aim.may_hold
-    for at in (*site.own, *site.carried([space])):
+    for at in (*site.own, *site.carried(space)):
         for normal in _normals(site, space, at.place):
             held = _held(space, at.place, normal)
             if held.sine_to(space) > SAME:

@@ -291,10 +291,10 @@ class Site:
                 made.append(Attachment(place, node, turned, True, self._key(node)))
         return tuple(made)
 
-    def carried(self, spaces: Sequence[ScrewSpace]) -> tuple[Attachment, ...]:
-        """Points that a link would carry: where lines of these spaces come near to the body."""
+    def carried(self, space: ScrewSpace) -> tuple[Attachment, ...]:
+        """Points that a link would carry: where lines of a space come near to the body."""
         places, own = [self.middle], [self.middle, *(each.place for each in self.own)]
-        for family in (each for space in spaces for each in space.lines):
+        for family in space.lines:
             places += [self._nearest(family, near) for near in own]
             places += list(_feet(family, self.middle)) if len(family.points) > 2 else []
         return self._carried(places)
