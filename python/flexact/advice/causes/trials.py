@@ -95,29 +95,20 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
 
 def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
     """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
-    is_turn = one.kind == "rotation"
-    matrix = matrix_of(2.0 * np.pi / one.fold * one.direction)
-    matrix = matrix if is_turn else _reflection(one.direction)
+    order, matrix = 2, _reflection(one.direction)
+    if one.kind == "rotation":
+        order, matrix = one.fold, matrix_of(2.0 * np.pi / one.fold * one.direction)
     own = np.searchsorted(result.condensed.nodes, one.nodes)
     now = result.given.arrays.node_value[:3, list(one.nodes)].T - one.point
     image = _image(now @ matrix.T, now, float(np.abs(now).max()))
     assert image is not None, "the joints have the symmetry"
-    done: set[int] = set()
-    for first in range(len(image)):
-        if first in done:
-            continue
-        orbit = [first]
-        while image[orbit[-1]] != first:
-            orbit.append(image[orbit[-1]])
-        done.update(orbit)
-        turn = np.linalg.matrix_power(matrix, len(orbit))
-        point = places[own[first]] - one.point
-        order = (one.fold if is_turn else 2) // len(orbit)
-        images = [np.linalg.matrix_power(turn, k) @ point for k in range(max(order, 1))]
-        point = np.mean(images, axis=0)
-        for node in orbit:
-            places[own[node]] = one.point + point
-            point = matrix @ point
+    # Of each joint the mean of what the symmetry makes of the places of its images.
+    there, joints = places[own] - one.point, np.arange(len(image))
+    made = np.zeros_like(there)
+    for k in range(order):
+        made += there[joints] @ np.linalg.matrix_power(matrix, k) / order
+        joints = np.array(image)[joints]
+    places[own] = one.point + made
 
 
 #: Geometries that are tried of what may be enough; ranks that are found in all, by rows of D(c).
