@@ -23,6 +23,7 @@ import numpy as np
 
 from ..analysis.naming import plain
 from ..analysis.result import Result
+from ..analysis.sparse_basis import index_of
 from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
@@ -210,17 +211,14 @@ class _Net:
 
     def _rates(self, elements: tuple[int, ...], nodes: list[int]) -> FloatArray:
         """(held, 3 nodes) rates of what elements hold, rotations by the length of the mechanism."""
-        raw, classes = self.result.assembly, self.data.arrays.deformation_class
-        held = {
-            6 * e + d: None for e in elements for d in np.flatnonzero(classes[:, e] == Class.FIXED)
-        }
-        row = {int(key): k for k, key in enumerate(held)}
-        column = {3 * n + i: 3 * k + i for k, n in enumerate(nodes) for i in range(3)}
-        made = np.zeros((len(row), len(column)))
-        mine = np.flatnonzero(np.isin(raw.row_of, list(row)))
-        for i in mine.tolist():
-            place = row[int(raw.row_of[i])], column[int(raw.column_of[i])]
-            made[place] += raw.value[i]
+        raw, classes = self.result.assembly, self.data.arrays.deformation_class.T
+        element, deformation = np.nonzero(classes[list(elements)] == Class.FIXED)
+        held = 6 * np.array(elements)[element] + deformation
+        moving = (3 * np.array(nodes)[:, None] + np.arange(3)).ravel()
+        row = index_of(held, classes.size)[raw.row_of]
+        column = index_of(moving, 3 * len(self.owner))[raw.column_of]
+        made = np.zeros((held.size, moving.size))
+        np.add.at(made, (row[row >= 0], column[row >= 0]), raw.value[row >= 0])
         return made
 
     def on_bodies(self, carried: _Carried) -> FloatArray:

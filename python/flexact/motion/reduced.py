@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..analysis.decomposition import column_weights, row_weights
 from ..analysis.limits import ROUNDING
 from ..analysis.result import Result
+from ..analysis.ways import spanning
 from ..core.arrays import Basis, FloatArray
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
@@ -131,19 +132,6 @@ def rigid_motions(held: Held) -> FloatArray:
     return span(fields[held.columns] @ ways, ROUNDING)
 
 
-def leading_rows(vectors: FloatArray) -> NDArray[np.integer]:
-    """(k,) rows of independent vectors (n, k) in which they are as independent as can be."""
-    left, chosen = vectors.copy(), []
-    for _ in range(vectors.shape[1]):
-        sizes = np.linalg.norm(left, axis=1)
-        # Of rows that rounding alone tells apart the first.
-        row = int(np.argmax(sizes > (1.0 - 1.0e-6) * sizes.max()))
-        chosen.append(row)
-        unit = left[row] / sizes[row]
-        left = left - np.outer(left @ unit, unit)
-    return np.array(chosen, np.int64)
-
-
 #: Entries of D(c) of a component that is small; of self-stresses that are looked at.
 _MOST_NUMBERS, _MOST_ENTRIES = 650_000, 4_000_000
 
@@ -168,7 +156,8 @@ class Felt:
         placed = spaces.data.arrays.node_kind[node] <= NodeKind.POSITION
         self._factor = np.where(placed, 1.0 / whole.size, 1.0)
         self._rigid = rigid_motions(whole)
-        self._stopped = leading_rows(self._rigid)
+        # Coordinates in which the rigid motions are as independent as can be.
+        self._stopped = np.array(spanning(self._rigid, int), np.int64)
         self.rigid = self._stopped.size
         self.held = held = whole
         if self.rigid:

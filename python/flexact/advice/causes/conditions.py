@@ -333,7 +333,11 @@ def are_one(one: Figure, other: Figure, length: float) -> bool:
 def _of_points(figures: Figures, one: Relation) -> _Made:
     """Members whose ends are all on one line or in one plane."""
     length = figures.length
-    nodes = sorted({node for part in one.parts for node in _positions(figures, part)})
+    members = [index for part in one.parts for index in part.elements]
+    result = figures.result
+    mine = np.isin(result.condensed.elements, members)
+    slots = result.data.arrays.element_node[[0, 2]][:, mine] - 1
+    nodes = np.unique(slots[slots >= 0]).tolist()
     in_line = one.kind == "one line"
 
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:
@@ -343,15 +347,6 @@ def _of_points(figures: Figures, one: Relation) -> _Made:
         return np.concatenate((off.reshape(len(off), -1), _size(free[:, :3])), axis=1)
 
     return residual, np.concatenate((one.direction, one.point / length))
-
-
-def _positions(figures: Figures, part: Part) -> list[int]:
-    """The position nodes of all elements of a part, in the model as analysed."""
-    own = figures.result.condensed.elements
-    found = [int(np.searchsorted(own, index)) for index in part.elements]
-    able = [k for k, index in zip(found, part.elements, strict=True) if k < own.size]
-    slots = figures.result.data.arrays.element_node[[0, 2]][:, able] - 1
-    return [int(node) for node in slots.ravel() if node >= 0]
 
 
 def _of_joints(figures: Figures, one: Relation) -> _Made | None:
