@@ -316,10 +316,8 @@ class _Counter:
         return product
 
     def _any(self, minor: Minor) -> int:
-        product, parts = _components(minor)
-        for part in parts:
-            product *= self._connected(part)
-        return product
+        factor, parts = _components(minor)
+        return factor * math.prod(map(self._connected, parts))
 
     def _connected(self, minor: Minor) -> int:
         minor, is_changed = self._reduced(minor)
