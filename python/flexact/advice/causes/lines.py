@@ -20,7 +20,7 @@ from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...analysis.screws import ScrewKind, screw_of
 from ...core.arrays import FloatArray
-from ...core.elements import Class, NodeKind
+from ...core.elements import Class
 from ...model.parts.parts import Part, PartKind, natural
 from ...util.groups import distinct, grouped, groups_of
 from ...util.records import cached_property
@@ -131,17 +131,9 @@ def by_name(part: Part) -> tuple[object, ...]:
 
 def position_of_hinge(outcome: Decomposition, part: Part) -> int | None:
     """The position node at which a hinge stands; None where none is known."""
-    arrays = outcome.given.arrays
-    nodes = (arrays.element_node[:, part.elements[0]] - 1).tolist()
-    for node in nodes:
-        if node < 0:
-            continue
-        if arrays.node_kind[node] <= NodeKind.POSITION:
-            return int(node)
-        place = outcome.parts.place_of(node)
-        if place is not None:
-            return int(place)
-    return None
+    nodes = (outcome.given.arrays.element_node[:, part.elements[0]] - 1).tolist()
+    places = (outcome.parts.place_of(node) for node in nodes if node >= 0)
+    return next((place for place in places if place is not None), None)
 
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
