@@ -392,22 +392,20 @@ def extents_of(spaces: Result) -> Extents:
                 decided.append((dict.fromkeys(mine, extent), None, ()))
             else:
                 decided.append(Judge(spaces, component).decided(mine))
-    parts: list[list[Extent]] = [[_FREE] for _ in range(many)]
-    for motions, _, _ in decided:
-        for k, extent in motions.items():
-            parts[k].append(extent)
+    parts = grouped(each for motions, _, _ in decided for each in motions.items())
     known = [dimension for _, dimension, _ in decided if dimension is not None]
     whole = sum(known) + free if len(known) == len(decided) else None
     branches = tuple(branch for _, _, every in decided for branch in every)
-    return Extents(tuple(map(_of_all, parts)), whole, branches)
+    # Of a motion of several components: it goes on where all parts do.
+    every = (min(parts.get(k, [_FREE]), key=_rank) for k in range(many))
+    return Extents(tuple(every), whole, branches)
 
 
-def _of_all(parts: list[Extent]) -> Extent:
-    """Of a motion of several components: it goes on where all parts do."""
+def _rank(extent: Extent) -> tuple[int, int]:
+    """By what the part is found that decides."""
     order = {Kind.INFINITESIMAL: 0, Kind.UNDECIDED: 1, Kind.FINITE: 2}
-    felt = [part for part in parts if part is not _FREE] or parts
     by_proof = {EvidenceKind.FOLLOWED: 0, EvidenceKind.FITTED: 1, EvidenceKind.CERTIFIED: 2}
-    return min(felt, key=lambda part: (order[part.kind], by_proof.get(part.evidence, 3)))
+    return order[extent.kind], by_proof.get(extent.evidence, 3)
 
 
 def _told_in(spaces: Result, components: tuple[Component, ...]) -> list[dict[int, FloatArray]]:

@@ -85,18 +85,14 @@ def measured(
         A whole number within the fit, None where there is none; and whether somewhere the least
         is met along other motions.
     """
-    aside = False
-    shares, strains = [], []
-    for share in _SHARES.tolist():
-        found = least_along(reduced, unit, sign * share)
-        if found is None:
-            aside = True
-            continue
-        if found.strain < max(_LEAST, 30.0 * floor * share):
-            continue
-        shares.append(share)
-        strains.append(found.strain)
-    return _fitted(np.array(shares), np.array(strains)), aside
+    found = [(share, least_along(reduced, unit, sign * share)) for share in _SHARES.tolist()]
+    told = [
+        (share, here.strain)
+        for share, here in found
+        if here is not None and here.strain >= max(_LEAST, 30.0 * floor * share)
+    ]
+    share, strain = np.array(told).reshape(-1, 2).T
+    return _fitted(share, strain), any(here is None for _, here in found)
 
 
 def _fitted(share: FloatArray, strain: FloatArray) -> Fit | None:
