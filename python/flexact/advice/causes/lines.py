@@ -19,7 +19,7 @@ from ...analysis.decomposition import Decomposition
 from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...analysis.screws import ScrewKind, screw_of
-from ...core.arrays import FloatArray
+from ...core.arrays import BoolArray, FloatArray
 from ...core.elements import Class
 from ...model.parts.parts import Part, PartKind, natural
 from ...util.groups import distinct, grouped, groups_of
@@ -234,36 +234,27 @@ class Lines:
                 normal = np.cross(self.ways[i], self.ways[j])
             else:
                 continue
-            found.append((normal / np.linalg.norm(normal), self.points[i]))
-
-        def is_in(k: int, normal: FloatArray, point: FloatArray) -> bool:
-            off = abs(float((self.points[k] - point) @ normal))
-            return abs(float(self.ways[k] @ normal)) <= SAME and off <= SAME * self.length
-
-        return self._largest(found, is_in)
+            normal = normal / np.linalg.norm(normal)
+            off = np.abs((self.points - self.points[i]) @ normal) <= SAME * self.length
+            found.append((off & (np.abs(self.ways @ normal) <= SAME), normal, self.points[i]))
+        return _groups(found)
 
     def meeting_points(self) -> list[Group]:
         """Three or more through one point each: which, nothing, and the point."""
+        found = []
+        for point in (self.meeting(i, j) for i, j in self.pairs):
+            if point is not None:
+                off = np.linalg.norm(np.cross(point - self.points, self.ways), axis=1)
+                near = SAME * max(self.length, float(np.linalg.norm(point)))
+                found.append((off <= near, _NONE, point))
+        return _groups(found)
 
-        def is_through(k: int, _: FloatArray, point: FloatArray) -> bool:
-            off = float(np.linalg.norm(np.cross(point - self.points[k], self.ways[k])))
-            return off <= SAME * max(self.length, float(np.linalg.norm(point)))
 
-        met = (self.meeting(i, j) for i, j in self.pairs)
-        return self._largest(((_NONE, point) for point in met if point is not None), is_through)
-
-    def _largest(
-        self,
-        found: Iterable[tuple[FloatArray, FloatArray]],
-        has: Callable[[int, FloatArray, FloatArray], bool],
-    ) -> list[Group]:
-        """Groups of three or more, each once."""
-        made: dict[tuple[int, ...], Group] = {}
-        for normal, point in found:
-            group = [k for k in range(len(self)) if has(k, normal, point)]
-            if len(group) > 2:
-                made.setdefault(tuple(group), (group, normal, point))
-        return list(made.values())
+def _groups(found: Iterable[tuple[BoolArray, FloatArray, FloatArray]]) -> list[Group]:
+    """Of three lines or more, each group once."""
+    every = ((np.flatnonzero(mask).tolist(), normal, point) for mask, normal, point in found)
+    large = (each for each in every if len(each[0]) > 2)
+    return distinct(large, lambda one, other: bool(one[0] == other[0]))
 
 
 #: Of more lines nothing is said.
