@@ -23,7 +23,7 @@ from pasting import analysis_pasted, steps_pasted
 import flexact
 from flexact import Model
 from flexact.advice.advice import Advice, Step
-from flexact.advice.causes.cause import CauseKind, LineKind, Relation, RelationKind
+from flexact.advice.causes.cause import CauseKind, Relation
 from flexact.advice.causes.gradients import generic_rank
 from flexact.advice.causes.trials import Trials
 from flexact.advice.releases.words import outcome_as_given, released
@@ -185,9 +185,9 @@ def of_causes(result: Result, advice: Advice, done: Counter[str]) -> Iterator[Of
         seen.append(cause.relations)
         done["causes"] += 1
         for one in cause.relations:
-            done[f"{one.of.name.lower()} {one.kind.name.lower()}"] += 1
+            done[f"{one.of} {one.kind}"] += 1
         assert generic is not None
-        assert generic == generic_rank(whole)[0]
+        assert generic == generic_rank(whole)
         words = _insufficient(Trials(whole, generic), cause.relations, generic)
         if words:
             names = ", ".join(f"{one.of} {one.kind}" for one in cause.relations)
@@ -196,7 +196,7 @@ def of_causes(result: Result, advice: Advice, done: Counter[str]) -> Iterator[Of
 
 def _are_same(one: Sequence[Relation], other: Sequence[Relation]) -> bool:
     return len(one) == len(other) and all(
-        a.kind is b.kind and a.parts == b.parts for a, b in zip(one, other, strict=True)
+        a.kind == b.kind and a.parts == b.parts for a, b in zip(one, other, strict=True)
     )
 
 
@@ -241,26 +241,26 @@ def _off(trials: Trials, one: Relation, places: Floats, vectors: Floats) -> floa
     lines, planes = (
         [((point - middle) / length, way) for point, way in each] for each in (lines, planes)
     )
-    if one.kind is RelationKind.PARALLEL:
+    if one.kind == "parallel":
         ways = [way for _, way in [*lines, *planes]]
         return max(float(np.linalg.norm(np.cross(ways[0], way))) for way in ways)
-    if one.kind is RelationKind.CONCURRENT:
+    if one.kind == "concurrent":
         rows = [np.eye(3) - np.outer(way, way) for _, way in lines]
         right = [row @ point for row, (point, _) in zip(rows, lines, strict=True)]
         point = np.linalg.lstsq(np.vstack(rows), np.concatenate(right), rcond=None)[0]
         return max(float(np.linalg.norm(np.cross(point - at, way))) for at, way in lines)
-    if one.kind is RelationKind.ACROSS and not planes:
+    if one.kind == "across" and not planes:
         return float(np.linalg.svd(np.array([way for _, way in lines]))[1][-1])
-    if one.kind in (RelationKind.COMPLEX, RelationKind.REGULUS):
+    if one.kind in ("complex", "regulus"):
         rows = np.array([np.concatenate((way, np.cross(at, way))) for at, way in lines])
-        least = 3 if one.kind is RelationKind.REGULUS else 5
+        least = 3 if one.kind == "regulus" else 5
         return float(np.linalg.svd(rows)[1][least])
-    if one.kind in (RelationKind.ALONG, RelationKind.ACROSS_AXIS):
+    if one.kind in ("along", "across axis"):
         ways = [way for _, way in [*lines, *planes]]
-        if one.kind is RelationKind.ALONG:
+        if one.kind == "along":
             return max(float(np.linalg.norm(np.cross(way, one.direction))) for way in ways)
         return max(abs(float(way @ one.direction)) for way in ways)
-    if one.kind is RelationKind.ONE_PLANE and one.of in (LineKind.FORCE, LineKind.AXIS):
+    if one.kind == "one plane" and one.of in ("force", "axis"):
         points = np.array([at + s * way for at, way in lines for s in (0.0, 1.0)])
         return float(np.linalg.svd(points - points.mean(axis=0))[1][-1])
     return 0.0
@@ -285,7 +285,7 @@ def _figures(
             along, vector = _unit(q - p), vectors[index]
             wide = int(whole.parts.wide[part.elements[0]])
             normal = np.cross(along, vector) if wide == 1 else vector - (vector @ along) * along
-            (planes if one.of is LineKind.SHEET else sheets).append((p, _unit(normal), slots))
+            (planes if one.of == "sheet" else sheets).append((p, _unit(normal), slots))
         else:
             lines.append((p, _unit(q - p)))
     for (_, first, mine), (_, second, others) in combinations(sheets, 2):

@@ -20,7 +20,7 @@ from reference_decks import NAMES, text_of, transform
 
 import flexact
 from flexact import Model
-from flexact.advice.causes.cause import CauseKind, Causes, LineKind, RelationKind
+from flexact.advice.causes.cause import CauseKind, Causes
 from flexact.advice.causes.causes import causes_of
 from flexact.advice.causes.gradients import generic_rank
 from flexact.model.variation import with_positions
@@ -104,7 +104,7 @@ def test_generic_rank_of_frameworks(seed: int) -> None:
         snapped = model.data
     result = flexact.analyse(Model.from_data(snapped))
     expected = rigidity_rank(model, rng.normal(size=(len(model.positions), 2 if planar else 3)))
-    assert generic_rank(result)[0] == expected
+    assert generic_rank(result) == expected
     assert special(causes_of(result)) == (expected - result.rank,) * 2
 
 
@@ -184,20 +184,20 @@ def test_what_is_lifted_to_second_order_only_has_no_lift() -> None:
 
 
 RELATIONS = {
-    "frameworks/collinear_bars_plane": [RelationKind.ONE_LINE],
-    "frameworks/k33_circle": [RelationKind.CIRCLE],
-    "frameworks/k33_two_lines": [RelationKind.TWO_LINES],
-    "frameworks/octahedral_platform_yaw_90": [RelationKind.COMPLEX],
-    "frameworks/prism_twist_30": [RelationKind.COMPLEX],
-    "linkages/bennett": [RelationKind.REGULUS],
-    "linkages/four_bar_in_space": [RelationKind.PARALLEL],
-    "linkages/sarrus": [RelationKind.PARALLEL, RelationKind.PARALLEL],
-    "linkages/parallelogram_three_cranks": [RelationKind.PARALLEL],
-    "flexures/five_wires_lower_two_parallel": [RelationKind.PARALLEL],
-    "flexures/six_folded_sheets_undeclared": [RelationKind.ACROSS],
-    "paper/five_folded_sheets_symmetric": [RelationKind.ONE_PLANE, RelationKind.PARALLEL],
-    "paper/twelve_trusses": [RelationKind.REFLECTION],
-    "frameworks/ring_6": [RelationKind.REFLECTION],
+    "frameworks/collinear_bars_plane": ["one line"],
+    "frameworks/k33_circle": ["circle"],
+    "frameworks/k33_two_lines": ["two lines"],
+    "frameworks/octahedral_platform_yaw_90": ["complex"],
+    "frameworks/prism_twist_30": ["complex"],
+    "linkages/bennett": ["regulus"],
+    "linkages/four_bar_in_space": ["parallel"],
+    "linkages/sarrus": ["parallel", "parallel"],
+    "linkages/parallelogram_three_cranks": ["parallel"],
+    "flexures/five_wires_lower_two_parallel": ["parallel"],
+    "flexures/six_folded_sheets_undeclared": ["across"],
+    "paper/five_folded_sheets_symmetric": ["one plane", "parallel"],
+    "paper/twelve_trusses": ["reflection"],
+    "frameworks/ring_6": ["reflection"],
 }
 
 
@@ -265,7 +265,7 @@ def test_concurrent_axes_are_enough() -> None:
     causes = causes_of(result)
     assert special(causes) == (1, 1)
     (relation,) = causes.motions[0].relations
-    assert relation.kind is RelationKind.CONCURRENT
+    assert relation.kind == "concurrent"
     assert relation.is_sufficient
     np.testing.assert_allclose(relation.point, 0, atol=1e-6)
 
@@ -338,12 +338,12 @@ STAGES = {
     "three parallel sheets": (
         on_a_stage([((0, y, 0), (0.1, y, 0)) for y in (0, 0.03, 0.07)]),
         (1, 4, 1),
-        (RelationKind.ACROSS, LineKind.SHEET),
+        ("across", "sheet"),
     ),
     "three sheets through a line": (
         on_a_stage([ray(0.1), ray(2.2), ray(4.0)]),
         (1, 4, 1),
-        (RelationKind.ONE_TRANSVERSAL, LineKind.SHEET),
+        ("one transversal", "sheet"),
     ),
     "a wire in the plane of a sheet": (
         on_a_stage(
@@ -351,17 +351,17 @@ STAGES = {
             [((0.15, 0, 0.03), (0.12, 0, 0.02)), ((0.1, 0.1, 0), (0.1, 0.05, 0.01))],
         ),
         (2, 1, 1),
-        (RelationKind.ONE_PLANE, LineKind.SHEET),
+        ("one plane", "sheet"),
     ),
     "two sheets in one plane": (
         on_a_stage([((0, 0, 0), (0.1, 0, 0)), ((0.3, 0, 0.01), (0.2, 0, 0))]),
         (3, 3, 2),
-        (RelationKind.ONE_PLANE, LineKind.SHEET),
+        ("one plane", "sheet"),
     ),
     "two wires in one line": (
         on_a_stage(wires=[((0, 0, 0), (0.1, 0, 0)), ((0.3, 0, 0), (0.2, 0, 0))]),
         (5, 1, 1),
-        (RelationKind.ONE_LINE, LineKind.FORCE),
+        ("one line", "force"),
     ),
     "four wires through a point": (
         on_a_stage(
@@ -371,7 +371,7 @@ STAGES = {
             ]
         ),
         (3, 1, 1),
-        (RelationKind.CONCURRENT, LineKind.FORCE),
+        ("concurrent", "force"),
     ),
     "six wires that meet a line": (
         on_a_stage(
@@ -381,7 +381,7 @@ STAGES = {
             ]
         ),
         (1, 1, 1),
-        (RelationKind.ONE_TRANSVERSAL, LineKind.FORCE),
+        ("one transversal", "force"),
     ),
 }
 

@@ -32,7 +32,7 @@ def test_the_twelve_trusses_have_four_declarations() -> None:
     others = {other.coordinates[0][:2] for other in one.alternatives}
     assert others == {(11, "x"), (13, "y"), (15, "x")}
     assert one.condition == pytest.approx(2.0)
-    assert declarations.holds == ()
+    assert declarations.others == ()
 
 
 def test_the_guide_has_two_declarations_of_one_body() -> None:
@@ -51,12 +51,12 @@ def test_of_every_deck_the_count_is_right_and_the_sets_work(name: str) -> None:
     assert truth is None or declarations.count == truth
     assert bool(declarations.sets) == (declarations.count != 0)
     stresses = self_stresses(analysis.given)
-    for proposal in (*declarations.sets, *declarations.holds):
+    for proposal in (*declarations.sets, *declarations.others):
         changed = proposal.change.apply(analysis.given).data
         assert motions(changed) == 0
         assert self_stresses(changed) == stresses
     assert all(each.purpose is Purpose.DECLARE for each in declarations.sets)
-    assert all(each.purpose is Purpose.HOLD for each in declarations.holds)
+    assert all(each.purpose is Purpose.HOLD for each in declarations.others)
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -106,7 +106,7 @@ def test_what_is_inside_of_sheets_is_declared_with_the_body() -> None:
 def test_what_may_be_held_is_what_the_motion_bends() -> None:
     """tests/reference/known_answers.md, Flexures: e6 of the first sheet or e5 of the second."""
     declarations = declarations_of(analyse(folded_sheet(clamped=True)))
-    (one,) = declarations.holds
+    (one,) = declarations.others
     held = {each.deformations for each in (one.change, *one.alternatives)}
     assert held == {((1, 6, Class.FIXED),), ((2, 5, Class.FIXED),)}
 
@@ -126,7 +126,7 @@ def test_a_model_made_in_python_gets_calls_and_a_deck_statements() -> None:
 def test_words_do_not_depend_on_units(name: str) -> None:
     def words_of(analysis: Analysis) -> list[str]:
         found = declarations_of(analysis)
-        told = (plain(e.words()) for e in (*found.sets, *found.holds))
+        told = (plain(e.words()) for e in (*found.sets, *found.others))
         return [str(found.count), *(re.sub(r" \((DYNX|FIX)[^)]*\)", "", each) for each in told)]
 
     scaled = flexact.read_text(transform.scaled(text_of(name), 1e3))

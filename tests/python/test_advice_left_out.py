@@ -90,7 +90,7 @@ def at_one_joint(count: int) -> Model:
 def test_what_takes_long_is_left_out() -> None:
     """Of 400 bars at a joint sets are found step by step, and some self-stresses are told."""
     advice = flexact.analyse(at_one_joint(400)).advice()
-    assert advice.releases.left_out.is_too_large
+    assert advice.releases.is_too_large
     assert advice.releases.count is None
     assert all(step.after.over_constrained == 0 for step in advice)
     entries = sum(len(one.stress.parts) for one in advice.self_stresses)

@@ -183,10 +183,10 @@ def test_of_every_deck_the_count_is_right_and_the_sets_work(name: str) -> None:
     truth = releases_counted(analysis.given)
     assert truth is None or releases.count == truth
     assert bool(releases.sets) == (releases.count != 0)
-    for proposal in (*releases.sets, *releases.supports):
+    for proposal in (*releases.sets, *releases.others):
         assert proposal.purpose is Purpose.RELEASE
         assert self_stresses(proposal.change.apply(analysis.given).data) == 0
-        assert proposal.condition >= 1.0 - 1.0e-9 or proposal in releases.supports
+        assert proposal.condition >= 1.0 - 1.0e-9 or proposal in releases.others
     for proposal in releases.sets:
         assert len(proposal.change.deformations) == releases.size
 
@@ -425,7 +425,7 @@ def test_a_number_of_self_stresses_that_declarations_alone_cause_has_no_release(
     model.fix(joint)
     releases = releases_of(analyse(model))
     assert (releases.size, releases.count, releases.sets) == (2, 0, ())
-    assert releases.supports
+    assert releases.others
 
 
 def words_of(analysis: Analysis) -> list[str]:

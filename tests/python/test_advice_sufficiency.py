@@ -53,7 +53,7 @@ def spider(lifted: float = 0.0) -> Model:
 def test_all_arms_of_a_spider_lie_in_one_plane() -> None:
     """With one of them lifted out of it the hub turns no more."""
     assert flexact.analyse(spider(0.01)).under_constrained == 0
-    assert kinds(flexact.analyse(spider())) == [(RelationKind.ONE_PLANE, LineKind.SHEET, 6)]
+    assert kinds(flexact.analyse(spider())) == [("one plane", "sheet", 6)]
 
 
 def looped(places: np.ndarray, axes: np.ndarray) -> Model:
@@ -82,7 +82,7 @@ def test_a_half_turn_lets_a_loop_of_bricard_move(seed: int) -> None:
     assert (result.under_constrained, result.over_constrained) == (1, 1)
     (relation,) = special(result).relations
     assert (relation.kind, relation.of, relation.fold) == (
-        *(RelationKind.ROTATION, LineKind.AXIS),
+        *("rotation", "axis"),
         2,
     )
     np.testing.assert_allclose(np.abs(relation.direction), (0, 0, 1), atol=1e-9)
@@ -116,7 +116,7 @@ def test_chains_of_sarrus_are_parallel_by_threes() -> None:
     result = flexact.analyse(sarrus())
     assert result.under_constrained == 1
     found = Counter((kind, count) for kind, _, count in kinds(result))
-    assert found == {(RelationKind.PARALLEL, 3): 3, (RelationKind.ACROSS, 9): 1}
+    assert found == {("parallel", 3): 3, ("across", 9): 1}
 
 
 def test_a_sheet_by_itself_is_special_beside_what_is_declared() -> None:
@@ -129,7 +129,7 @@ def test_a_sheet_by_itself_is_special_beside_what_is_declared() -> None:
     result = flexact.analyse(model)
     assert result.over_constrained == 1
     (relation,) = special(result).relations
-    assert (relation.kind, relation.of) == (RelationKind.ALONG, LineKind.SHEET)
+    assert (relation.kind, relation.of) == ("along", "sheet")
     np.testing.assert_allclose(relation.direction, (0, 0, 1))
     words = result.advice().describe()
     assert "sheet lies across z" in " ".join(words.split())

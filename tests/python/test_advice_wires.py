@@ -165,8 +165,8 @@ def wire_along(site: Site, point: np.ndarray, direction: np.ndarray) -> AddedWir
 def test_a_wire_along_a_redundant_line_only_adds_a_self_stress(name: str) -> None:
     model = MODELS[name]
     result, found = flexact.analyse(model), spaces(model, wires=False)
-    assert bool(found.redundant) == bool(found.constraint.dimension)
-    for family in found.redundant:
+    assert bool(found.constraint.lines) == bool(found.constraint.dimension)
+    for family in found.constraint.lines:
         if family.kind in (FamilyKind.PARALLELS, FamilyKind.EVERY, FamilyKind.ACROSS):
             point = found.constraint.about
         else:

@@ -24,7 +24,7 @@ from ..analysis.places import listed
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..core.progress import Progress
-from ..motion.extent import EvidenceKind, Extent, Extents, Kind, Reason, finite_in_words
+from ..motion.extent import EvidenceKind, Extent, Extents, Kind, finite_in_words
 from ..motion.finiteness import extents_of
 from ..util.errors import FlexactError
 from ..util.partial import attempted
@@ -37,8 +37,7 @@ from .causes.realignment import both_in_words
 from .describe import MOST_MODES, verdict_in_words
 from .motions import AdvisedMotion, AdvisedStress
 from .releases.releases import (
-    Declarations,
-    Releases,
+    Sets,
     declarations_of,
     releases_of,
     undeclarations_of,
@@ -109,20 +108,20 @@ class Advice(Frozen, Sequence[Step]):
     @cached_property
     def extents(self) -> Extents:
         """Whether motions go on, or only begin."""
-        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
+        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, "not given")
         none = Extents((unknown,) * len(self.analysis.motions), None)
         return self.made("how far motions go", lambda: extents_of(self.analysis), none)
 
     @cached_property
-    def releases(self) -> Releases:
+    def releases(self) -> Sets:
         """Sets of deformations whose release leaves no self-stress."""
-        result, none = self.analysis, Releases(self.analysis.over_constrained, None)
+        result, none = self.analysis, Sets(self.analysis.over_constrained, None)
         return self.made("releases", lambda: releases_of(result, self.bodies), none)
 
     @cached_property
-    def declarations(self) -> Declarations:
+    def declarations(self) -> Sets:
         """Sets of coordinates whose declaration, or holding, leaves no motion."""
-        none = Declarations(self.analysis.under_constrained, None)
+        none = Sets(self.analysis.under_constrained, None)
         return self.made("declarations", lambda: declarations_of(self.analysis), none)
 
     @cached_property
@@ -189,9 +188,9 @@ class Advice(Frozen, Sequence[Step]):
             "declarations to take back", lambda: undeclarations_of(self.analysis), ()
         )
         self._find("releases", progress)
-        yield from (*self.releases.sets, *self.releases.supports)
+        yield from (*self.releases.sets, *self.releases.others)
         self._find("declarations", progress)
-        yield from (*self.declarations.sets, *self.declarations.holds)
+        yield from (*self.declarations.sets, *self.declarations.others)
         self._find("spaces", progress)
         yield from self._as_it_stands(() if self.spaces is None else self.spaces.steps)
 
@@ -241,7 +240,7 @@ class Advice(Frozen, Sequence[Step]):
         ):
             if not sets.size:
                 continue
-            if sets.left_out.is_too_large:
+            if sets.is_too_large:
                 yield f"sets of {what}, for so many {many}"
             elif sets.count is None:
                 yield f"how many sets of {what} there are: too many to be counted"
@@ -252,7 +251,7 @@ class Advice(Frozen, Sequence[Step]):
         if any(one.kind is CauseKind.UNKNOWN for one in (*causes.motions, *causes.self_stresses)):
             yield "whether another geometry would have them, too"
         yield from self.failed
-        if count := sum(one.reason is Reason.TOO_LARGE for one in self.extents.motions):
+        if count := sum(one.reason == "too large" for one in self.extents.motions):
             yield f"how far {counted(count, 'motion', ' goes', 's go')}: too large to be followed"
 
     def found(self, progress: Progress | None = None) -> Advice:
@@ -284,8 +283,8 @@ class Advice(Frozen, Sequence[Step]):
         told = {(step.purpose, step.change) for step in self.steps}
         result, spaces = self.analysis, self.spaces
         return {
-            "releases": json.of_sets(self.releases, told),
-            "declarations": json.of_sets(self.declarations, told),
+            "releases": json.of_sets("deformations", self.releases, told),
+            "declarations": json.of_sets("coordinates", self.declarations, told),
             "motions": list(map(json.of_motion, self.motions)),
             "self_stresses": list(map(json.of_self_stress, self.self_stresses)),
             "spaces": None if spaces is None else json.of_spaces(result, spaces, self.wanted),
@@ -371,15 +370,16 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
         ),
         (),
     )
-    made = (
+    made = [
         tuple(_motions(advice, known)),
         tuple(_stresses(advice, known)),
         advice.made("a pair", lambda: _both(advice), ()),
         *_steps(advice, most),
-        tuple(_left_out(advice)),
-        spaces,
-    )
-    return tuple(section for section in made if section)
+    ]
+    # What has failed until now is among it.
+    if missing := tuple((each,) for each in advice.left_out):
+        made.append(((Line(("Left out: ",), missing), False),))
+    return tuple(section for section in (*made, spaces) if section)
 
 
 def _said(words: str, hangs: bool = False) -> Told:
@@ -465,11 +465,6 @@ def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
     if numbers := tuple(map(str, advice.exact_by)):
         how = f"--apply {','.join(numbers)}"
         yield (_said(f"Steps {listed(numbers)} together make it exactly constrained ({how})."),)
-
-
-def _left_out(advice: Advice) -> Iterator[Told]:
-    if missing := tuple((each,) for each in advice.left_out):
-        yield Line(("Left out: ",), missing), False
 
 
 def _item(number: int, pieces: Pieces) -> Told:

@@ -23,11 +23,12 @@ import numpy as np
 
 from ..analysis.naming import plain
 from ..analysis.result import Result
+from ..analysis.sparse_basis import index_of
 from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
 from ..model.parts.parts import Part, PartKind
-from ..util.groups import groups_of
+from ..util.groups import grouped, groups_of
 from ..util.records import Frozen
 from .spaces.screws import ScrewSpace
 from .spaces.words import Geometry, space_in_words
@@ -84,22 +85,16 @@ def holds_of(result: Result) -> tuple[Hold, ...]:
     if not found or len(found) < len(net.groups):
         return ()
     # Bodies that share a point have a hinge there, which has it in what it holds.
-    pairs = {each.bodies for each in found}
+    pairs = {bodies for _, bodies, _, _ in found}
     if any(len(own) != 2 or tuple(sorted(own)) not in pairs for own in net.pins.values()):
         return ()
-    sines = _sines([net.on_bodies(each) for each in found])
-    return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
-
-
-def _sines(rows: list[FloatArray]) -> list[float]:
-    """Of the smallest angle between the span of each block of rows and that of all others.
-
-    The least norm of motions that only one block sees, when it sees unit rates, is one over it.
-    """
-    blocks = [_orthonormal(each) for each in rows]
-    inverse = np.linalg.pinv(np.concatenate(blocks))
+    # Of the smallest angle between the span of each block of rows and that of all others: the least
+    # norm of motions that only one block sees, when it sees unit rates, is one over it.
+    blocks = [_orthonormal(net.on_bodies(each)) for each in found]
     ends = np.cumsum([len(each) for each in blocks])[:-1]
-    return [1.0 / float(np.linalg.norm(each, 2)) for each in np.split(inverse, ends, axis=1)]
+    inverse = np.split(np.linalg.pinv(np.concatenate(blocks)), ends, axis=1)
+    sines = [1.0 / float(np.linalg.norm(each, 2)) for each in inverse]
+    return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
 
 
 def _orthonormal(rows: FloatArray) -> FloatArray:
@@ -107,14 +102,9 @@ def _orthonormal(rows: FloatArray) -> FloatArray:
     return np.asarray(turned[sizes > _ROUNDING * sizes.max(initial=0.0)])
 
 
-@dataclass(frozen=True, eq=False)
-class _Carried(Frozen):
-    """Wrenches (k, 6), force and moment about the middle [m], on the second of two bodies."""
-
-    elements: tuple[int, ...]
-    bodies: tuple[int, int]
-    middle: FloatArray
-    wrenches: FloatArray
+#: What elements carry: they, two bodies, a point, and wrenches (k, 6), force and moment about it,
+#: on the second of the bodies.
+_Carried = tuple[tuple[int, ...], tuple[int, int], FloatArray, FloatArray]
 
 
 class _Net:
@@ -131,26 +121,24 @@ class _Net:
         #: Of each node its body; -1 is ground, and -2 none.
         self.owner = np.full(arrays.node_kind.size, -2)
         given = {node: k for k, node in enumerate(result.condensed.nodes.tolist())}
-        rigid: set[int] = set()
         known = {element: k for k, element in enumerate(result.condensed.elements.tolist())}
-        #: Of positions that several bodies share, which those are.
-        self.pins: dict[int, set[int]] = {}
-        count = 0
-        for body in result.parts.bodies:
-            for node in body.positions:
-                if node in given:
-                    self.pins.setdefault(given[node], set()).add(count)
-            nodes = [given[n] for n in (*body.positions, *body.orientations) if n in given]
-            rigid |= {known[e] for e in body.elements if e in known}
-            self.owner[nodes] = count
-            count += 1
+        bodies = result.parts.bodies
+        rigid = {known[e] for body in bodies for e in body.elements if e in known}
+        held_by = [(node, k) for k, body in enumerate(bodies) for node in body.positions]
+        for k, body in enumerate(bodies):
+            self.owner[[given[n] for n in (*body.positions, *body.orientations) if n in given]] = k
         fixed = np.all(np.isin(arrays.coordinate_class, (Class.FIXED, Class.NONE)), axis=0)
         self.owner[fixed] = _GROUND
-        for node in np.flatnonzero(fixed).tolist():
-            self.pins.setdefault(node, set()).add(_GROUND)
-        self.pins = {node: own for node, own in self.pins.items() if len(own) > 1}
+        shared = grouped(
+            [
+                *((given[node], k) for node, k in held_by if node in given),
+                *((node, _GROUND) for node in np.flatnonzero(fixed).tolist()),
+            ]
+        )
+        #: Of positions that several bodies share, which those are.
+        self.pins = {node: set(own) for node, own in shared.items() if len(set(own)) > 1}
         self.flexible = [e for e in range(len(self.slots)) if e not in rigid]
-        self.bodies = self._with_joints(count)
+        self.bodies = self._with_joints(len(bodies))
         self.groups = self._grouped()
         centres = [self.place[(self.owner == k) & self.placed] for k in range(self.bodies)]
         self.centres = [each.mean(axis=0) if len(each) else np.zeros(3) for each in centres]
@@ -158,33 +146,26 @@ class _Net:
     def _with_joints(self, count: int) -> int:
         """Count places where several flexures meet as bodies, with what turns there."""
         ends = Counter(n for e in self.flexible for n in self.slots[e].tolist() if n >= 0)
-        turning: dict[int, set[int]] = {}
-        for e in self.flexible:
-            p, op, q, oq = self.slots[e].tolist()
-            for position, orientation in ((p, op), (q, oq)):
-                if position >= 0:
-                    turning.setdefault(position, set()).add(orientation)
+        # Each of p and q with the orientation that is there.
+        beside = self.slots[self.flexible].reshape(-1, 2).tolist()
+        turning = grouped((position, turned) for position, turned in beside if position >= 0)
         for node, many in ends.items():
             if many >= _MEET and self.placed[node] and self.owner[node] == -2:
-                own = [n for n in turning.get(node, ()) if n >= 0 and self.owner[n] == -2]
-                if len(own) == 1 and len(turning[node]) == 1:
+                turned = set(turning.get(node, ()))
+                own = [n for n in turned if n >= 0 and self.owner[n] == -2]
+                if len(own) == len(turned) == 1:
                     self.owner[[node, *own]] = count
                     count += 1
         return count
 
     def _grouped(self) -> list[tuple[int, ...]]:
         """Flexible elements that hang together away from bodies and ground."""
-        at: dict[int, list[int]] = {}
-        for k, e in enumerate(self.flexible):
-            for node in self.slots[e].tolist():
-                if node >= 0 and self.owner[node] == -2:
-                    at.setdefault(node, []).append(k)
-        pairs = [(one, other) for every in at.values() for one in every[:1] for other in every[1:]]
-        owner = groups_of(len(self.flexible), pairs).tolist()
-        made: dict[int, list[int]] = {}
-        for e, group in zip(self.flexible, owner, strict=True):
-            made.setdefault(group, []).append(e)
-        return [tuple(each) for each in made.values()]
+        count, free = len(self.flexible), np.flatnonzero(self.owner == -2)
+        # Elements and nodes, side by side.
+        ends = np.argwhere(np.isin(self.slots[self.flexible], free)).tolist()
+        pairs = ((k, count + int(self.slots[self.flexible[k], slot])) for k, slot in ends)
+        group = groups_of(count + self.owner.size, pairs)[:count].tolist()
+        return list(map(tuple, grouped(zip(group, self.flexible, strict=True)).values()))
 
     def wrenches(self, elements: tuple[int, ...]) -> _Carried | None:
         """What a flexure carries; None unless it stands between two bodies."""
@@ -204,7 +185,10 @@ class _Net:
         for k, node in enumerate(nodes):
             block = rates[:, 3 * k : 3 * k + 3]
             if self.owner[node] == ends[1]:
-                body += block @ self._moved(node, middle)
+                # The velocity of a node of a body from its twist (v, w) about the middle.
+                turned = np.cross(self.place[node] - middle, np.eye(3))
+                moved_by = np.hstack((np.eye(3), turned)) if self.placed[node] else np.eye(3, 6, 3)
+                body += block @ moved_by
             elif self.owner[node] == -2:
                 classes = self.data.arrays.coordinate_class[:3, node]
                 inner.append(block[:, np.isin(classes, (Class.DEPENDENT, Class.INDEPENDENT))])
@@ -223,69 +207,50 @@ class _Net:
             return None
         # A twist is (v, w length) there, and a wrench (f, m/length).
         wrenches = held * np.repeat((1.0, self.length), 3)
-        return _Carried(elements, (ends[0], ends[1]), middle, wrenches)
+        return elements, (ends[0], ends[1]), middle, wrenches
 
     def _rates(self, elements: tuple[int, ...], nodes: list[int]) -> FloatArray:
         """(held, 3 nodes) rates of what elements hold, rotations by the length of the mechanism."""
-        raw, classes = self.result.assembly, self.data.arrays.deformation_class
-        held = {
-            6 * e + d: None for e in elements for d in np.flatnonzero(classes[:, e] == Class.FIXED)
-        }
-        row = {int(key): k for k, key in enumerate(held)}
-        column = {3 * n + i: 3 * k + i for k, n in enumerate(nodes) for i in range(3)}
-        made = np.zeros((len(row), len(column)))
-        mine = np.flatnonzero(np.isin(raw.row_of, list(row)))
-        for i in mine.tolist():
-            place = row[int(raw.row_of[i])], column[int(raw.column_of[i])]
-            made[place] += raw.value[i]
-        return made
-
-    def _moved(self, node: int, middle: FloatArray) -> FloatArray:
-        """(3, 6) the velocity of a node of a body from its twist (v, w) about a point."""
-        made = np.zeros((3, 6))
-        if self.placed[node]:
-            made[:, :3] = np.eye(3)
-            made[:, 3:] = -_cross(self.place[node] - middle)
-        else:
-            made[:, 3:] = np.eye(3)
+        raw, classes = self.result.assembly, self.data.arrays.deformation_class.T
+        element, deformation = np.nonzero(classes[list(elements)] == Class.FIXED)
+        held = 6 * np.array(elements)[element] + deformation
+        moving = (3 * np.array(nodes)[:, None] + np.arange(3)).ravel()
+        row = index_of(held, classes.size)[raw.row_of]
+        column = index_of(moving, 3 * len(self.owner))[raw.column_of]
+        made = np.zeros((held.size, moving.size))
+        np.add.at(made, (row[row >= 0], column[row >= 0]), raw.value[row >= 0])
         return made
 
     def on_bodies(self, carried: _Carried) -> FloatArray:
         """(k, 6 bodies) wrenches on the twists of all bodies, each about its own middle."""
-        made = np.zeros((len(carried.wrenches), 6 * self.bodies))
-        for body, sign in zip(carried.bodies, (-1.0, 1.0), strict=True):
+        _, bodies, middle, wrenches = carried
+        made = np.zeros((len(wrenches), 6 * self.bodies))
+        for body, sign in zip(bodies, (-1.0, 1.0), strict=True):
             if body != _GROUND:
-                force, moment = carried.wrenches[:, :3], carried.wrenches[:, 3:]
-                about = moment + np.cross(carried.middle - self.centres[body], force)
+                force, moment = wrenches[:, :3], wrenches[:, 3:]
+                about = moment + np.cross(middle - self.centres[body], force)
                 both = np.concatenate((force, about / self.length), axis=1)
                 made[:, 6 * body : 6 * body + 6] = sign * both
         return made
 
     def told(self, carried: _Carried, sine: float) -> Hold:
         """A flexure in the words of the model as it was given."""
-        elements = self.result.condensed.elements
-        parts = dict.fromkeys(
-            self.result.parts.of_element(int(elements[e])) for e in carried.elements
-        )
-        nodes = [n for e in carried.elements for n in self.slots[e, [0, 2]].tolist() if n >= 0]
+        elements, _, middle, wrenches = carried
+        given = self.result.condensed.elements
+        parts = dict.fromkeys(self.result.parts.of_element(int(given[e])) for e in elements)
+        nodes = [n for e in elements for n in self.slots[e, [0, 2]].tolist() if n >= 0]
         places = self.place[nodes] if nodes else np.zeros((1, 3))
         extent = float(np.linalg.norm(np.ptp(places, axis=0))) or _OF_A_HINGE * self.length
-        scaled = _orthonormal(carried.wrenches * np.repeat((self.length, 1.0), 3))
+        scaled = _orthonormal(wrenches * np.repeat((self.length, 1.0), 3))
         space = ScrewSpace(
             scaled / np.repeat((self.length, 1.0), 3),
-            carried.middle,
+            middle,
             self.length,
             of_wrenches=True,
             planar=self.result.given.planar,
         )
         kept = tuple(part for part in parts if part.kind is not PartKind.BODY)
         return Hold(kept, space, sine, extent)
-
-
-def _cross(arm: FloatArray) -> FloatArray:
-    """(3, 3) that makes cross products with an arm."""
-    x, y, z = arm.tolist()
-    return np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
 
 
 #: What the number is.

@@ -17,7 +17,7 @@ from ..analysis.screws import ScrewKind
 from ..core.arrays import FloatArray
 from .causes.cause import Cause, CauseKind
 from .motions import AdvisedMotion, AdvisedStress, MovingBody
-from .releases.releases import Declarations, Releases
+from .releases.releases import Sets
 from .spaces.screws import ScrewSpace
 from .spaces.spaces import Spaces, spaces_lines
 from .step import Purpose, Step
@@ -79,14 +79,14 @@ def _vector(vector: FloatArray) -> list[float] | None:
     return vector.tolist() if np.any(vector) else None
 
 
-def of_sets(sets: Releases | Declarations, told: Collection[tuple[Purpose, Change]]) -> Entries:
+def of_sets(places: str, sets: Sets, told: Collection[tuple[Purpose, Change]]) -> Entries:
     """Sets of releases or declarations.
 
     Args:
+        places: Of "deformations" or of "coordinates".
         sets: The sets.
         told: Purpose and change of the steps of which the words can be said.
     """
-    places = "deformations" if isinstance(sets, Releases) else "coordinates"
     return {
         "size": sets.size,
         "count": sets.count,

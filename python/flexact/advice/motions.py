@@ -106,6 +106,11 @@ class MovingBody(NamedTuple):
     """Kind, direction, point and pitch."""
 
 
+def _result_of(mode: Motion | SelfStress) -> Result:
+    assert isinstance(mode.analysis, Result)
+    return mode.analysis
+
+
 @dataclass(frozen=True, repr=False)
 class AdvisedMotion(Frozen):
     """A motion that nothing determines: what it is, why it is there, and how far it goes.
@@ -121,12 +126,6 @@ class AdvisedMotion(Frozen):
     extent: Extent
 
     @property
-    def _result(self) -> Result:
-        result = self.motion.analysis
-        assert isinstance(result, Result)
-        return result
-
-    @property
     def cause(self) -> Cause:
         """Whether any geometry has it, or this one."""
         return self.causes.motions[self.motion.index]
@@ -134,12 +133,12 @@ class AdvisedMotion(Frozen):
     @property
     def internal(self) -> bool:
         """Whether nothing moves but insides of sheets and wires, and folds."""
-        return self._result.are_between_ends[self.motion.index]
+        return _result_of(self.motion).are_between_ends[self.motion.index]
 
     @cached_property
     def bodies(self) -> tuple[MovingBody, ...]:
         """The bodies that move; where there are none, ends and joints; none of an internal one."""
-        result = self._result
+        result = _result_of(self.motion)
         if self.internal or not result.is_told_by_parts:
             return ()
         numbers = result.given.arrays.node_number
@@ -155,7 +154,7 @@ class AdvisedMotion(Frozen):
     @cached_property
     def sentences(self) -> tuple[Pieces, Pieces, Pieces]:
         """What moves, how far it goes, and why it is there."""
-        result, index = self._result, self.motion.index
+        result, index = _result_of(self.motion), self.motion.index
         return (
             sentence(motion_in_sentence(result, self.motion)),
             sentence(extent_in_words(result, self.extent)),
@@ -165,7 +164,7 @@ class AdvisedMotion(Frozen):
     @property
     def statement(self) -> str:
         """All of it, and that nothing stops it, as text."""
-        result, motion, is_one = self._result, self.motion, True
+        result, motion, is_one = _result_of(self.motion), self.motion, True
         if result.is_told_by_parts and not motion.is_internal:
             told = moving_groups(result, motion)
             is_one = len(told) == 1 and len(told[0].names) == 1
@@ -195,16 +194,10 @@ class AdvisedStress(Frozen):
         """Whether any geometry has it, or this one."""
         return self.causes.self_stresses[self.stress.index]
 
-    @property
-    def _result(self) -> Result:
-        result = self.stress.analysis
-        assert isinstance(result, Result)
-        return result
-
     @cached_property
     def sentences(self) -> tuple[Pieces, Pieces]:
         """Which parts fight over what, and why it is there."""
-        result, index = self._result, self.stress.index
+        result, index = _result_of(self.stress), self.stress.index
         return (
             sentence(stress_in_sentence(result, self.stress)),
             sentence(cause_of_stress_in_words(result, index, self.causes)),

@@ -5,14 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import TypeVar
 
 from ..core.elements import POSITION_NAMES, ROTATION_NAMES
 from ..deck.rendering import ModelError, model_error
 from ..util.loading import load
 from ..util.text import in_short
 
-Key = TypeVar("Key")
 #: Names of coordinates, which no point can have.
 COORDINATES = frozenset((*POSITION_NAMES, *ROTATION_NAMES))
 

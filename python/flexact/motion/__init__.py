@@ -2,21 +2,19 @@
 """Configurations in which the held deformations stay zero: where a motion leads."""
 
 from .constraints import MOST_COORDINATES, Held, Place, is_followed
-from .follow import Ending, Followed, Stop, Wishes, follow, follow_both_ways
-from .stations import Least, Station, least_error
+from .follow import Ending, Followed, Stop, Wishes, follow
+from .stations import Station, least_error
 
 __all__ = [
     "MOST_COORDINATES",
     "Ending",
     "Followed",
     "Held",
-    "Least",
     "Place",
     "Station",
     "Stop",
     "Wishes",
     "follow",
-    "follow_both_ways",
     "is_followed",
     "least_error",
 ]

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..analysis.body_motions import Velocities
 from ..core import calls
-from ..core.arrays import FloatArray, ModelArrays, packed
+from ..core.arrays import FloatArray, packed
 from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..core.raw import RawAssembly
 from ..model.configuration import Configuration
@@ -29,31 +29,6 @@ from ..util.rotations import left_jacobian, vector_between
 _MANY = 1_500
 
 
-class Sizes(NamedTuple):
-    """What the model is measured by."""
-
-    size: float
-    """The largest distance between positions [m]; 1 where they are one point."""
-    unit: float
-    """The power of two next to it [m]: nothing is rounded when it is divided by."""
-    middle: FloatArray
-    """(3,) what is taken off all positions [m]."""
-
-
-def sizes_of(arrays: ModelArrays, size: float | None = None) -> Sizes:
-    """The sizes of a model; `size` in place of its own."""
-    placed = arrays.node_kind <= NodeKind.POSITION
-    there = arrays.node_value[:3, placed]
-    if not there.size:
-        return Sizes(1.0 if size is None else size, 1.0, np.zeros(3))
-    low, high = there.min(axis=1), there.max(axis=1)
-    across = float(_extent(there) or 1.0) if size is None else size
-    unit = 2.0 ** round(math.log2(across))
-    middle = low / 2 + high / 2
-    # Near the origin the numbers are best left as they were typed.
-    return Sizes(across, unit, np.where(np.abs(middle) > across, middle, 0.0))
-
-
 def _extent(there: FloatArray) -> float:
     """The largest distance between two positions, (3, k); of many twice that to their mean.
 
@@ -63,14 +38,6 @@ def _extent(there: FloatArray) -> float:
         return 2.0 * float(np.linalg.norm(there - there.mean(axis=1, keepdims=True), axis=0).max())
     apart = there[:, :, None] - there[:, None, :]
     return float(np.sqrt((apart**2).sum(axis=0).max()))
-
-
-def scaled_arrays(arrays: ModelArrays, sizes: Sizes) -> ModelArrays:
-    """The arrays with positions about the middle, in the unit."""
-    placed = arrays.node_kind <= NodeKind.POSITION
-    value = arrays.node_value.copy(order="F")
-    value[:3, placed] = (value[:3, placed] - sizes.middle[:, None]) / sizes.unit
-    return arrays._replace(node_value=value)
 
 
 #: More coordinates than these are not followed: each step solves a dense system.
@@ -121,14 +88,26 @@ class Held:
     def __init__(self, data: ModelData, size: float | None = None) -> None:
         """Take the classes of a sound model as they are; `size` [m] in place of its own."""
         self.data = data
-        self.sizes = sizes_of(data.arrays, size)
-        self.arrays = scaled_arrays(data.arrays, self.sizes)
+        placed = data.arrays.node_kind <= NodeKind.POSITION
+        value = data.arrays.node_value.copy(order="F")
+        #: The largest distance between positions [m], 1 where they are one point; the power of two
+        #: next to it: nothing is rounded when it is divided by; and what is taken off positions.
+        self.size, self.unit, self.middle = 1.0 if size is None else size, 1.0, np.zeros(3)
+        if placed.any():
+            there = value[:3, placed]
+            self.size = float(_extent(there) or 1.0) if size is None else size
+            self.unit = 2.0 ** round(math.log2(self.size))
+            middle = there.min(axis=1) / 2 + there.max(axis=1) / 2
+            # Near the origin the numbers are best left as they were typed.
+            self.middle = np.where(np.abs(middle) > self.size, middle, 0.0)
+            value[:3, placed] = (there - self.middle[:, None]) / self.unit
+        self.arrays = data.arrays._replace(node_value=value)
         self._packed = packed(self.arrays)
         classes = self.arrays.deformation_class
         held = np.isin(classes, (Class.FIXED, Class.INDEPENDENT))
         self.rows = np.flatnonzero(held.T.ravel())
         self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
-        by_size = self.sizes.size / self.sizes.unit
+        by_size = self.size / self.unit
         turns = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
         self._row_factor = np.where(turns, 1.0, 1.0 / by_size)
         placed = self.arrays.node_kind[self.columns // 3] <= NodeKind.POSITION
@@ -148,11 +127,6 @@ class Held:
         self._column_place = place
 
     @property
-    def size(self) -> float:
-        """The largest distance between positions [m]; 1 where they are one point."""
-        return self.sizes.size
-
-    @property
     def reference(self) -> Configuration:
         """Where the model was analysed."""
         return Configuration(self.arrays.node_kind, self.arrays.node_value.T)
@@ -162,18 +136,9 @@ class Held:
         value = here.value.copy()
         placed = here.kinds <= NodeKind.POSITION
         axes = 2 if self.data.planar else 3
-        value[placed, :3] *= self.sizes.unit
-        value[placed, :axes] += self.sizes.middle[:axes]
+        value[placed, :3] *= self.unit
+        value[placed, :axes] += self.middle[:axes]
         return Configuration(here.kinds, value)
-
-    def inside(self, there: Configuration) -> Configuration:
-        """The other way round."""
-        value = there.value.copy()
-        placed = there.kinds <= NodeKind.POSITION
-        axes = 2 if self.data.planar else 3
-        value[placed, :axes] -= self.sizes.middle[:axes]
-        value[placed, :3] /= self.sizes.unit
-        return Configuration(there.kinds, value)
 
     def direction(self, motion: Velocities) -> FloatArray:
         """(n,) a motion: displacements by the size, rotations in radians."""
@@ -207,11 +172,21 @@ class Held:
 
         The derivatives are with respect to the change.
         """
-        delta = np.zeros((self.arrays.node_kind.size, 3))
-        if change is None or not change.any():
-            return self._placed(here, delta)
-        delta.ravel()[self.columns] = change * self._column_factor
-        return self._placed(here.moved(delta), delta)
+        delta, there = np.zeros((self.arrays.node_kind.size, 3)), here
+        if change is not None and change.any():
+            delta.ravel()[self.columns] = change * self._column_factor
+            there = here.moved(delta)
+        raw, row, column, value = self._entries(there)
+        m, n = self.rows.size, self._wide_size
+        wide = np.bincount(row * n + column, value, m * n).astype(np.float64).reshape(m, n)
+        if self._turning.size and delta.any():
+            # By rotation vectors in place of small rotations, exp(T dv) exp(v).
+            columns = self._column_place[3 * self._turning][:, None] + np.arange(3)
+            turns = left_jacobian(delta[self._turning])
+            wide[:, columns] = np.einsum("mkx,kxy->mky", wide[:, columns], turns)
+        error = raw.deformation.T.ravel()[self.rows] * self._row_factor
+        jacobian = self._row_factor[:, None] * wide[:, self._narrow] * self._column_factor
+        return Place(there, error, jacobian)
 
     def moved(self, here: Configuration, change: FloatArray) -> Configuration:
         """The nodes after a change (n,) of the coordinates."""
@@ -222,36 +197,21 @@ class Held:
 
         They are dual to `Place.error`, and the derivatives are those there.
         """
-        raw = self._raw(here)
-        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
-        known = (row >= 0) & (column >= 0)
-        row, column = row[known], column[known]
-        value = raw.value[known] * self._row_factor[row]
+        _, row, column, value = self._entries(here)
+        value = value * self._row_factor[row]
         made = np.zeros((self._wide_size, stresses.shape[1]))
         for k, stress in enumerate(stresses.T):
             made[:, k] = np.bincount(column, value * stress[row], self._wide_size)
         return made[self._narrow] * self._column_factor[:, None]
 
-    def _placed(self, there: Configuration, delta: FloatArray) -> Place:
-        """The place to which a change, (nodes, 3), has led."""
-        raw = self._raw(there)
+    def _entries(
+        self, here: Configuration
+    ) -> tuple[RawAssembly, NDArray[np.integer], NDArray[np.integer], FloatArray]:
+        """The assembly, and rows, columns and values of its entries that are held and may move."""
+        raw = self._raw(here)
         row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
         known = (row >= 0) & (column >= 0)
-        m, n = self.rows.size, self._wide_size
-        place = row[known] * n + column[known]
-        wide = np.bincount(place, raw.value[known], m * n).astype(np.float64).reshape(m, n)
-        if self._turning.size and delta.any():
-            self._turn(wide, delta)
-        error = raw.deformation.T.ravel()[self.rows] * self._row_factor
-        jacobian = self._row_factor[:, None] * wide[:, self._narrow] * self._column_factor
-        return Place(there, error, jacobian)
-
-    def _turn(self, wide: FloatArray, delta: FloatArray) -> None:
-        """Make derivatives by rotation vectors of those by small rotations, exp(T dv) exp(v)."""
-        first = self._column_place[3 * self._turning]
-        columns = first[:, None] + np.arange(3)
-        blocks = wide[:, columns]
-        wide[:, columns] = np.einsum("mkx,kxy->mky", blocks, left_jacobian(delta[self._turning]))
+        return raw, row[known], column[known], raw.value[known]
 
     def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
         """The rate of a deformation, held or not, by its row, element * 6 + deformation."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from ..analysis.decomposition import Decomposition
 from ..analysis.naming import Line, Pieces, length_in_words, sentence
@@ -36,37 +36,37 @@ class EvidenceKind(str, Enum):
     NONE = ""
 
 
-class Reason(str, Enum):
-    """What a decision rests on, or what kept it open."""
-
-    NO_SELF_STRESS = "no self-stress"
-    """None feels the motion: what is held is independent (implicit function theorem)."""
-    RIGID = "rigid"
-    """All that hangs together moves as one rigid body, which strains nothing."""
-    DEFINITE = "definite"
-    """A combination of the self-stresses has a definite second-order form: no motion goes on."""
-    STRAINED = "strained"
-    """The second-order form of a self-stress is not zero for this motion."""
-    REGULAR = "regular"
-    """The forms are zero for this motion and change sign beside it: a path begins with it."""
-    AMONG_OTHERS = "among others"
-    """It is inside of sheets or wires, and can be so chosen among those inside of them."""
-    PATH = "path"
-    """It was followed."""
-    ORDER = "order"
-    """The order of the least strain was fitted."""
-    ONE_WAY = "one way"
-    """It goes on one way, but not the other."""
-    STOPPED = "stopped"
-    """It was followed, but not over a tenth of the size both ways."""
-    NO_ORDER = "no order"
-    """It was not followed, and no order fits the least strain."""
-    ASIDE = "aside"
-    """The least strain is met along another motion."""
-    TOO_LARGE = "too large"
-    """So many coordinates are not followed, or not any longer."""
-    NOT_GIVEN = "not given"
-    """Of so large a space not all vectors are known."""
+#: What a decision rests on, or what kept it open.
+Reason = Literal[
+    # None feels the motion: what is held is independent (implicit function theorem).
+    "no self-stress",
+    # All that hangs together moves as one rigid body, which strains nothing.
+    "rigid",
+    # A combination of the self-stresses has a definite second-order form: no motion goes on.
+    "definite",
+    # The second-order form of a self-stress is not zero for this motion.
+    "strained",
+    # The forms are zero for this motion and change sign beside it: a path begins with it.
+    "regular",
+    # It is inside of sheets or wires, and can be so chosen among those inside of them.
+    "among others",
+    # It was followed.
+    "path",
+    # The order of the least strain was fitted.
+    "order",
+    # It goes on one way, but not the other.
+    "one way",
+    # It was followed, but not over a tenth of the size both ways.
+    "stopped",
+    # It was not followed, and no order fits the least strain.
+    "no order",
+    # The least strain is met along another motion.
+    "aside",
+    # So many coordinates are not followed, or not any longer.
+    "too large",
+    # Of so large a space not all vectors are known.
+    "not given",
+]
 
 
 class Fit(NamedTuple):
@@ -110,15 +110,9 @@ class Extent(Frozen):
     fit: Fit | None = None
 
 
-@dataclass(frozen=True)
-class Branch(Frozen):
-    """A path that several motions begin together.
-
-    Attributes:
-        shares: Index of a told motion, and how much of it; the largest is 1.
-    """
-
-    shares: tuple[tuple[int, float], ...]
+#: A path that several motions begin together: indices of told motions, and how much of each; the
+#: largest is 1.
+Branch = tuple[tuple[int, float], ...]
 
 
 @dataclass(frozen=True)
@@ -141,13 +135,13 @@ class Extents(Frozen):
 _DIGITS = 3
 _LEAST = 1.0e-15
 _PLAIN = {
-    Reason.RIGID: "it goes on: certified, all that hangs together moves as one body",
-    Reason.DEFINITE: "it only begins: certified, any displacement t strains what is held as t^2",
-    Reason.STRAINED: "it only begins: certified, a displacement t strains what is held as t^2",
-    Reason.REGULAR: "it goes on: certified, the self-stresses leave it free to second order",
-    Reason.AMONG_OTHERS: "it goes on: certified, the self-stresses leave it free to second order",
-    Reason.TOO_LARGE: "undecided whether it goes on: to follow it takes too much work",
-    Reason.NOT_GIVEN: "undecided whether it goes on: not all motions and self-stresses are known",
+    "rigid": "it goes on: certified, all that hangs together moves as one body",
+    "definite": "it only begins: certified, any displacement t strains what is held as t^2",
+    "strained": "it only begins: certified, a displacement t strains what is held as t^2",
+    "regular": "it goes on: certified, the self-stresses leave it free to second order",
+    "among others": "it goes on: certified, the self-stresses leave it free to second order",
+    "too large": "undecided whether it goes on: to follow it takes too much work",
+    "not given": "undecided whether it goes on: not all motions and self-stresses are known",
 }
 _STOPS = {
     Ending.BRANCHES: "others branch off",
@@ -160,13 +154,13 @@ _STOPS = {
 
 def extent_in_words(outcome: Decomposition, extent: Extent) -> Pieces:
     """Whether a motion goes on, and what says so; such as "it goes on: followed over ..."."""
-    if extent.reason is Reason.NO_SELF_STRESS:
+    if extent.reason == "no self-stress":
         none = "as there is no self-stress"
         feels = "as no self-stress feels it"
         return (f"it goes on: certified, {feels if outcome.over_constrained else none}",)
     if extent.reason in _PLAIN:
         return (_PLAIN[extent.reason],)
-    if extent.reason is Reason.PATH:
+    if extent.reason == "path":
         both = length_in_words(min(extent.reach or (0.0, 0.0)))
         return (f"it goes on: followed over {both} both ways, residual {_residual(extent)}",)
     if extent.fit is not None:
@@ -201,7 +195,7 @@ def finite_in_words(extents: Extents) -> tuple[Line, ...]:
 def _shares(branch: Branch) -> str:
     """Such as "motion 1 less 0.5 of motion 2"."""
     words = ""
-    for index, share in sorted(branch.shares, key=lambda each: -each[1]):
+    for index, share in sorted(branch, key=lambda each: -each[1]):
         size = abs(float(f"{share:.{_DIGITS}g}"))
         if size < 1.0e-3:
             continue
@@ -213,11 +207,11 @@ def _shares(branch: Branch) -> str:
 
 def _open(extent: Extent) -> str:
     """What was tried."""
-    if extent.reason is Reason.ONE_WAY:
+    if extent.reason == "one way":
         return f"followed over {_each(extent)}, it goes on one way alone"
-    if extent.reason is Reason.ASIDE:
+    if extent.reason == "aside":
         return "near it the least strain is met along other motions"
-    if extent.reason is Reason.NO_ORDER or not extent.reach:
+    if extent.reason == "no order" or not extent.reach:
         return "it was not followed, and no order fits the least strain"
     where = sorted({_STOPS[stop] for stop in extent.stops or () if stop in _STOPS})
     why = f"; there {' and '.join(where)}" if where else ""

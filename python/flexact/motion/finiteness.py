@@ -10,6 +10,7 @@ Numer. Methods Eng. 35, 1992; Connelly and Whiteley, SIAM J. Discrete Math. 9, 1
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import Any, NamedTuple
 
@@ -19,7 +20,7 @@ from ..analysis.decomposition import column_weights
 from ..analysis.limits import CLEAR_SLOPE, RIGID, ROUNDING, STRAINED, UNSTRAINED
 from ..analysis.result import Motion, Result
 from ..core.arrays import FloatArray
-from ..model.parts.parts import Part
+from ..util.groups import distinct, grouped
 from ..util.loading import load
 from .extent import Branch, EvidenceKind, Extent, Extents, Kind, Reason
 from .paths import MOST_MOTIONS, by_path, is_without_strain, positions_near
@@ -97,15 +98,8 @@ def _rate(felt: Felt, stresses: FloatArray, motion: FloatArray) -> tuple[FloatAr
     return np.asarray(best), error
 
 
-class Combination(NamedTuple):
-    """A combination of forms, of unit norm."""
-
-    shares: FloatArray
-    """(s,)."""
-    eigenvalues: FloatArray
-    """(N,) ascending."""
-    vectors: FloatArray
-    """(N, N) their eigenvectors."""
+#: The eigenvalues of a combination of forms, (N,) ascending, and its eigenvectors, (N, N).
+Combination = tuple[FloatArray, FloatArray]
 
 
 def most_definite(forms: Forms) -> Combination:
@@ -123,45 +117,37 @@ def most_definite(forms: Forms) -> Combination:
     best: Combination | None = None
     for start in starts:
         found = _climbed(forms, start)
-        if best is None or found.eigenvalues[0] > best.eigenvalues[0]:
+        if best is None or found[0][0] > best[0][0]:
             best = found
-        if best.eigenvalues[0] > forms.error:
+        if best[0][0] > forms.error:
             break
     assert best is not None
     return best
 
 
-class Cone(NamedTuple):
-    """What the forms leave of the motions: none beyond it is the velocity of a path."""
-
-    basis: FloatArray
-    """(N, k) orthonormal."""
-    forms: Forms
-    """The forms on it, those that are independent."""
-    least: float | None
-    """The smallest eigenvalue that took motions away; None where none did."""
-
-
-def cone_of(forms: Forms) -> Cone:
+def cone_of(forms: Forms) -> tuple[FloatArray, Forms, float | None]:
     """Take away what semidefinite combinations of the forms exclude, until none does.
 
     Where a combination is not negative, its value is zero on a path, so that the velocity is in
     the null space of the combination; there the forms are looked at again.
+
+    Returns:
+        Of what is left of the motions an orthonormal basis, (N, k), and as many forms as are
+        independent on it; and the smallest eigenvalue that took motions away, None where none
+        did.
     """
     basis, now = np.eye(forms.matrix.shape[1]), _independent(forms)
     least: float | None = None
     while now.matrix.size:
-        found = most_definite(now)
-        values, error = found.eigenvalues, forms.error
+        (values, vectors), error = most_definite(now), forms.error
         if values[0] < -error or not values[-1] > error:
             break
         zero = values <= error
-        taken = float(values[~zero].min())
-        least = taken if least is None else min(least, taken)
-        basis = basis @ found.vectors[:, zero]
+        least = min(float(values[~zero].min()), np.inf if least is None else least)
+        basis = basis @ vectors[:, zero]
         within = np.einsum("ja,ijk,kb->iab", basis, forms.matrix, basis)
         now = _independent(Forms(within, error))
-    return Cone(basis, now, least)
+    return basis, now, least
 
 
 def _independent(forms: Forms) -> Forms:
@@ -174,14 +160,19 @@ def _independent(forms: Forms) -> Forms:
 
 
 def _climbed(forms: Forms, shares: FloatArray) -> Combination:
-    best = now = _combined(forms, shares)
+    def combined() -> Combination:
+        values, vectors = np.linalg.eigh(np.tensordot(shares, forms.matrix, 1))
+        return values, np.asarray(vectors)
+
+    best = now = combined()
     for k in range(_MOST_STEPS if shares.size > 1 else 0):
+        values, vectors = now
         # The mean over the lowest eigenvectors, weighted by how low they are.
-        spread = np.abs(now.eigenvalues).max() / (4.0 + k / 4.0)
-        weight = np.exp(-(now.eigenvalues - now.eigenvalues[0]) / spread)
+        spread = np.abs(values).max() / (4.0 + k / 4.0)
+        weight = np.exp(-(values - values[0]) / spread)
         slope = np.einsum(
             "ijk,jl,kl,l->i",
-            *(forms.matrix, now.vectors, now.vectors, weight / weight.sum()),
+            *(forms.matrix, vectors, vectors, weight / weight.sum()),
             optimize=True,
         )
         size = float(np.linalg.norm(slope))
@@ -192,26 +183,19 @@ def _climbed(forms: Forms, shares: FloatArray) -> Combination:
         if not length > 0.0:
             break
         shares = shares / length
-        now = _combined(forms, shares)
-        if now.eigenvalues[0] > best.eigenvalues[0]:
+        now = combined()
+        if now[0][0] > best[0][0]:
             best = now
-        if best.eigenvalues[0] > forms.error:
+        if best[0][0] > forms.error:
             break
     return best
-
-
-def _combined(forms: Forms, shares: FloatArray) -> Combination:
-    values, vectors = np.linalg.eigh(np.tensordot(shares, forms.matrix, 1))
-    return Combination(shares, values, np.asarray(vectors))
 
 
 #: Directions are one where the cosine between them is larger.
 _SAME = 0.999
 
 
-def branches_of(
-    lines: tuple[FloatArray, ...], vectors: dict[int, FloatArray]
-) -> tuple[Branch, ...]:
+def branches_of(lines: Sequence[FloatArray], vectors: dict[int, FloatArray]) -> tuple[Branch, ...]:
     """The paths in some directions, each once; those with little of the first motions first.
 
     Args:
@@ -219,31 +203,23 @@ def branches_of(
         vectors: (N,) the told motions by index.
     """
     told = np.stack(list(vectors.values()), axis=1)
-    made: list[FloatArray] = []
-    for line in lines:
-        if not any(abs(line @ other) > _SAME for other in made):
-            made.append(line)
     found = []
-    for line in made:
+    for line in distinct(lines, lambda line, other: bool(abs(line @ other) > _SAME)):
         shares = np.asarray(np.linalg.lstsq(told, line, rcond=None)[0], np.float64)
         # The largest share is 1, of equal ones the first.
         size = np.abs(shares)
         largest = shares[np.argmax(size > (1.0 - 1.0e-5) * size.max())]
-        found.append(Branch(tuple(zip(vectors, (shares / largest).tolist(), strict=True))))
-    return tuple(sorted(found, key=lambda each: [share for _, share in each.shares]))
+        found.append(tuple(zip(vectors, (shares / largest).tolist(), strict=True)))
+    return tuple(sorted(found, key=lambda each: [share for _, share in each]))
 
 
 #: More motions are not followed; forms that cost more than this work are not made.
 _MOST_FOLLOWED, _MOST_WORK = 40, 400_000.0
 
 
-class Decided(NamedTuple):
-    """What was found of one component."""
-
-    motions: dict[int, Extent]
-    """By index of the told motion."""
-    dimension: int | None
-    branches: tuple[Branch, ...] = ()
+#: What was found of one component: extents by the index of the told motion, the dimension, and
+#: branches.
+Decided = tuple[dict[int, Extent], int | None, tuple[Branch, ...]]
 
 
 class Judge:
@@ -262,42 +238,42 @@ class Judge:
         for k, vector in told.items():
             within = self.felt.within(self.felt.of(vector))
             if np.linalg.norm(within) <= RIGID * self.felt.norm(vector):
-                motions[k] = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.RIGID)
+                motions[k] = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, "rigid")
             else:
                 vectors[k] = within
         rigid = self.felt.rigid
         if not self.motions:
-            return Decided(motions, rigid)
+            return motions, rigid, ()
         found, dimension, branches = self._of_others(vectors)
         whole = None if dimension is None else dimension + rigid
-        return Decided(motions | found, whole, branches)
+        return motions | found, whole, branches
 
     def _of_others(self, vectors: dict[int, FloatArray]) -> Decided:
         """Motions that are not those of one rigid body."""
         work = self.motions * self.felt.held.rows.size * (2.0 + 0.15 * self.stresses)
         stresses = self.felt.stresses if work <= _MOST_WORK else None
         if stresses is None:
-            extent = self._extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
-            return Decided(dict.fromkeys(vectors, extent), None)
+            extent = self._extent(Kind.UNDECIDED, EvidenceKind.NONE, "too large")
+            return dict.fromkeys(vectors, extent), None, ()
         zero, noise = self.spaces.gap.largest_zero or 0.0, self.spaces.raw.noise
         # What the rounding of the geometry lifts the zeros by, where that is more than arithmetic.
         self.floor = zero if zero > noise else 0.0
         self.forms = forms_of(self.felt, stresses, 100.0 * self.floor)
-        self.cone = cone_of(self.forms)
+        self.basis, self.on_basis, least = cone_of(self.forms)
         self.reduced = Reduced(self.felt, stresses) if self.felt.is_small else None
-        if not self.cone.basis.shape[1]:
+        if not self.basis.shape[1]:
             extent = self._extent(
-                *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.DEFINITE),
-                curvature=self.cone.least,
+                *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, "definite"),
+                curvature=least,
             )
-            return Decided(dict.fromkeys(vectors, extent), 0)
+            return dict.fromkeys(vectors, extent), 0, ()
         motions = {k: self._of_motion(vector) for k, vector in vectors.items()}
         motions |= self._inside(motions, vectors)
         if self.motions == 1:
             kinds = {each.kind for each in motions.values()}
             known = {Kind.FINITE: 1, Kind.INFINITESIMAL: 0}
-            return Decided(motions, known.get(kinds.pop()) if len(kinds) == 1 else None)
-        return Decided(motions, *self._dimension(motions, vectors))
+            return motions, known.get(kinds.pop()) if len(kinds) == 1 else None, ()
+        return motions, *self._dimension(motions, vectors)
 
     @property
     def _is_indefinite(self) -> bool:
@@ -311,30 +287,26 @@ class Judge:
         values = np.linalg.eigvalsh(self.forms.matrix[0])
         return bool(values[0] < -self.forms.error and values[-1] > self.forms.error)
 
-    def _is_regular(self, unit: FloatArray) -> bool:
-        """Whether the forms, zero for a motion, change independently beside it.
-
-        Then a path begins with it (implicit function theorem, applied to D(x) / t**2).
-        """
-        if self.motions <= self.stresses:
-            return False
-        values = np.linalg.svd(self.forms.along(unit), compute_uv=False)
-        return bool(values.min() > max(self.forms.error, CLEAR_SLOPE))
-
     def _of_motion(self, vector: FloatArray) -> Extent:
         unit = vector / np.linalg.norm(vector)
         strain = float(np.linalg.norm(self.forms.of(unit)))
         size = float(np.abs(self.forms.matrix).max(initial=0.0))
         if strain > max(self.forms.error, STRAINED * size):
             return self._extent(
-                *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.STRAINED), curvature=strain
+                *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, "strained"), curvature=strain
             )
-        is_zero = strain <= max(self.forms.error, UNSTRAINED * size)
-        if is_zero and (self._is_indefinite or self._is_regular(unit)):
-            return self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.REGULAR)
+        begins = strain <= max(self.forms.error, UNSTRAINED * size)
+        if begins and not self._is_indefinite:
+            # Where the forms, zero for it, change independently beside it a path begins with it
+            # (implicit function theorem, applied to D(x) / t**2).
+            slopes = np.linalg.svd(self.forms.along(unit), compute_uv=False)
+            is_regular = bool(slopes.min() > max(self.forms.error, CLEAR_SLOPE))
+            begins = self.motions > self.stresses and is_regular
+        if begins:
+            return self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, "regular")
         self._asked += 1
         if self.reduced is None or self._asked > _MOST_FOLLOWED:
-            return self._extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
+            return self._extent(Kind.UNDECIDED, EvidenceKind.NONE, "too large")
         return by_path(self.reduced, unit, self.floor)
 
     def _inside(
@@ -345,16 +317,13 @@ class Judge:
         How they are told apart is arbitrary: where the form has both signs on those inside of
         the same parts, as many can be chosen that all go on.
         """
-        strained = [k for k, each in motions.items() if each.reason is Reason.STRAINED]
+        strained = [k for k, each in motions.items() if each.reason == "strained"]
         if not (strained and self._is_indefinite and self.spaces.is_told_by_parts):
             return {}
-        groups: dict[tuple[Part, ...], list[int]] = {}
-        for k in vectors:
-            motion = Motion(k, self.spaces)
-            if motion.is_internal:
-                groups.setdefault(motion.internal_to, []).append(k)
+        inside = [motion for k in vectors if (motion := Motion(k, self.spaces)).is_internal]
+        groups = grouped((motion.internal_to, motion.index) for motion in inside)
         made: dict[int, Extent] = {}
-        extent = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.AMONG_OTHERS)
+        extent = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, "among others")
         for group in groups.values():
             basis = np.linalg.qr(np.stack([vectors[k] for k in group], axis=1))[0]
             values = np.linalg.eigvalsh(basis.T @ self.forms.matrix[0] @ basis)
@@ -369,36 +338,31 @@ class Judge:
         self, motions: dict[int, Extent], vectors: dict[int, FloatArray]
     ) -> tuple[int | None, tuple[Branch, ...]]:
         if self._is_indefinite:
-            lines = _lines_of(self.forms.matrix[0]) if self.motions == 2 else ()
-            return self.motions - 1, branches_of(lines, vectors)
+            lines = []
+            if self.motions == 2:
+                # Both directions in which an indefinite form of two motions is zero.
+                values, axes = np.linalg.eigh(self.forms.matrix[0])
+                one, other = np.sqrt(np.abs(values[::-1])).tolist()
+                lines = [axes @ np.array([one, sign * other]) for sign in (1.0, -1.0)]
+            units = [line / np.linalg.norm(line) for line in lines]
+            return self.motions - 1, branches_of(units, vectors)
         if self.reduced is None:
             return None, ()
-        basis = self.cone.basis
-        if not self.cone.forms.matrix.size and is_without_strain(self.reduced, basis):
+        basis = self.basis
+        if not self.on_basis.matrix.size and is_without_strain(self.reduced, basis):
             return basis.shape[1], ()
         if self.motions > MOST_MOTIONS:
             return None, ()
         units = [each / np.linalg.norm(each) for each in vectors.values()]
-        near = positions_near(self.reduced, basis, units)
-        dimension = near.dimension
-        if dimension == 0 and any(each.kind is Kind.FINITE for each in motions.values()):
-            dimension = None
-        if dimension != 1 or any(each.kind is Kind.FINITE for each in motions.values()):
-            return dimension, ()
-        return dimension, branches_of(near.lines, vectors)
-
-
-def _lines_of(form: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Both directions, (2,) each, in which an indefinite form of two motions is zero."""
-    values, vectors = np.linalg.eigh(form)
-    one, other = np.sqrt(np.abs(values[::-1])).tolist()
-    lines = [vectors @ np.array([one, sign * other]) for sign in (1.0, -1.0)]
-    return lines[0] / np.linalg.norm(lines[0]), lines[1] / np.linalg.norm(lines[1])
+        dimension, found = positions_near(self.reduced, basis, units)
+        if any(each.kind is Kind.FINITE for each in motions.values()):
+            return dimension or None, ()
+        return dimension, branches_of(found, vectors) if dimension == 1 else ()
 
 
 #: More components than this are not looked at, nor more motions in one, nor entries of these.
 _MOST_COMPONENTS, _MOST_MOTIONS, _MOST_ENTRIES = 60, 400, 4_000_000
-_FREE = Extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS)
+_FREE = Extent(Kind.FINITE, EvidenceKind.CERTIFIED, "no self-stress")
 
 
 def extents_of(spaces: Result) -> Extents:
@@ -411,7 +375,7 @@ def extents_of(spaces: Result) -> Extents:
     """
     many = spaces.motion_basis.vectors
     if spaces.raw.motions.vectors < spaces.under_constrained:
-        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
+        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, "not given")
         if spaces.over_constrained:
             return Extents((unknown,) * many, None)
         return Extents((_FREE,) * many, spaces.under_constrained)
@@ -419,31 +383,29 @@ def extents_of(spaces: Result) -> Extents:
     told = _told_in(spaces, felt)
     # Matrices are so small that more threads would slow them down.
     with load("threadpoolctl").threadpool_limits(1) if felt else nullcontext():
-        decided = []
+        decided: list[Decided] = []
         for k, (component, mine) in enumerate(zip(felt, told, strict=True)):
             size = len(component.motions)
             entries = size * component.columns.size
             if k >= _MOST_COMPONENTS or size > _MOST_MOTIONS or entries > _MOST_ENTRIES:
-                extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
-                decided.append(Decided(dict.fromkeys(mine, extent), None))
+                extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, "too large")
+                decided.append((dict.fromkeys(mine, extent), None, ()))
             else:
                 decided.append(Judge(spaces, component).decided(mine))
-    parts: list[list[Extent]] = [[_FREE] for _ in range(many)]
-    for each in decided:
-        for k, extent in each.motions.items():
-            parts[k].append(extent)
-    known = [each.dimension for each in decided if each.dimension is not None]
+    parts = grouped(each for motions, _, _ in decided for each in motions.items())
+    known = [dimension for _, dimension, _ in decided if dimension is not None]
     whole = sum(known) + free if len(known) == len(decided) else None
-    branches = tuple(branch for each in decided for branch in each.branches)
-    return Extents(tuple(map(_of_all, parts)), whole, branches)
+    branches = tuple(branch for _, _, every in decided for branch in every)
+    # Of a motion of several components: it goes on where all parts do.
+    every = (min(parts.get(k, [_FREE]), key=_rank) for k in range(many))
+    return Extents(tuple(every), whole, branches)
 
 
-def _of_all(parts: list[Extent]) -> Extent:
-    """Of a motion of several components: it goes on where all parts do."""
+def _rank(extent: Extent) -> tuple[int, int]:
+    """By what the part is found that decides."""
     order = {Kind.INFINITESIMAL: 0, Kind.UNDECIDED: 1, Kind.FINITE: 2}
-    felt = [part for part in parts if part is not _FREE] or parts
     by_proof = {EvidenceKind.FOLLOWED: 0, EvidenceKind.FITTED: 1, EvidenceKind.CERTIFIED: 2}
-    return min(felt, key=lambda part: (order[part.kind], by_proof.get(part.evidence, 3)))
+    return order[extent.kind], by_proof.get(extent.evidence, 3)
 
 
 def _told_in(spaces: Result, components: tuple[Component, ...]) -> list[dict[int, FloatArray]]:

@@ -13,7 +13,6 @@ from enum import Enum
 
 import numpy as np
 
-from ..analysis.body_motions import Velocities
 from ..analysis.limits import TRUE, ZERO_ELSEWHERE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
@@ -27,7 +26,6 @@ from .stations import (
     arc_between,
     least_near,
     passing,
-    station_at,
     touching,
 )
 
@@ -193,10 +191,8 @@ def station_there(
     held: Held, where: Configuration, arc: float, along: FloatArray, zero: float
 ) -> Station:
     """The station at a singular place that was found between two others."""
-    values = held.values(where)
-    rank = int(np.count_nonzero(values > max(zero, _ZERO_AT_BRANCH)))
-    residual = held.at(where).residual
-    return station_at(held, where, rank, along, arc, residual, 0.0, values)
+    rank = int(np.count_nonzero(held.values(where) > max(zero, _ZERO_AT_BRANCH)))
+    return Station(where, arc, held.at(where).residual, along, rank, 0.0)
 
 
 #: Where the null space is larger than the path is wide, what exceeds rounding is corrected within
@@ -215,18 +211,6 @@ _CURVED = 0.35
 _CLOSED = 1.0e-8
 #: A closed path has so many stations at least.
 _FEWEST = 6
-
-
-def follow_both_ways(
-    motion: Velocities, rank: int, wishes: Wishes, zero: float = ZERO_ELSEWHERE
-) -> tuple[Followed, Followed]:
-    """The path of a motion against it and along it; see `follow`."""
-    held = Held(motion.data)
-    direction = held.direction(motion)
-    return (
-        follow(held, -direction, rank, wishes, zero),
-        follow(held, direction, rank, wishes, zero),
-    )
 
 
 def follow(
@@ -265,27 +249,22 @@ class _Walk:
     def walk(self, direction: FloatArray, rank: int) -> Followed:
         """Step until something stops it."""
         start, along = self.held.reference, direction / np.linalg.norm(direction)
-        chart = Chart(self.held, start, rank)
-        residual = self.held.at(start).residual
-        values = self.held.values(start)
-        first = station_at(self.held, start, rank, along, 0.0, residual, 1.0, values)
-        self.stations.append(first)
+        chart, residual = Chart(self.held, start, rank), self.held.at(start).residual
+        smallest = float(self.held.values(start)[rank - 1]) if rank else 0.0
+        self.stations.append(Station(start, 0.0, residual, along, rank, smallest))
         step, stop = self.wishes.first, None
         while stop is None:
+            left = self.wishes.length - self.stations[-1].arc
             if len(self.stations) > self.wishes.steps:
                 stop = Stop(Ending.STEPS, step)
-                break
-            left = self.wishes.length - self.stations[-1].arc
-            if left < max(1.0e-9 * self.wishes.length, self.wishes.least):
+            elif left < max(1.0e-9 * self.wishes.length, self.wishes.least):
                 stop = Stop(Ending.LENGTH, step)
-                break
-            found = self._onward(chart, min(step, left))
-            if found is None:
+            elif (found := self._onward(chart, min(step, left))) is None:
                 stop = self.failed
-                break
-            there, chart, step = found
-            stop = self._arrive(there)
-            self.on_step(self.stations[-1].arc)
+            else:
+                there, chart, step = found
+                stop = self._arrive(there)
+                self.on_step(self.stations[-1].arc)
         return Followed(tuple(self.stations), stop, tuple(self.branches))
 
     def _arrive(self, there: Station) -> Stop | None:
@@ -395,6 +374,5 @@ class _Walk:
             return None
         sign = sign_between(last, chart) * float(np.sign(here.signed) or 1.0)
         arc = here.arc + arc_between(self.held, here, where, along)
-        along /= straight
-        made = station_at(self.held, where, rank, along, arc, residual, sign, values)
-        return made, chart
+        signed = sign * float(values[rank - 1]) if rank else 0.0
+        return Station(where, arc, residual, along / straight, rank, signed), chart

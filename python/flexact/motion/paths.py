@@ -8,7 +8,6 @@ little off these again. How many directions of those are independent is the dime
 from __future__ import annotations
 
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -71,44 +70,36 @@ _LEAST_POINTS = 5
 _WHOLE, _SPREAD = 0.06, 0.03
 
 
-class Measured(NamedTuple):
-    """The least strains along a motion one way."""
-
-    share: FloatArray
-    strain: FloatArray
-    aside: bool
-    """Whether somewhere the least is met along other motions."""
-
-
-def measured(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Measured:
-    """The least strains along a motion, where they are above rounding.
+def measured(
+    reduced: Reduced, unit: FloatArray, sign: float, floor: float
+) -> tuple[Fit | None, bool]:
+    """The order of the least strains along a motion, where they are above rounding.
 
     Args:
         reduced: What is left of D(x) = 0.
         unit: (N,) the motion, of norm one.
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the share.
+
+    Returns:
+        A whole number within the fit, None where there is none; and whether somewhere the least
+        is met along other motions.
     """
-    aside = False
-    shares, strains = [], []
-    for share in _SHARES.tolist():
-        found = least_along(reduced, unit, sign * share)
-        if found is None:
-            aside = True
-            continue
-        if found.strain < max(_LEAST, 30.0 * floor * share):
-            continue
-        shares.append(share)
-        strains.append(found.strain)
-    return Measured(np.array(shares), np.array(strains), aside)
+    found = [(share, least_along(reduced, unit, sign * share)) for share in _SHARES.tolist()]
+    told = [
+        (share, here.strain)
+        for share, here in found
+        if here is not None and here.strain >= max(_LEAST, 30.0 * floor * share)
+    ]
+    share, strain = np.array(told).reshape(-1, 2).T
+    return _fitted(share, strain), any(here is None for _, here in found)
 
 
-def fit_of(found: Measured) -> Fit | None:
-    """The order, a whole number within the fit; None where there is none."""
-    if found.share.size < _LEAST_POINTS:
+def _fitted(share: FloatArray, strain: FloatArray) -> Fit | None:
+    if share.size < _LEAST_POINTS:
         return None
-    chosen = found.share <= found.share.min() * 10.0**_MOST_DECADES * 1.001
-    share, strain = found.share[chosen], found.strain[chosen]
+    chosen = share <= share.min() * 10.0**_MOST_DECADES * 1.001
+    share, strain = share[chosen], strain[chosen]
     if np.log10(share.max() / share.min()) < _LEAST_DECADES - 1.0e-9:
         return None
     # Terms of the next orders bend the line at its upper end.
@@ -134,16 +125,10 @@ _NEAR, _WALKING_BESIDE = 1.0e-4, 0.05
 _ROUNDED = 10.0
 
 
-class Walk(NamedTuple):
-    """How far a path was followed one way."""
-
-    gone: float
-    """Length of the path of the node that moves farthest, in parts of the size."""
-    strain: float
-    """The largest on the path."""
-
-    arrived: bool
-    """Whether it went as far as it was to go, or came back to where it began."""
+#: How far a path was followed one way: the length of the path of the node that moves farthest, in
+#: parts of the size; the largest strain on it; and whether it went as far as it was to go, or came
+#: back to where it began.
+Walk = tuple[float, float, bool]
 
 
 def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
@@ -155,8 +140,14 @@ def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the way.
     """
-    if unit.size > 1 and not _begins(reduced, unit, sign, floor):
-        return Walk(0.0, 0.0, False)
+    if unit.size > 1:
+        # Whether there is a path near, on which other motions fall behind.
+        begun = least_along(reduced, unit, sign * _NEAR)
+        limit = TRUE / 100.0 + _ROUNDED * floor * _NEAR
+        if begun is None or begun.strain > limit:
+            return 0.0, 0.0, False
+        if beside(begun, unit, sign * _NEAR) > _WALKING_BESIDE:
+            return 0.0, 0.0, False
     here, gone, worst, step = reduced.at(np.zeros(unit.size)), 0.0, 0.0, _STEP
     ahead = sign * unit
     while here is not None and gone < GOAL:
@@ -173,22 +164,11 @@ def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
             if step < _LEAST_STEP:
                 break
             continue
-        gone, worst = (
-            gone + reduced.felt.held.reach(there.change - here.change),
-            max(worst, there.strain),
-        )
+        gone += reduced.felt.held.reach(there.change - here.change)
+        worst = max(worst, there.strain)
         ahead = (there.shares - here.shares) / _norm(there.shares - here.shares)
         here, step = there, min(2.0 * step, _STEP)
-    return Walk(gone, worst, gone >= GOAL)
-
-
-def _begins(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> bool:
-    """Whether there is a path near, on which other motions fall behind."""
-    found = least_along(reduced, unit, sign * _NEAR)
-    limit = TRUE / 100.0 + _ROUNDED * floor * _NEAR
-    if found is None or found.strain > limit:
-        return False
-    return beside(found, unit, sign * _NEAR) <= _WALKING_BESIDE
+    return gone, worst, gone >= GOAL
 
 
 def _norm(vector: FloatArray) -> float:
@@ -212,15 +192,6 @@ _MOST_LOOKED_AT = 8
 MOST_MOTIONS = 12
 
 
-class Near(NamedTuple):
-    """Positions without strain near the reference."""
-
-    dimension: int | None
-    """None where it is open."""
-    lines: tuple[FloatArray, ...]
-    """Directions from the reference, (N,), of positions about which it is one."""
-
-
 def is_without_strain(reduced: Reduced, cone: FloatArray) -> bool:
     """Whether random motions of a cone (N, k) lead to positions without strain, others added.
 
@@ -238,17 +209,30 @@ def is_without_strain(reduced: Reduced, cone: FloatArray) -> bool:
     return True
 
 
-def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -> Near:
+def positions_near(
+    reduced: Reduced, cone: FloatArray, also: list[FloatArray]
+) -> tuple[int | None, list[FloatArray]]:
     """Positions without strain near the reference, and their dimension.
 
     Args:
         reduced: What is left of D(x) = 0.
         cone: (N, k) orthonormal, in which all paths begin.
         also: (N,) unit vectors of motions to begin with, besides random ones.
+
+    Returns:
+        The dimension, None where it is open, and directions from the reference, (N,), of positions
+        about which it is one.
     """
     many, width = cone.shape
     if width == 1:
-        return _along(reduced, cone[:, 0])
+        # All paths begin with one motion: whether there is one, to one side at least.
+        unit = cone[:, 0]
+        for sign in (1.0, -1.0):
+            every = [least_along(reduced, unit, sign * share) for share in _NEARER]
+            if all(found is not None and found.strain <= _ROUNDED_STRAIN for found in every):
+                return 1, [unit]
+        fits = [measured(reduced, unit, sign, 0.0)[0] for sign in (1.0, -1.0)]
+        return None if None in fits else 0, []
     random = np.random.default_rng(width)
     starts = [sign * each for each in also for sign in (1.0, -1.0)]
     starts += [cone @ each for each in random.standard_normal((2 * width + 4, width))]
@@ -270,29 +254,18 @@ def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -
         if here == 1:
             lines.append(_refined(reduced, found.shares))
         if dimension == width:
-            return Near(width, tuple(lines))
+            return width, lines
     # Where some are found, others that are not say nothing; where none is, that proves nothing.
     is_clear = not reduced.is_spent and dimension > 0 and 2 * unclear <= looked_at
-    return Near(dimension if is_clear else None, tuple(lines))
-
-
-def _along(reduced: Reduced, unit: FloatArray) -> Near:
-    """Where all paths begin with one motion: whether there is one, to one side at least."""
-    for sign in (1.0, -1.0):
-        every = [least_along(reduced, unit, sign * share) for share in _NEARER]
-        if all(found is not None and found.strain <= _ROUNDED_STRAIN for found in every):
-            return Near(1, (unit,))
-    fits = [fit_of(measured(reduced, unit, sign, 0.0)) for sign in (1.0, -1.0)]
-    return Near(None if None in fits else 0, ())
+    return dimension if is_clear else None, lines
 
 
 def _refined(reduced: Reduced, gone: FloatArray) -> FloatArray:
     """(N,) the direction in which a path begins that has gone somewhere, of unit norm."""
     for share in (0.1, 0.1, 0.1):
-        found = reduced.least(share * gone, np.eye(gone.size), _OTHERS_BESIDE * _norm(share * gone))
-        if found is None or _norm(found.shares - share * gone) > _OTHERS_BESIDE * _norm(
-            share * gone
-        ):
+        start, most = share * gone, _OTHERS_BESIDE * _norm(share * gone)
+        found = reduced.least(start, np.eye(gone.size), most)
+        if found is None or _norm(found.shares - start) > most:
             break
         gone = found.shares
     return np.asarray(gone / np.linalg.norm(gone))
@@ -331,31 +304,29 @@ def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
     """
     felt = reduced.felt
     held, motion = felt.held, felt.motions @ unit
-    (back, why), (ahead, why_ahead) = (
-        _gone(reduced, sign * motion, sign, unit, floor) for sign in (-1.0, 1.0)
-    )
+    ways = [_gone(reduced, sign * motion, sign, unit, floor) for sign in (-1.0, 1.0)]
+    ((back, strain_back, is_back), why_back), ((ahead, strain_ahead, is_ahead), why_ahead) = ways
     made = partial(
         Extent,
         size=held.size,
-        reach=(back.gone * held.size, ahead.gone * held.size),
-        stops=(why, why_ahead),
-        residual=max(back.strain, ahead.strain),
+        reach=(back * held.size, ahead * held.size),
+        stops=(why_back, why_ahead),
+        residual=max(strain_back, strain_ahead),
     )
-    if back.arrived and ahead.arrived:
-        return made(Kind.FINITE, EvidenceKind.FOLLOWED, Reason.PATH)
-    if back.arrived or ahead.arrived:
-        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ONE_WAY)
+    if is_back and is_ahead:
+        return made(Kind.FINITE, EvidenceKind.FOLLOWED, "path")
+    if is_back or is_ahead:
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, "one way")
     found = [measured(reduced, unit, sign, floor) for sign in (-1.0, 1.0)]
-    fits = [fit for each in found if (fit := fit_of(each)) is not None]
+    fits = [fit for fit, _ in found if fit is not None]
     if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
         fit = max(fits, key=lambda each: each.spread)
-        return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, fit=fit)
-    if felt.many > 1 and any(each.aside for each in found):
-        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ASIDE)
+        return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, "order", fit=fit)
+    if felt.many > 1 and any(aside for _, aside in found):
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, "aside")
     if reduced.is_spent:
-        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
-    stopped = min(back.gone, ahead.gone) > 0.0
-    reason = Reason.STOPPED if stopped else Reason.NO_ORDER
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, "too large")
+    reason: Reason = "stopped" if min(back, ahead) > 0.0 else "no order"
     return made(Kind.UNDECIDED, EvidenceKind.NONE, reason)
 
 
@@ -368,7 +339,7 @@ def _gone(
         path = follow(felt.held, motion, motion.size - felt.many, _WISHES)
         arrived = path.stop.ending in (Ending.LENGTH, Ending.CLOSED)
         if arrived or not (felt.many > 1 or floor):
-            return Walk(path.length, path.residual, arrived), path.stop.ending
+            return (path.length, path.residual, arrived), path.stop.ending
         stop = path.stop.ending
     found = walk(reduced, unit, sign, floor)
-    return found, Ending.LENGTH if found.arrived else stop
+    return found, Ending.LENGTH if found[2] else stop

@@ -7,7 +7,6 @@ All is free of units, as `flexact.motion.constraints` has it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from ..analysis.decomposition import column_weights, row_weights
 from ..analysis.limits import ROUNDING
 from ..analysis.result import Result
+from ..analysis.ways import spanning
 from ..core.arrays import Basis, FloatArray
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
@@ -23,6 +23,7 @@ from ..util.groups import least_of_groups
 from ..util.matrices import complement, null_space, span
 from ..util.records import Frozen, cached_property
 from .constraints import Held
+from .stations import solved
 
 #: Entries of a vector of unit norm that are rounding.
 _UNSEEN = 1.0e-10
@@ -111,42 +112,24 @@ def rigid_motions(held: Held) -> FloatArray:
 
     They are those that do not move what is fixed or independent.
     """
-    kinds = held.arrays.node_kind
+    kinds, value = held.arrays.node_kind, held.arrays.node_value[:3].T
     every = np.array([3 * i + axis for i, k in enumerate(kinds.tolist()) for axis in _AXES[k]])
-    fields = _fields(held)
+    # Translations along and rotations about the axes, by the size and in radians.
+    placed = kinds <= NodeKind.POSITION
+    middle = value[placed].mean(axis=0) if placed.any() else np.zeros(3)
+    arms = (value - middle) * (held.unit / held.size)
+    each = np.zeros((kinds.size, 3, 6))
+    each[placed, :, :3] = np.eye(3)
+    for axis in range(3):
+        each[placed, :, 3 + axis] = np.cross(np.eye(3)[axis], arms[placed])
+        each[~placed, axis, 3 + axis] = 1.0
+    if held.data.planar:
+        each[:, :, [2, 3, 4]] = 0.0
+    fields = each.reshape(-1, 6)
     free = np.isin(every, held.columns)
     stopped = fields[every[~free]]
     ways = null_space(np.asarray(np.linalg.qr(stopped, mode="r")), ROUNDING)
     return span(fields[held.columns] @ ways, ROUNDING)
-
-
-def leading_rows(vectors: FloatArray) -> NDArray[np.integer]:
-    """(k,) rows of independent vectors (n, k) in which they are as independent as can be."""
-    left, chosen = vectors.copy(), []
-    for _ in range(vectors.shape[1]):
-        sizes = np.linalg.norm(left, axis=1)
-        # Of rows that rounding alone tells apart the first.
-        row = int(np.argmax(sizes > (1.0 - 1.0e-6) * sizes.max()))
-        chosen.append(row)
-        unit = left[row] / sizes[row]
-        left = left - np.outer(left @ unit, unit)
-    return np.array(chosen, np.int64)
-
-
-def _fields(held: Held) -> FloatArray:
-    """(3 nodes, 6) translations along and rotations about the axes, by the size and radians."""
-    kinds, value = held.arrays.node_kind, held.arrays.node_value[:3].T
-    placed = kinds <= NodeKind.POSITION
-    middle = value[placed].mean(axis=0) if placed.any() else np.zeros(3)
-    arms = (value - middle) * (held.sizes.unit / held.size)
-    made = np.zeros((kinds.size, 3, 6))
-    made[placed, :, :3] = np.eye(3)
-    for axis in range(3):
-        made[placed, :, 3 + axis] = np.cross(np.eye(3)[axis], arms[placed])
-        made[~placed, axis, 3 + axis] = 1.0
-    if held.data.planar:
-        made[:, :, [2, 3, 4]] = 0.0
-    return made.reshape(-1, 6)
 
 
 #: Entries of D(c) of a component that is small; of self-stresses that are looked at.
@@ -173,24 +156,50 @@ class Felt:
         placed = spaces.data.arrays.node_kind[node] <= NodeKind.POSITION
         self._factor = np.where(placed, 1.0 / whole.size, 1.0)
         self._rigid = rigid_motions(whole)
-        self._stopped = leading_rows(self._rigid)
+        # Coordinates in which the rigid motions are as independent as can be.
+        self._stopped = np.array(spanning(self._rigid, int), np.int64)
         self.rigid = self._stopped.size
-        self.held = held = _stopped(whole, self._stopped)
+        self.held = held = whole
+        if self.rigid:
+            classes = data.arrays.coordinate_class.copy(order="F")
+            stopped, axes = np.divmod(whole.columns[self._stopped], 3)
+            classes[axes, stopped] = Class.FIXED
+            arrays = data.arrays._replace(coordinate_class=classes)
+            self.held = held = Held(replace(data, arrays=arrays))
         told = column_weights(spaces)[component.columns]
         motions = _dense(spaces.motion_space, component.motions)[component.columns]
         left, _, _ = np.linalg.svd(self.of(motions / told[:, None]), full_matrices=False)
         self.motions = np.asarray(left[:, : len(component.motions) - self.rigid])
         self.is_small = held.rows.size * held.columns.size <= _MOST_NUMBERS
-        self._of_stresses = partial(_of_space, spaces, component.stresses, element_place, held)
+        self._spaces, self._element_place = spaces, element_place
         self._many_stresses = component.stresses
 
     @cached_property
     def stresses(self) -> FloatArray | None:
         """(m, s) orthonormal, dual to the deformations; None where not all are known."""
-        if not self.is_small:
-            return self._of_stresses()
-        left = np.linalg.svd(self.held.at(self.held.reference).jacobian)[0]
-        return np.asarray(left[:, left.shape[1] - self._many_stresses :])
+        spaces, held, many = self._spaces, self.held, self._many_stresses
+        if self.is_small:
+            left = np.linalg.svd(held.at(held.reference).jacobian)[0]
+            return np.asarray(left[:, left.shape[1] - many :])
+        # What the self-stresses of the analysis have in the component.
+        if spaces.raw.stresses.vectors < spaces.over_constrained:
+            return None
+        element, deformation = spaces.raw.row_label - 1
+        rows = np.flatnonzero(self._element_place[element] >= 0)
+        space, mine = spaces.stress_space, np.zeros(spaces.rows, bool)
+        mine[rows] = True
+        vectors = np.unique(space.of_entries()[mine[space.place]])
+        if vectors.size * held.rows.size > _MOST_ENTRIES:
+            return None
+        own = 6 * self._element_place[element[rows]] + deformation[rows]
+        made = np.zeros((held.rows.size, vectors.size))
+        of_rows = _dense(space, tuple(vectors.tolist()))[rows]
+        places = np.searchsorted(held.rows, own)
+        made[places] = of_rows / row_weights(spaces)[rows][:, None]
+        kinds = spaces.data.arrays.element_kind[element[rows]]
+        turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
+        made[places] *= np.where(turns, 1.0, held.size)[:, None]
+        return np.asarray(np.linalg.svd(made, full_matrices=False)[0][:, :many])
 
     @property
     def many(self) -> int:
@@ -216,40 +225,6 @@ class Felt:
     def within(self, change: FloatArray) -> FloatArray:
         """(N,) what a change of the coordinates (n,) has of each motion."""
         return np.asarray(self.motions.T @ change)
-
-
-def _of_space(
-    spaces: Result, many: int, element_place: NDArray[np.integer], held: Held
-) -> FloatArray | None:
-    """(m, s) orthonormal, what the self-stresses of the analysis have in a component."""
-    if spaces.raw.stresses.vectors < spaces.over_constrained:
-        return None
-    element, deformation = spaces.raw.row_label - 1
-    rows = np.flatnonzero(element_place[element] >= 0)
-    space, mine = spaces.stress_space, np.zeros(spaces.rows, bool)
-    mine[rows] = True
-    vectors = np.unique(space.of_entries()[mine[space.place]])
-    if vectors.size * held.rows.size > _MOST_ENTRIES:
-        return None
-    places = np.searchsorted(held.rows, 6 * element_place[element[rows]] + deformation[rows])
-    made = np.zeros((held.rows.size, vectors.size))
-    of_rows = _dense(space, tuple(vectors.tolist()))[rows]
-    made[places] = of_rows / row_weights(spaces)[rows][:, None]
-    kinds = spaces.data.arrays.element_kind[element[rows]]
-    turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
-    made[places] *= np.where(turns, 1.0, held.size)[:, None]
-    return np.asarray(np.linalg.svd(made, full_matrices=False)[0][:, :many])
-
-
-def _stopped(whole: Held, columns: NDArray[np.integer]) -> Held:
-    """What is held where some columns stay."""
-    if not columns.size:
-        return whole
-    arrays = whole.data.arrays
-    classes = arrays.coordinate_class.copy(order="F")
-    node, axis = np.divmod(whole.columns[columns], 3)
-    classes[axis, node] = Class.FIXED
-    return Held(replace(whole.data, arrays=arrays._replace(coordinate_class=classes)))
 
 
 def _alone(
@@ -287,7 +262,7 @@ def _dense(basis: Basis, vectors: tuple[int, ...]) -> FloatArray:
 
 _MOST_STEPS = 14
 #: A correction below this is rounding, where it no longer gets smaller.
-_SETTLED, _ROUNDING, _SHRINKS = 1.0e-15, 1.0e-10, 0.7
+_ROUNDING, _SHRINKS = 1.0e-10, 0.7
 #: What is left of g where it is zero, and where that may be rounding, so that steps have to gain.
 _EXTENTS_REDUCED_ZERO, _ROUNDED, _GAIN_IN_ROUNDING = 1.0e-18, 1.0e-15, 0.5
 #: The steps to the least of g: how many, their damping times its square, and what ends them.
@@ -339,32 +314,17 @@ class Reduced:
         felt, held, self._left = self.felt, self.felt.held, self._left - 1
         if self._left < 0:
             return None
-        ahead, last = felt.motions @ shares, np.inf
-        across = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
-        for _ in range(_MOST_STEPS):
-            change = ahead + self._across @ across
-            place = held.at(held.reference, change)
-            if not place.is_finite:
-                return None
-            by_rest = self._rest.T @ place.jacobian
-            matrix = by_rest @ self._across
-            try:
-                both = np.linalg.solve(
-                    matrix,
-                    np.column_stack([self._rest.T @ place.error, by_rest @ felt.motions]),
-                )
-            except np.linalg.LinAlgError:
-                return None
-            now = float(np.linalg.norm(both[:, 0]))
-            if now <= _SETTLED or _SHRINKS * last < now <= _ROUNDING:
-                along = felt.motions - self._across @ both[:, 1:]
-                by_stress = self.stresses.T @ place.jacobian
-                left = self.stresses.T @ place.error
-                return Here(shares, change, left, by_stress @ along, place.residual)
-            if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
-                return None
-            across, last = across - both[:, 0], now
-        return None
+        start = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
+        ahead, bases = felt.motions @ shares, (self._rest, self._across)
+        near = solved(held, held.reference, ahead, bases, start, (_MOST_STEPS, _ROUNDING, _SHRINKS))
+        if near is None:
+            return None
+        by_rest = self._rest.T @ near.place.jacobian
+        back = np.linalg.solve(by_rest @ self._across, by_rest @ felt.motions)
+        along = felt.motions - self._across @ back
+        slope = self.stresses.T @ near.place.jacobian @ along
+        left = self.stresses.T @ near.place.error
+        return Here(shares, ahead + near.across, left, slope, near.place.residual)
 
     def least(self, start: FloatArray, basis: FloatArray, reach: float) -> Here | None:
         """The position with the least of g near some shares (N,), changed within a basis (N, k).

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.body_motions import Velocities
 from ..analysis.limits import ZERO_AT_REFERENCE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
@@ -51,29 +50,49 @@ class Chart:
 
     def near(self, ahead: FloatArray) -> Near | None:
         """The place after a change (n,) in the null space; None where Newton finds none."""
-        share, last = np.zeros(self.right.shape[1]), np.inf
-        for _ in range(_MOST_STEPS):
-            across = self.right @ share
-            place = self.held.at(self.middle, ahead + across)
-            if not place.is_finite:
-                return None
-            try:
-                change = np.linalg.solve(
-                    self.left.T @ place.jacobian @ self.right, self.left.T @ place.error
-                )
-            except np.linalg.LinAlgError:
-                return None
-            now = float(np.linalg.norm(change))
-            if now <= _SETTLED or (now <= _ROUNDING and now > _SHRINKS * last):
-                return Near(place, across)
-            if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
-                return None
-            share, last = share - change, now
-        return None
+        start, limits = np.zeros(self.right.shape[1]), (_MOST_STEPS, _ROUNDING, _SHRINKS)
+        return solved(self.held, self.middle, ahead, (self.left, self.right), start, limits)
 
 
-#: How many of the smallest singular values are kept.
-_KEPT = 6
+def solved(
+    held: Held,
+    middle: Configuration,
+    ahead: FloatArray,
+    bases: tuple[FloatArray, FloatArray],
+    share: FloatArray,
+    limits: tuple[int, float, float],
+) -> Near | None:
+    """The place, by Newton's method, at which some combinations of the held deformations are zero.
+
+    Args:
+        held: What is held.
+        middle: Where it begins.
+        ahead: (n,) a change that stays.
+        bases: Orthonormal columns: the combinations, and the changes that are sought.
+        share: With so much of these it begins.
+        limits: How many steps; up to where a correction that no longer gets smaller is rounding;
+            by how much they have to.
+
+    Returns:
+        None where it does not converge.
+    """
+    (left, right), (most, rounding, shrinks), last = bases, limits, np.inf
+    for _ in range(most):
+        across = right @ share
+        place = held.at(middle, ahead + across)
+        if not place.is_finite:
+            return None
+        try:
+            change = np.linalg.solve(left.T @ place.jacobian @ right, left.T @ place.error)
+        except np.linalg.LinAlgError:
+            return None
+        now = float(np.linalg.norm(change))
+        if now <= _SETTLED or shrinks * last < now <= rounding:
+            return Near(place, across)
+        if now > max(shrinks * last, rounding) or not np.isfinite(now):
+            return None
+        share, last = share - change, now
+    return None
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,24 +100,19 @@ class Station(Frozen):
     """A configuration of a path.
 
     Attributes:
-        configuration: In metres, where the model stands.
-        within: The same as `Held` has it, in its unit.
+        within: As `Held` has it, in its unit.
         arc: How far it is along the path, in sizes: of the node that moves farthest,
             displacements by the size, rotations in radians.
         residual: The largest held deformation, lengths by the size, angles in radians.
         tangent: (n,) along the path, displacements by the size, rotations in radians; norm 1.
-        values: The smallest singular values of the scaled matrix, theory.md (2), ascending,
-            at most six.
-        rank: How many of all of them are not zero.
+        rank: How many singular values of the scaled matrix, theory.md (2), are not zero.
         signed: The smallest of these, with a sign that changes where it passes zero.
     """
 
-    configuration: Configuration
     within: Configuration
     arc: float
     residual: float
     tangent: FloatArray
-    values: FloatArray
     rank: int
     signed: float
 
@@ -106,22 +120,6 @@ class Station(Frozen):
     def directions(self) -> int:
         """In how many independent directions it goes on from here, to first order."""
         return self.tangent.size - self.rank
-
-
-def station_at(
-    held: Held,
-    where: Configuration,
-    rank: int,
-    tangent: FloatArray,
-    arc: float,
-    residual: float,
-    sign: float,
-    values: FloatArray,
-) -> Station:
-    """A station of a given rank and sign, with all singular values, descending."""
-    smallest = sign * float(values[rank - 1]) if rank else 0.0
-    kept = values[::-1][:_KEPT].copy()
-    return Station(held.outside(where), where, arc, residual, tangent, kept, rank, smallest)
 
 
 class Between:
@@ -135,11 +133,15 @@ class Between:
         self.chart = Chart(held, self.base.within, self.base.rank)
         along = self.base.tangent
         way = float(along @ held.difference(self.base.within, self.far.within))
-        self._ahead = way * along
+        self._way = way * along
 
     def near(self, share: float) -> Near | None:
         """The place at a share of the way, also a little outside of it."""
-        return self.chart.near(self._ahead * (1.0 - share if self.is_backward else share))
+        return self.chart.near(self.ahead(share))
+
+    def ahead(self, share: float) -> FloatArray:
+        """(n,) the change in the null space, from the chart's middle, at a share of the way."""
+        return self._way * (1.0 - share if self.is_backward else share)
 
     def direction(self, near: Near) -> FloatArray:
         """(n,) the tangent at a place, of norm 1."""
@@ -148,10 +150,6 @@ class Between:
         null = right[self.base.rank :].T
         along = null @ (null.T @ self.base.tangent)
         return np.asarray(along / np.linalg.norm(along))
-
-    def change_to(self, share: float, near: Near) -> FloatArray:
-        """(n,) the change of the coordinates that leads to a place, from the chart's middle."""
-        return self._ahead * (1.0 - share if self.is_backward else share) + near.across
 
 
 def arc_between(held: Held, here: Station, where: Configuration, along: FloatArray) -> float:
@@ -220,7 +218,6 @@ Function = Callable[[Near], float]
 class Passing(NamedTuple):
     """A place between two stations."""
 
-    share: float
     arc: float
     where: Configuration
     tangent: FloatArray
@@ -274,12 +271,15 @@ def _refined(
     share = _root(_POINTS, values, is_touching)
     if share is None:
         return None
-    weights = _lagrange(_POINTS, share)
-    changes = [way.change_to(s, near) for s, near in zip(shares.tolist(), known, strict=True)]
+    # The weights of values at the points in the polynomial's value at the root.
+    apart = _POINTS[:, None] - _POINTS
+    np.fill_diagonal(apart, 1.0)
+    rest = [np.prod(np.delete(share - _POINTS, k)) for k in range(_POINTS.size)]
+    weights = np.array(rest) / apart.prod(axis=1)
+    changes = [way.ahead(s) + near.across for s, near in zip(shares.tolist(), known, strict=True)]
     change = np.asarray(weights @ np.array(changes))
     where = way.held.at(way.chart.middle, change).configuration
-    tangents = np.array([way.direction(near) for near in known])
-    tangent = weights @ tangents
+    tangent = weights @ np.array([way.direction(near) for near in known])
     rank = int(np.count_nonzero(way.held.values(where) > _SMALL))
     near = Chart(way.held, where, rank).near(np.zeros(change.size))
     if near is not None:
@@ -288,7 +288,7 @@ def _refined(
     arc = way.one.arc + arc_between(way.held, way.one, where, tangent)
     if about + share < 0.0:
         arc = 2.0 * way.one.arc - arc
-    return Passing(about + share, arc, where, tangent)
+    return Passing(arc, where, tangent)
 
 
 def _root(points: FloatArray, values: FloatArray, of_slope: bool) -> float | None:
@@ -308,15 +308,6 @@ def _root(points: FloatArray, values: FloatArray, of_slope: bool) -> float | Non
     return at if abs(at) <= abs(float(points[0])) else None
 
 
-def _lagrange(points: FloatArray, at: float) -> FloatArray:
-    """The weights of values at some points in the polynomial's value at a place."""
-    apart = points[:, None] - points
-    np.fill_diagonal(apart, 1.0)
-    to = at - points
-    rest = np.array([np.prod(np.delete(to, k)) for k in range(points.size)])
-    return np.asarray(rest / apart.prod(axis=1))
-
-
 _STATIONS_MOST_STEPS, _MOST_IN_CHART = 12, 80
 #: A correction below this is rounding.
 _STATIONS_SETTLED = 2.0e-16
@@ -326,47 +317,21 @@ _GOES_DOWN = 1.0e-4
 _DAMPING, _MORE, _LESS, _MOST = 1.0e-3, 8.0, 0.1, 1.0e8
 
 
-@dataclass(frozen=True, eq=False)
-class Least(Frozen):
-    """Where the held deformations are least, of all places across a motion.
-
-    Attributes:
-        configuration: There, in metres.
-        error: Norm of the held deformations, lengths by the size, angles in radians.
-        largest: The largest of them, likewise.
-        correction: How far it is from where the motion itself leads, displacements by the size,
-            rotations in radians.
-    """
-
-    configuration: Configuration
-    error: float
-    largest: float
-    correction: float
-
-
-def least_error(
-    motion: Velocities | Held, direction: FloatArray, distance: float, rank: int | None = None
-) -> Least:
+def least_error(held: Held, direction: FloatArray, distance: float) -> tuple[float, float]:
     """The least held deformations after a distance along a motion from the reference.
 
     Args:
-        motion: A motion, whose model holds what it holds; or what was made of its model.
-        direction: (n,) of any length: `Held.direction` of the motion or of another one.
+        held: What is held.
+        direction: (n,) of any length: `Held.direction` of a motion.
         distance: How far the node that moves farthest, by the size; in radians if it turns.
-        rank: Of D(c) at the reference; by default as its scaled singular values say.
+
+    Returns:
+        Their norm, and the largest of them; lengths by the size, angles in radians.
     """
-    held = motion if isinstance(motion, Held) else Held(motion.data)
-    if rank is None:
-        rank = int(np.count_nonzero(held.values(held.reference) > ZERO_AT_REFERENCE))
+    rank = int(np.count_nonzero(held.values(held.reference) > ZERO_AT_REFERENCE))
     chart = Chart(held, held.reference, rank)
-    ahead = direction * (distance / held.reach(direction))
-    near = least_near(chart, ahead)
-    return Least(
-        held.outside(near.place.configuration),
-        float(np.linalg.norm(near.place.error)),
-        near.place.residual,
-        float(np.linalg.norm(near.across)),
-    )
+    place = least_near(chart, direction * (distance / held.reach(direction))).place
+    return float(np.linalg.norm(place.error)), place.residual
 
 
 def least_near(chart: Chart, ahead: FloatArray) -> Near:

@@ -198,9 +198,9 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
     if stop.ending is Ending.ELEMENT:
         element = int(result.data.arrays.element_number[stop.element])
         raise TraceError(f"the path cannot be begun: element {element} is at the end of its range")
-    least = least_error(held, start.tangent, _TRIED)
+    _, largest = least_error(held, start.tangent, _TRIED)
     tried = (
-        f"{_TRIED * held.size:.2g} m along it, held deformations of {least.largest:.2g} of the "
+        f"{_TRIED * held.size:.2g} m along it, held deformations of {largest:.2g} of the "
         "model's size are left at the least"
     )
     why = f"the motion is infinitesimal, or ends here; {tried}"
@@ -209,7 +209,7 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
         why += (
             "the paths that are near leave in others than this one. Trace from a configuration a "
             "little way along one of them"
-            if least.largest <= TRUE
+            if largest <= TRUE
             else f"no path leads along this one: {tried}"
         )
     raise TraceError(f"the path cannot be begun: {why}")
@@ -388,7 +388,7 @@ class Stroke:
         is_length = drive_unit(self.freedom) == "m"
         if not self.freedom.is_coordinate:
             value = self.held.deformation(where, 6 * owner + part)
-            return value * self.held.sizes.unit if is_length else value
+            return value * self.held.unit if is_length else value
         analysis = self.freedom.analysis
         node = int(analysis.condensed.nodes[owner])
         if not is_length:

@@ -1,23 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Groups of things: of those with one key, and of those that are joined two by two."""
+"""Groups of things: joined two by two, by a key, or alike."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-Key = TypeVar("Key", bound=Hashable)
-Thing = TypeVar("Thing")
+_Key = TypeVar("_Key", bound=Hashable)
+_Thing = TypeVar("_Thing")
 
 
-def grouped(pairs: Iterable[tuple[Key, Thing]]) -> dict[Key, list[Thing]]:
-    """Things by their keys, in their order."""
-    made: dict[Key, list[Thing]] = {}
+def grouped(pairs: Iterable[tuple[_Key, _Thing]]) -> dict[_Key, list[_Thing]]:
+    """Things by their keys, each key and each thing in the order in which they come."""
+    made: dict[_Key, list[_Thing]] = {}
     for key, thing in pairs:
         made.setdefault(key, []).append(thing)
+    return made
+
+
+def distinct(things: Iterable[_Thing], are_alike: Callable[[_Thing, _Thing], bool]) -> list[_Thing]:
+    """Of things that are alike the first; `are_alike` is asked of a thing and one before it."""
+    made: list[_Thing] = []
+    for thing in things:
+        if not any(are_alike(thing, other) for other in made):
+            made.append(thing)
     return made
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
@@ -45,35 +46,31 @@ class Lift(Frozen):
         return self.node is not None or self.element is not None
 
 
-class RelationKind(Word):
-    """What lines, points or members have in common that others have not."""
-
-    ONE_LINE = "lie along one line"
-    PARALLEL = "are parallel"
-    ONE_PLANE = "lie in one plane"
-    CONCURRENT = "meet in one point"
-    ONE_TRANSVERSAL = "all meet one line"
-    ACROSS = "all lie across one direction"
-    REGULUS = "are generators of one hyperboloid"
-    COMPLEX = "belong to one linear complex"
-    CIRCLE = "lie on one circle"
-    TWO_LINES = "lie on two lines"
-    CONIC = "lie on one conic"
-    ALONG = "lie along one axis of the ground"
-    ACROSS_AXIS = "lie across one axis of the ground"
-    ROTATION = "a rotation takes them to each other"
-    REFLECTION = "a reflection takes them to each other"
-    POSITION = "stand in a special position"
-
-
-class LineKind(Word):
-    """What the lines of a relation are."""
-
-    FORCE = "line of force"
-    AXIS = "axis"
-    SHEET = "plane of a sheet"
-    MEMBER = "member"
-    JOINT = "joint"
+#: What lines, points or members have in common that others have not: they lie along one line, are
+#: parallel, lie in one plane, meet in one point, all meet one line, lie across one direction, are
+#: generators of one hyperboloid, belong to one linear complex; lie on a circle, on two lines, on a
+#: conic; lie along or across an axis of the ground; a rotation or a reflection takes them to each
+#: other; or they stand in a special position.
+RelationKind = Literal[
+    "one line",
+    "parallel",
+    "one plane",
+    "concurrent",
+    "one transversal",
+    "across",
+    "regulus",
+    "complex",
+    "circle",
+    "two lines",
+    "conic",
+    "along",
+    "across axis",
+    "rotation",
+    "reflection",
+    "position",
+]
+#: What the lines of a relation are: lines of force, axes, planes of sheets, members, or joints.
+LineKind = Literal["force", "axis", "sheet", "member", "joint"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,9 +98,9 @@ class Relation(Frozen):
     kind: RelationKind
     of: LineKind
     parts: tuple[Part, ...]
-    nodes: tuple[int, ...]
-    direction: FloatArray
-    point: FloatArray
+    nodes: tuple[int, ...] = ()
+    direction: FloatArray = field(default_factory=lambda: np.zeros(3))
+    point: FloatArray = field(default_factory=lambda: np.zeros(3))
     couple: FloatArray = field(default_factory=lambda: np.zeros(3))
     pitch: float = 0.0
     fold: int = 1
@@ -146,11 +143,9 @@ class Causes(Frozen):
         mends: Flexures turned so that they stop what is free, tried; the best first.
         generic_rank: The rank of D(c) in almost every other geometry of the same topology, of
             divided sheets and wires as one beam each; None where none could be analysed.
-        trials: How many geometries were tried; 0 where none was needed.
     """
 
     motions: tuple[Cause, ...]
     self_stresses: tuple[Cause, ...]
     mends: tuple[Step, ...] = ()
     generic_rank: int | None = None
-    trials: int = 0

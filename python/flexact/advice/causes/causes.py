@@ -3,25 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import chain
-from typing import NamedTuple
 
 import numpy as np
 
 from ...analysis.result import Motion, Result
 from ...core.arrays import FloatArray
 from ...util.groups import groups_of
-from ...util.records import Frozen, cached_property
+from ...util.records import cached_property
 from ..step import Step
-from .cause import Cause, CauseKind, Causes, Relation
+from .cause import Cause, CauseKind, Causes, Lift, Relation
 from .gradients import (
     THERE,
     Gradients,
-    MisalignmentRates,
-    UndividedBasis,
     are_affordable,
     generic_rank,
+    shares_of_motions,
+    shares_of_stresses,
 )
 from .realignment import joint_move, mends_of
 from .relations import merged, relations_of
@@ -34,26 +34,16 @@ _OUTSIDE = 1.0e-4
 _SEED = 20_110_720
 
 
-class Genericity(NamedTuple):
-    """What is known of a vector of a basis."""
-
-    is_special: bool
-    together: tuple[int, ...] = ()
-    """Indices of those among which the choice is free; empty where it is not."""
-    special: int = 0
-    """How many of these are special."""
-
-
-def by_count(indices: Sequence[int], special: int) -> dict[int, Genericity]:
+def by_count(indices: Sequence[int], special: int) -> dict[int, Cause]:
     """So many of some, nobody knows which: the last ones."""
     first = len(indices) - special
-    together = tuple(indices)
-    return {j: Genericity(k >= first, together, special) for k, j in enumerate(indices)}
+    kinds = [CauseKind.SPECIAL if k >= first else CauseKind.GENERIC for k in range(len(indices))]
+    return {j: Cause(kind, tuple(indices), special) for j, kind in zip(indices, kinds, strict=True)}
 
 
 def told_apart(
     told: FloatArray, never: FloatArray, groups: Sequence[tuple[Sequence[int], int]]
-) -> list[Genericity]:
+) -> list[Cause]:
     """Which of some vectors are special.
 
     Args:
@@ -63,108 +53,31 @@ def told_apart(
             each group are special; what is in no group is generic.
     """
     beyond = told - never @ (never.T @ told)
-    made = [Genericity(False)] * told.shape[1]
+    made = dict.fromkeys(range(told.shape[1]), Cause(CauseKind.GENERIC))
     for indices, special in groups:
-        for k, found in _of_group(beyond, indices, special).items():
-            made[k] = found
-    return made
-
-
-def _of_group(beyond: FloatArray, indices: Sequence[int], special: int) -> dict[int, Genericity]:
-    rest = beyond[:, indices]
-    lifted = [k for k in indices if float(np.linalg.norm(beyond[:, k])) > _OUTSIDE]
-    chosen: list[int] = []
-    # The last first: those that come first are the simpler ones, and rather wanted.
-    for place, k in reversed(list(enumerate(indices))):
-        size = float(np.linalg.norm(rest[:, place]))
-        if len(chosen) < special and k in lifted and size > _OUTSIDE:
-            unit = rest[:, [place]] / size
-            rest = rest - unit @ (unit.T @ rest)
-            chosen.append(k)
-    if len(chosen) < special:
-        # What is lifted to a higher order only, and was not looked at.
-        return by_count(indices, special)
-    if len(lifted) == len(chosen):
-        return {k: Genericity(k in chosen) for k in indices}
-    together = tuple(lifted)
-    return {
-        k: Genericity(k in chosen, together, len(chosen)) if k in lifted else Genericity(False)
-        for k in indices
-    }
+        rest = beyond[:, indices]
+        lifted = [k for k in indices if float(np.linalg.norm(beyond[:, k])) > _OUTSIDE]
+        chosen: list[int] = []
+        # The last first: those that come first are the simpler ones, and rather wanted.
+        for place, k in reversed(list(enumerate(indices))):
+            size = float(np.linalg.norm(rest[:, place]))
+            if len(chosen) < special and k in lifted and size > _OUTSIDE:
+                unit = rest[:, [place]] / size
+                rest = rest - unit @ (unit.T @ rest)
+                chosen.append(k)
+        if len(chosen) < special:
+            # What is lifted to a higher order only, and was not looked at.
+            made |= by_count(indices, special)
+            continue
+        is_known = len(lifted) == len(chosen)
+        for k in lifted:
+            kind = CauseKind.SPECIAL if k in chosen else CauseKind.GENERIC
+            made[k] = Cause(kind) if is_known else Cause(kind, tuple(lifted), len(chosen))
+    return list(made.values())
 
 
 #: What misalignments lift together: which, and how many of them are special.
 Groups = list[tuple[list[int], int]]
-
-
-class Lifted(Frozen):
-    """What misalignments make of the motions and self-stresses of a result.
-
-    Attributes:
-        gradients: The derivatives of all pairs.
-        motions: (k, g) orthonormal combinations of the motions that nothing lifts.
-        stresses: (s, g) likewise.
-        special: How many of either are special.
-    """
-
-    def __init__(self, gradients: Gradients, generic_rank: int) -> None:
-        """Find both spaces."""
-        self.gradients = gradients
-        result = gradients.result
-        # By every place, in lengths of the mechanism, and every vector: (changes, s, k).
-        at_nodes = result.characteristic_length * gradients.at_nodes()
-        flat = (-1, *at_nodes.shape[2:])
-        changes = self._changes = np.concatenate(
-            (at_nodes.reshape(flat), gradients.by_vector.reshape(flat))
-        )
-        self.special = generic_rank - result.rank
-        motions = _kernel(np.moveaxis(changes, 2, 0).reshape(changes.shape[2], -1))
-        stresses = _kernel(np.moveaxis(changes, 1, 0).reshape(changes.shape[1], -1))
-        of_motions, of_stresses = result.columns - generic_rank, result.rows - generic_rank
-        if motions.shape[1] > of_motions or stresses.shape[1] > of_stresses:
-            left = gradients.left_over(of_motions, of_stresses)
-            if left is not None:
-                motions = _within(motions, left[0], of_motions)
-                stresses = _within(stresses, left[1], of_stresses)
-        self.motions, self.stresses = motions, stresses
-
-    def couplings(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
-        """(a, b) how much all changes make of self-stresses (s, a) and motions (k, b)."""
-        return np.asarray(np.linalg.norm(self._blocks(stresses, motions), axis=2))
-
-    def _blocks(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
-        return np.asarray(np.moveaxis(stresses.T @ self._changes @ motions, 0, 2))
-
-    def groups(self, stresses: FloatArray, motions: FloatArray) -> tuple[Groups, Groups] | None:
-        """Self-stresses and motions that misalignments lift together, to first order.
-
-        Args:
-            stresses: (s, a) self-stresses.
-            motions: (k, b) motions.
-
-        Returns:
-            None where not all that is special is lifted to first order.
-        """
-        blocks = self._blocks(stresses, motions)
-        sizes = np.linalg.norm(blocks, axis=2)
-        pairs = np.argwhere(sizes > _NOTHING * max(float(sizes.max(initial=0.0)), 1e-12))
-        count = stresses.shape[1]
-        owner = groups_of(count + motions.shape[1], ((i, count + j) for i, j in pairs.tolist()))
-        weights = np.random.default_rng(_SEED).normal(size=blocks.shape[2])
-        mixed = blocks @ weights
-        made = []
-        for group in np.unique(owner[pairs[:, 0]]).tolist() if len(pairs) else []:
-            mine = np.flatnonzero(owner == group)
-            rows, columns = mine[mine < count], mine[mine >= count] - count
-            values = np.linalg.svd(mixed[np.ix_(rows, columns)], compute_uv=False)
-            special = int(np.count_nonzero(values > _NOTHING * values[0]))
-            made.append((rows.tolist(), columns.tolist(), special))
-        if sum(special for _, _, special in made) != self.special:
-            return None
-        return (
-            [(rows, special) for rows, _, special in made],
-            [(columns, special) for _, columns, special in made],
-        )
 
 
 def _kernel(rows: FloatArray) -> FloatArray:
@@ -204,103 +117,150 @@ def causes_of(result: Result) -> Causes:
             each cannot be analysed.
     """
     whole = result.with_internal_declared or result
-    rank, trials = generic_rank(whole)
+    rank = generic_rank(whole)
     motions, stresses = len(result.motions), len(result.self_stresses)
     if rank is None or rank == whole.rank:
         one = Cause(CauseKind.UNKNOWN if rank is None else CauseKind.GENERIC)
-        tried = 0 if rank is None else trials
-        return Causes((one,) * motions, (one,) * stresses, (), rank, tried)
+        return Causes((one,) * motions, (one,) * stresses, (), rank)
     can_be_told = whole is result or whole.is_told_by_parts
-    if not can_be_told or not are_affordable(whole):
-        return Causes(
-            _by_count(motions, whole.columns - rank, rank - whole.rank),
-            _by_count(stresses, whole.rows - rank, rank - whole.rank),
-            (),
-            rank,
-            trials,
-        )
-    return _Special(result, whole, rank).causes(trials)
-
-
-def _by_count(count: int, generic: int, special: int) -> tuple[Cause, ...]:
-    if generic == 0:
-        return (Cause(CauseKind.SPECIAL),) * count
-    told = by_count(range(count), min(special, count)).values()
-    return _made(list(told), lambda _, kind: Cause(kind))
+    if can_be_told and are_affordable(whole):
+        return _Special(result, whole, rank).causes()
+    of_motions, of_stresses = (
+        (Cause(CauseKind.SPECIAL),) * count
+        if generic == 0
+        else tuple(by_count(range(count), min(rank - whole.rank, count)).values())
+        for count, generic in ((motions, whole.columns - rank), (stresses, whole.rows - rank))
+    )
+    return Causes(of_motions, of_stresses, (), rank)
 
 
 class _Special:
     """The causes where some of the motions and self-stresses are special.
 
     Attributes:
-        result: The result of which modes are told.
-        whole: The same with divided sheets and wires as one beam each.
-        generic: How many motions and self-stresses of `whole` are generic.
+        whole: The result with divided sheets and wires as one beam each.
+        rank: That of almost every geometry.
+        motions: (k, told) the told motions by an orthonormal basis of those of `whole`.
+        own_motions: (k, own) those of `whole` itself, likewise.
+        stresses: (s, told) the told self-stresses.
+        own_stresses: (s, own) those of `whole` itself.
+        never_motions: (k, g) orthonormal combinations of the motions that nothing lifts.
+        never_stresses: (s, g) likewise.
     """
 
     def __init__(self, result: Result, whole: Result, rank: int) -> None:
-        self.result, self.whole = result, whole
-        self.generic = whole.columns - rank, whole.rows - rank
-        self.rank = rank
-        self.gradients = Gradients(whole)
-        self.lifted = Lifted(self.gradients, rank)
-        self.shares = UndividedBasis(result, whole, self.gradients)
-        self.trials = Trials(whole, rank)
+        self.whole, self.rank = whole, rank
+        self.trials, self.gradients = Trials(whole, rank), Gradients(whole)
+        gradients = self.gradients
+        self.motions, self.own_motions = shares_of_motions(result, whole, gradients)
+        self.stresses, self.own_stresses = shares_of_stresses(result, whole, gradients)
+        # By every place, in lengths of the mechanism, and every vector: (changes, s, k).
+        at_nodes = whole.characteristic_length * gradients.at_nodes
+        flat = (-1, *at_nodes.shape[2:])
+        changes = np.concatenate((at_nodes.reshape(flat), gradients.by_vector.reshape(flat)))
+        self._changes = changes
+        motions = _kernel(np.moveaxis(changes, 2, 0).reshape(changes.shape[2], -1))
+        stresses = _kernel(np.moveaxis(changes, 1, 0).reshape(changes.shape[1], -1))
+        of_motions, of_stresses = whole.columns - rank, whole.rows - rank
+        if motions.shape[1] > of_motions or stresses.shape[1] > of_stresses:
+            left = gradients.left_over(of_motions, of_stresses)
+            if left is not None:
+                motions = _within(motions, left[0], of_motions)
+                stresses = _within(stresses, left[1], of_stresses)
+        self.never_motions, self.never_stresses = motions, stresses
 
-    def causes(self, trials: int) -> Causes:
+    def causes(self) -> Causes:
         """All of it."""
-        lifts = MisalignmentRates(self.gradients)
-        motions, stresses = self.shares.motions, self.shares.stresses
-        pairs = self.lifted.couplings(self.shares.own_stresses, motions)
-
-        def of_motion(k: int, kind: CauseKind) -> Cause:
-            share = motions[:, k]
-            relations = self._of_motion(pairs[:, k])
-            return Cause(kind, lift=lifts.of_motion(share), relations=relations)
-
-        def of_stress(k: int, kind: CauseKind) -> Cause:
-            share = stresses[:, k]
-            return Cause(kind, lift=lifts.of_stress(share), relations=self._of_stress(share))
-
+        motions, stresses = self._motions_told(self.motions), self._stresses_told(self.stresses)
         mends: tuple[Step, ...] = ()
         if self.whole.is_told_by_parts:
             relations = merged(chain(*self._relations.values()))
             mends = mends_of(self.whole, relations, self._motions)
             mends = mends or joint_move(self.whole, self.gradients)
+        pairs = np.linalg.norm(self._blocks(self.own_stresses, self.motions), axis=2)
+        lift_of = self.gradients.lift_of
         return Causes(
-            _made(self._motions_told(motions), of_motion),
-            _made(self._stresses_told(stresses), of_stress),
+            tuple(
+                one
+                if _is_generic(one)
+                else _explained(one, lift_of(self.motions[:, k]), self._of_motion(pairs[:, k]))
+                for k, one in enumerate(motions)
+            ),
+            tuple(
+                one
+                if _is_generic(one)
+                else _explained(
+                    one,
+                    lift_of(self.stresses[:, k], of_stress=True),
+                    self._of_stress(self.stresses[:, k]),
+                )
+                for k, one in enumerate(stresses)
+            ),
             mends,
             self.rank,
-            trials,
         )
 
     # Which are special ------------------------------------------------------
 
-    def _motions_told(self, told: FloatArray) -> list[Genericity]:
-        groups = self.lifted.groups(self.shares.own_stresses, told)
-        return self._told(told, self.generic[0], self.lifted.motions, groups and groups[1])
+    def _blocks(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
+        """(a, b, changes) what all changes make of self-stresses (s, a) and motions (k, b)."""
+        return np.asarray(np.moveaxis(stresses.T @ self._changes @ motions, 0, 2))
 
-    def _stresses_told(self, told: FloatArray) -> list[Genericity]:
-        groups = self.lifted.groups(told, self.shares.own_motions)
-        return self._told(told, self.generic[1], self.lifted.stresses, groups and groups[0])
+    def _groups(self, stresses: FloatArray, motions: FloatArray) -> tuple[Groups, Groups] | None:
+        """Self-stresses and motions that misalignments lift together, to first order.
+
+        Args:
+            stresses: (s, a) self-stresses.
+            motions: (k, b) motions.
+
+        Returns:
+            None where not all that is special is lifted to first order.
+        """
+        blocks = self._blocks(stresses, motions)
+        sizes = np.linalg.norm(blocks, axis=2)
+        pairs = np.argwhere(sizes > _NOTHING * max(float(sizes.max(initial=0.0)), 1e-12))
+        count = stresses.shape[1]
+        owner = groups_of(count + motions.shape[1], ((i, count + j) for i, j in pairs.tolist()))
+        weights = np.random.default_rng(_SEED).normal(size=blocks.shape[2])
+        mixed = blocks @ weights
+        of_stresses: Groups = []
+        of_motions: Groups = []
+        for group in np.unique(owner[pairs[:, 0]]).tolist() if len(pairs) else []:
+            mine = np.flatnonzero(owner == group)
+            rows, columns = mine[mine < count], mine[mine >= count] - count
+            values = np.linalg.svd(mixed[np.ix_(rows, columns)], compute_uv=False)
+            special = int(np.count_nonzero(values > _NOTHING * values[0]))
+            of_stresses.append((rows.tolist(), special))
+            of_motions.append((columns.tolist(), special))
+        is_all = sum(special for _, special in of_stresses) == self.rank - self.whole.rank
+        return (of_stresses, of_motions) if is_all else None
+
+    def _motions_told(self, told: FloatArray) -> list[Cause]:
+        groups = self._groups(self.own_stresses, told)
+        generic = self.whole.columns - self.rank
+        return self._told(told, generic, self.never_motions, groups and groups[1])
+
+    def _stresses_told(self, told: FloatArray) -> list[Cause]:
+        groups = self._groups(told, self.own_motions)
+        generic = self.whole.rows - self.rank
+        return self._told(told, generic, self.never_stresses, groups and groups[0])
 
     def _told(
         self, told: FloatArray, generic: int, never: FloatArray, groups: Groups | None
-    ) -> list[Genericity]:
+    ) -> list[Cause]:
         """Which of some told vectors are special; what the undivided mechanism has not is not."""
         there = np.flatnonzero(np.linalg.norm(told, axis=0) > THERE).tolist()
         if generic == 0 and len(there) == told.shape[1]:
-            return [Genericity(True)] * len(there)
-        return told_apart(told, never, groups or [(there, self.lifted.special)])
+            return [Cause(CauseKind.SPECIAL)] * len(there)
+        return told_apart(told, never, groups or [(there, self.rank - self.whole.rank)])
 
     @cached_property
     def _motions(self) -> list[Motion]:
         """The special ones of the undivided mechanism, if it is told by parts."""
         if not self.whole.is_told_by_parts:
             return []
-        told = self._motions_told(self.shares.own_motions)
-        return [self.whole.motions[k] for k, one in enumerate(told) if one.is_special]
+        told = self._motions_told(self.own_motions)
+        return [self.whole.motions[k] for k in _special(told)]
 
     # What makes them so -----------------------------------------------------
 
@@ -310,8 +270,8 @@ class _Special:
         whole = self.whole
         if not whole.is_told_by_parts:
             return {}
-        told = self._stresses_told(self.shares.own_stresses)
-        chosen = [k for k, one in enumerate(told) if one.is_special][:_MOST_EXPLAINED]
+        told = self._stresses_told(self.own_stresses)
+        chosen = _special(told)[:_MOST_EXPLAINED]
         made: dict[int, tuple[Relation, ...]] = {}
         for k in chosen:
             # Which of several is special is free: they have one explanation.
@@ -327,7 +287,7 @@ class _Special:
         """Of the special self-stress that has the largest part in one."""
         if not self._relations:
             return ()
-        parts = np.abs(np.linalg.lstsq(self.shares.own_stresses, share, rcond=None)[0])
+        parts = np.abs(np.linalg.lstsq(self.own_stresses, share, rcond=None)[0])
         return self._relations[max(self._relations, key=lambda k: (round(float(parts[k]), 9), -k))]
 
     def _of_motion(self, pairs: FloatArray) -> tuple[Relation, ...]:
@@ -347,17 +307,14 @@ class _Special:
         return made
 
 
-def _made(told: list[Genericity], cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Cause, ...]:
-    """The causes of some modes; `cause_of` makes what may be special."""
-    made = []
-    for k, one in enumerate(told):
-        if not one.is_special and not one.together:
-            made.append(Cause(CauseKind.GENERIC))
-            continue
-        found = cause_of(k, CauseKind.SPECIAL if one.is_special else CauseKind.GENERIC)
-        # What lifts nothing is none.
-        lift, first_order = found.lift or None, None if found.lift is None else bool(found.lift)
-        made.append(
-            Cause(found.kind, one.together, one.special, lift, first_order, found.relations)
-        )
-    return tuple(made)
+def _special(told: list[Cause]) -> list[int]:
+    return [k for k, one in enumerate(told) if one.kind is CauseKind.SPECIAL]
+
+
+def _is_generic(one: Cause) -> bool:
+    return one.kind is CauseKind.GENERIC and not one.together
+
+
+def _explained(one: Cause, lift: Lift, relations: tuple[Relation, ...]) -> Cause:
+    # What lifts nothing is none.
+    return replace(one, lift=lift or None, is_first_order=bool(lift), relations=relations)

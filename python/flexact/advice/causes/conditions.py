@@ -8,7 +8,7 @@ is of many geometries at once, (b, ...), as differences need them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -17,9 +17,10 @@ import numpy as np
 from ...analysis.result import Result
 from ...core.arrays import BoolArray, FloatArray
 from ...model.parts.parts import Part, PartKind
+from ...util.rotations import unit
 from .cause import LineKind, Relation, RelationKind
 from .gradients import Geometry
-from .lines import Limbs, position_of_hinge
+from .lines import SAME, Limbs, position_of_hinge
 
 #: Points and unit vectors, (b, 3): of a line its direction, of a plane its normal.
 Figure = tuple[FloatArray, FloatArray]
@@ -78,12 +79,12 @@ class Figures:
         if place is None:
             return None
         node = self.node(place)
-        return lambda places, vectors: (places[:, node], _unit(vectors[:, element]))
+        return lambda places, vectors: (places[:, node], unit(vectors[:, element]))
 
     def line(self, part: Part) -> FigureAt:
         """The line of a bar, wire or member from end to end."""
         p, q = self.ends(part)
-        return lambda places, _: (places[:, p], _unit(places[:, q] - places[:, p]))
+        return lambda places, _: (places[:, p], unit(places[:, q] - places[:, p]))
 
     def plane(self, part: Part) -> FigureAt:
         """The plane of a sheet."""
@@ -91,10 +92,10 @@ class Figures:
         is_width = int(self.result.parts.wide[part.elements[0]]) == 1
 
         def at(places: FloatArray, vectors: FloatArray) -> Figure:
-            along, across = _unit(places[:, q] - places[:, p]), vectors[:, element]
+            along, across = unit(places[:, q] - places[:, p]), vectors[:, element]
             if is_width:
-                return places[:, p], _unit(np.cross(along, across))
-            return places[:, p], _unit(across - _dot(across, along) * along)
+                return places[:, p], unit(np.cross(along, across))
+            return places[:, p], unit(across - _dot(across, along) * along)
 
         return at
 
@@ -102,12 +103,12 @@ class Figures:
         """The plane of a sheet in space, the axis of a hinge, or the line of a wire or bar."""
         planar = self.result.given.planar
         if part.kind is PartKind.SHEET and not planar:
-            return LineKind.SHEET, self.plane(part)
+            return "sheet", self.plane(part)
         if part.kind is PartKind.HINGE and not planar:
             axis = self.axis(part)
-            return None if axis is None else (LineKind.AXIS, axis)
+            return None if axis is None else ("axis", axis)
         if part.kind in (PartKind.SHEET, PartKind.WIRE, PartKind.BAR):
-            return LineKind.FORCE, self.line(part)
+            return "force", self.line(part)
         return None
 
     def fold(self, parts: Sequence[Part]) -> FigureAt:
@@ -118,7 +119,7 @@ class Figures:
 
         def at(places: FloatArray, vectors: FloatArray) -> Figure:
             normals = first(places, vectors)[1], second(places, vectors)[1]
-            return places[:, node], _unit(np.cross(*normals))
+            return places[:, node], unit(np.cross(*normals))
 
         return at
 
@@ -143,7 +144,7 @@ def condition_of(figures: Figures, one: Relation, about: FloatArray) -> Conditio
     if one.couple.any():
         made = _with_couple(figures, one, about, made)
     elements = tuple(figures.element(part) for part in parts)
-    is_directed = one.of is not LineKind.JOINT and made[1].size == 6
+    is_directed = one.of != "joint" and made[1].size == 6
     return Condition(*made, tuple(sorted(nodes)), elements, is_directed)
 
 
@@ -153,21 +154,21 @@ _Made = tuple[_Residual, FloatArray]
 
 def _residual(figures: Figures, one: Relation) -> _Made | None:
     kind = one.kind
-    if kind in (RelationKind.POSITION, RelationKind.REFLECTION):
+    if kind in ("position", "reflection"):
         return None
-    if kind in (RelationKind.ALONG, RelationKind.ACROSS_AXIS):
+    if kind in ("along", "across axis"):
         return _of_axis(figures, one)
-    if one.of is LineKind.JOINT:
+    if one.of == "joint":
         return _of_joints(figures, one)
-    if one.of is LineKind.MEMBER and kind in (RelationKind.ONE_LINE, RelationKind.ONE_PLANE):
+    if one.of == "member" and kind in ("one line", "one plane"):
         return _of_points(figures, one)
     found = _figures(figures, one)
     if found is None:
         return None
     planes, lines = found
-    if kind is RelationKind.ROTATION:
-        return _of_half_turn(figures, one, lines) if one.of is LineKind.AXIS else None
-    if kind is RelationKind.REGULUS:
+    if kind == "rotation":
+        return _of_half_turn(figures, one, lines) if one.of == "axis" else None
+    if kind == "regulus":
         return _of_regulus(figures, lines)
     return _of_figures(figures, one, planes, lines)
 
@@ -189,7 +190,7 @@ def _figures(figures: Figures, one: Relation) -> tuple[list[FigureAt], list[Figu
             lines.append(axis)
         elif part.kind is not PartKind.SHEET:
             lines.append(figures.line(part))
-        elif one.of is LineKind.SHEET:
+        elif one.of == "sheet":
             planes.append(figures.plane(part))
         elif len(limb) == 2:
             lines.append(figures.fold(limb))
@@ -203,16 +204,16 @@ def _of_figures(
     figures: Figures, one: Relation, planes: list[FigureAt], lines: list[FigureAt]
 ) -> _Made:
     length, direction = figures.length, one.direction
-    of_line, of_plane = _TERMS[one.kind]
     if not direction.any():
         direction = [*planes, *lines][0](*figures.here)[1][0]
     # Direction, point over the length, and what else is shared, as it is.
-    pitch = [one.pitch / length] if one.kind is RelationKind.COMPLEX else []
+    pitch = [one.pitch / length] if one.kind == "complex" else []
     free = np.concatenate((direction, one.point / length, pitch))
 
     def residual(places: FloatArray, vectors: FloatArray, free: FloatArray) -> FloatArray:
-        made = [of_line(*figure(places, vectors), free, length) for figure in lines]
-        made += [of_plane(*figure(places, vectors), free, length) for figure in planes]
+        made: list[FloatArray] = []
+        for figure in (*lines, *planes):
+            made += _zero(one.kind, figure in planes, figure(places, vectors), free, length)
         return np.concatenate([*made, _size(free[:, :3])], axis=1)
 
     return residual, free
@@ -248,74 +249,42 @@ def _of_regulus(figures: Figures, lines: list[FigureAt]) -> _Made:
     return residual, np.linalg.svd(coordinates(*figures.here)[0])[0][:, -1]
 
 
-_Term = Callable[[FloatArray, FloatArray, FloatArray, float], FloatArray]
-
-
-def _parallel(_: FloatArray, way: FloatArray, free: FloatArray, __: float) -> FloatArray:
-    return np.cross(way, free[:, :3])
-
-
-def _across(_: FloatArray, way: FloatArray, free: FloatArray, __: float) -> FloatArray:
-    return _dot(way, free[:, :3])
-
-
-def _on_line(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    off = np.cross(at / length - free[:, 3:6], free[:, :3])
-    return np.concatenate((np.cross(way, free[:, :3]), off), axis=1)
-
-
-def _in_plane(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    off = _dot(at / length - free[:, 3:6], free[:, :3])
-    return np.concatenate((_dot(way, free[:, :3]), off), axis=1)
-
-
-def _same_plane(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    off = _dot(at / length - free[:, 3:6], free[:, :3])
-    return np.concatenate((np.cross(way, free[:, :3]), off), axis=1)
-
-
-def _through(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    return np.cross(at / length - free[:, 3:6], way)
-
-
-def _meets(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    return _dot(np.cross(at / length - free[:, 3:6], way), free[:, :3])
-
-
-def _contains(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    off = _dot(at / length - free[:, 3:6], way)
-    return np.concatenate((_dot(way, free[:, :3]), off), axis=1)
-
-
-def _in_complex(at: FloatArray, way: FloatArray, free: FloatArray, length: float) -> FloatArray:
-    return _meets(at, way, free, length) + free[:, 6:7] * _dot(way, free[:, :3])
-
-
-def _none(at: FloatArray, *_: object) -> FloatArray:
-    return np.zeros((len(at), 0))
-
-
-#: What is zero of each line, and of each plane.
-_TERMS: dict[RelationKind, tuple[_Term, _Term]] = {
-    RelationKind.ONE_LINE: (_on_line, _none),
-    RelationKind.PARALLEL: (_parallel, _parallel),
-    RelationKind.ONE_PLANE: (_in_plane, _same_plane),
-    RelationKind.CONCURRENT: (_through, _none),
-    RelationKind.ONE_TRANSVERSAL: (_meets, _contains),
-    RelationKind.ACROSS: (_across, _parallel),
-    RelationKind.COMPLEX: (_in_complex, _none),
-}
+def _zero(
+    kind: RelationKind, is_plane: bool, figure: Figure, free: FloatArray, length: float
+) -> tuple[FloatArray, ...]:
+    """What is zero of a line, or of a plane, with the direction and the point of a relation."""
+    (at, way), axis = figure, free[:, :3]
+    off = at / length - free[:, 3:6]
+    match kind, is_plane:
+        case "one line", False:
+            return np.cross(way, axis), np.cross(off, axis)
+        case ("parallel", _) | ("across", True):
+            return (np.cross(way, axis),)
+        case "across", False:
+            return (_dot(way, axis),)
+        case "one plane", False:
+            return _dot(way, axis), _dot(off, axis)
+        case "one plane", True:
+            return np.cross(way, axis), _dot(off, axis)
+        case "concurrent", False:
+            return (np.cross(off, way),)
+        case "one transversal", True:
+            return _dot(way, axis), _dot(off, way)
+        case "one transversal", False:
+            return (_dot(np.cross(off, way), axis),)
+        case "complex", False:
+            return (_dot(np.cross(off, way), axis) + free[:, 6:7] * _dot(way, axis),)
+    return ()
 
 
 def _of_axis(figures: Figures, one: Relation) -> _Made | None:
     """Directions along or across one that is the ground's, and no other will do."""
     found = [own[1] for own in map(figures.own, one.parts) if own is not None]
-    term = _parallel if one.kind is RelationKind.ALONG else _across
 
     def residual(places: FloatArray, vectors: FloatArray, _: FloatArray) -> FloatArray:
-        way = one.direction[None]
-        at = (figure(places, vectors) for figure in found)
-        return np.concatenate([term(*each, way, figures.length) for each in at], axis=1)
+        ways, axis = (figure(places, vectors)[1] for figure in found), one.direction[None]
+        off = [np.cross(way, axis) if one.kind == "along" else _dot(way, axis) for way in ways]
+        return np.concatenate(off, axis=1)
 
     return residual, np.zeros(0)
 
@@ -341,9 +310,6 @@ def _of_half_turn(figures: Figures, one: Relation, lines: list[FigureAt]) -> _Ma
     return residual, free
 
 
-_SAME = 1.0e-6
-
-
 def half_turned(line: Figure, axis: FloatArray, length: float) -> Figure:
     """Lines turned by half a turn about axes (b, 6): direction, and point over the length."""
     point, way = line
@@ -361,14 +327,18 @@ def _off(one: Figure, other: Figure, length: float) -> FloatArray:
 
 def are_one(one: Figure, other: Figure, length: float) -> bool:
     """Whether two lines are one."""
-    return float(np.abs(_off(one, other, length)).max()) < _SAME
+    return float(np.abs(_off(one, other, length)).max()) < SAME
 
 
 def _of_points(figures: Figures, one: Relation) -> _Made:
     """Members whose ends are all on one line or in one plane."""
     length = figures.length
-    nodes = sorted({node for part in one.parts for node in _positions(figures, part)})
-    in_line = one.kind is RelationKind.ONE_LINE
+    members = [index for part in one.parts for index in part.elements]
+    result = figures.result
+    mine = np.isin(result.condensed.elements, members)
+    slots = result.data.arrays.element_node[[0, 2]][:, mine] - 1
+    nodes = np.unique(slots[slots >= 0]).tolist()
+    in_line = one.kind == "one line"
 
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:
         away = places[:, nodes] / length - free[:, None, 3:6]
@@ -379,24 +349,15 @@ def _of_points(figures: Figures, one: Relation) -> _Made:
     return residual, np.concatenate((one.direction, one.point / length))
 
 
-def _positions(figures: Figures, part: Part) -> list[int]:
-    """The position nodes of all elements of a part, in the model as analysed."""
-    own = figures.result.condensed.elements
-    found = [int(np.searchsorted(own, index)) for index in part.elements]
-    able = [k for k, index in zip(found, part.elements, strict=True) if k < own.size]
-    slots = figures.result.data.arrays.element_node[[0, 2]][:, able] - 1
-    return [int(node) for node in slots.ravel() if node >= 0]
-
-
 def _of_joints(figures: Figures, one: Relation) -> _Made | None:
     """Joints of the plane on a circle, a conic or two lines."""
     nodes = [figures.node(given) for given in one.nodes]
     length = figures.length
     at = figures.result.data.arrays.node_value[:2, nodes].T / length
     middle = at.mean(axis=0)
-    if one.kind is RelationKind.TWO_LINES:
+    if one.kind == "two lines":
         return _of_two_lines(figures, nodes)
-    terms = circle_terms if one.kind is RelationKind.CIRCLE else conic_terms
+    terms = circle_terms if one.kind == "circle" else conic_terms
 
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:
         rows = terms(places[:, nodes, :2] / length - middle)
@@ -418,42 +379,47 @@ def conic_terms(at: FloatArray) -> FloatArray:
     return np.stack((x**2, x * y, y**2, x, y, np.ones_like(x)), axis=-1)
 
 
+def on_two_lines(points: FloatArray) -> Iterator[BoolArray]:
+    """Which of points (n, 2) are on the first of two lines that have all of them; for each pair.
+
+    One of the lines goes through two of the first three.
+    """
+    for i, j in combinations(range(3), 2):
+        on = _is_on_line(points, points[i], points[j])
+        rest = points[~on]
+        if len(rest) < 3 or bool(_is_on_line(rest, rest[0], rest[1]).all()):
+            yield on
+
+
+def _is_on_line(points: FloatArray, first: FloatArray, second: FloatArray) -> BoolArray:
+    way = second - first
+    off = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
+    return np.asarray(np.abs(off) <= SAME * float(way @ way), bool)
+
+
 def _of_two_lines(figures: Figures, nodes: list[int]) -> _Made | None:
     """Of each joint the line on which it is; a line by its unit normal and its distance."""
-    at = figures.result.data.arrays.node_value[:2, nodes].T / figures.length
-    for i, j in combinations(range(min(3, len(nodes))), 2):
-        way = at[j] - at[i]
-        off = (at[:, 0] - at[i, 0]) * way[1] - (at[:, 1] - at[i, 1]) * way[0]
-        on = np.abs(off) <= _SAME * float(way @ way)
-        if np.count_nonzero(~on) < 2:
-            continue
-        lines = _through_points(at[on]), _through_points(at[~on])
-        if float(np.abs(at[~on] @ lines[1][:2] - lines[1][2]).max()) <= _SAME:
-            return _on_two_lines(figures.length, nodes, on), np.concatenate(lines)
-    return None
+    length = figures.length
+    at = figures.result.data.arrays.node_value[:2, nodes].T / length
+    on = next((each for each in on_two_lines(at) if np.count_nonzero(~each) > 1), None)
+    if on is None:
+        return None
+    sides = on, ~on
 
-
-def _on_two_lines(length: float, nodes: list[int], on: BoolArray) -> _Residual:
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:
-        now = places[:, nodes, :2] / length
-        made = []
-        for k, chosen in ((0, on), (3, ~on)):
+        now, made = places[:, nodes, :2] / length, list[FloatArray]()
+        for k, chosen in zip((0, 3), sides, strict=True):
             normal, distance = free[:, None, k : k + 2], free[:, k + 2, None]
             made += [(now[:, chosen] * normal).sum(axis=2) - distance, _size(free[:, k : k + 2])]
         return np.concatenate(made, axis=1)
 
-    return residual
+    return residual, np.concatenate([_through_points(at[side]) for side in sides])
 
 
 def _through_points(at: FloatArray) -> FloatArray:
     middle = at.mean(axis=0)
     normal = np.linalg.svd(at - middle)[2][-1]
     return np.append(normal, normal @ middle)
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    sizes = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.asarray(vectors / np.maximum(sizes, 1.0e-300))
 
 
 def _dot(one: FloatArray, other: FloatArray) -> FloatArray:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...analysis.decomposition import Asked, decompose
 from ...analysis.limits import NO_CHANGE
-from ...analysis.result import Motion, Result, SelfStress
+from ...analysis.result import Result, SelfStress
 from ...core import calls
 from ...core.arrays import Basis, FloatArray, ModelArrays, packed
 from ...core.elements import Class, NodeKind, Role, Vector, element_kinds, length_table, role_table
@@ -113,26 +113,22 @@ def rank_at(geometry: Geometry, places: FloatArray, vectors: FloatArray) -> int 
     return raw.rank
 
 
-def generic_rank(result: Result) -> tuple[int | None, int]:
-    """The largest rank that was found, and how many geometries were tried.
-
-    None where none of them could be analysed.
-    """
+def generic_rank(result: Result) -> int | None:
+    """The largest rank of some random geometries; None where none could be analysed."""
     full = min(result.rows, result.columns)
     if result.rank == full:
-        return full, 0
+        return full
     geometry = Geometry(result.data)
     arrays = result.data.arrays
     large = max(arrays.node_number.size, arrays.element_number.size) > _MOST_FOR_MORE
     best: int | None = None
-    trials = 1 if large else 3
-    for trial in range(trials):
+    for trial in range(1 if large else 3):
         found = rank_at(geometry, *geometry.random(trial))
         if found is not None:
             best = max(found, result.rank, best or 0)
         if best == full:
-            return best, trial + 1
-    return best, trials
+            break
+    return best
 
 
 class DetachedElements:
@@ -222,6 +218,7 @@ class Gradients(Frozen):
         made = self._derivatives()
         self.by_offset, self.by_vector = made[:, :3], made[:, 3:]
 
+    @cached_property
     def at_nodes(self) -> FloatArray:
         """(nodes, 3, s, k) by the place of each node [1/m]; zero of what is no coordinate."""
         arrays = self.result.data.arrays
@@ -233,6 +230,7 @@ class Gradients(Frozen):
         made[~self.geometry.free] = 0.0
         return made
 
+    @cached_property
     def by_turning(self) -> FloatArray:
         """(elements, 3, s, k) by a turn of each element about its centre [1/rad]."""
         first = np.cross(self._offsets[:, :, None, None], self.by_offset, axis=1)
@@ -250,38 +248,45 @@ class Gradients(Frozen):
         result = self.result
         if min(result.rows, result.columns) > _MOST_DENSE:
             return None
-        matrix = self._scaled_at(*self.geometry.random(0), share=_SMALL)
-        left, _, right = np.linalg.svd(matrix)
-        of_motions = right[result.columns - motions :].T
-        of_stresses = left[:, result.rows - stresses :]
-        return self.motions.T @ of_motions, self.stresses.T @ of_stresses
-
-    def _scaled_at(self, places: FloatArray, vectors: FloatArray, share: float) -> FloatArray:
-        """(m, n) the scaled D(c), so much on the way to other places and vectors."""
-        arrays, raw = self.result.data.arrays, self.result.raw
+        # The scaled D(c), a little on the way to other places and vectors.
+        (places, vectors), arrays, raw = self.geometry.random(0), result.data.arrays, result.raw
         p, q = arrays.element_node[[0, 2]] - 1
         moved = (places - self.geometry.places)[self.geometry.owner]
         change = np.zeros((arrays.element_number.size, 6))
         both = ((p >= 0) & (q >= 0))[:, None]
-        change[:, :3] = share * np.where(both, moved[q] - moved[p], 0.0)
-        change[:, 3:] = share * (vectors - self.geometry.vectors)
+        change[:, :3] = _SMALL * np.where(both, moved[q] - moved[p], 0.0)
+        change[:, 3:] = _SMALL * (vectors - self.geometry.vectors)
         rows = DetachedElements(arrays, self.geometry.vectors).matrices(change)
         made = np.zeros((arrays.element_number.size, 6, arrays.node_kind.size + 1, 3))
         node = arrays.element_node.T - 1
         for slot in range(4):
-            np.add.at(
-                made,
-                (
-                    np.arange(node.shape[0])[:, None],
-                    np.arange(6)[None],
-                    node[:, slot][:, None],
-                ),
-                rows[:, :, 3 * slot : 3 * slot + 3],
-            )
+            at = np.arange(node.shape[0])[:, None], np.arange(6)[None], node[:, slot][:, None]
+            np.add.at(made, at, rows[:, :, 3 * slot : 3 * slot + 3])
         element, deformation = raw.row_label - 1
         column, axis = raw.column_label - 1
         chosen = made[element[:, None], deformation[:, None], column[None], axis[None]]
-        return np.asarray(raw.row_scale[:, None] * chosen * raw.column_scale)
+        left, _, right = np.linalg.svd(raw.row_scale[:, None] * chosen * raw.column_scale)
+        of_motions = right[result.columns - motions :].T
+        of_stresses = left[:, result.rows - stresses :]
+        return self.motions.T @ of_motions, self.stresses.T @ of_stresses
+
+    def lift_of(self, share: FloatArray, *, of_stress: bool = False) -> Lift:
+        """Of a combination of the motions, (k,), or of the self-stresses, (s,), of unit length."""
+        result, given, condensed = self.result, self.result.given.arrays, self.result.condensed
+        moves, turns = (
+            _largest((np.swapaxes(each, 2, 3) if of_stress else each) @ share)
+            for each in (self.at_nodes, self.by_turning)
+        )
+        node = _first(moves, partial(node_key, result))
+        element = _first(turns, partial(_element_key, result))
+        by_move, node_number, by_turn, element_number = 0.0, None, 0.0, None
+        if node is not None and moves[node] * result.characteristic_length > _NOTHING:
+            by_move = float(moves[node])
+            node_number = int(given.node_number[condensed.nodes[node]])
+        if element is not None and turns[element] > _NOTHING:
+            by_turn = float(turns[element])
+            element_number = int(given.element_number[condensed.elements[element]])
+        return Lift(by_move, node_number, by_turn, element_number)
 
     @property
     def _offsets(self) -> FloatArray:
@@ -334,39 +339,6 @@ def _orthonormal(basis: Basis, scale: FloatArray) -> FloatArray:
 _EQUAL = 1.0e-6
 
 
-class MisalignmentRates:
-    """The fastest lifts of combinations of motions, or of self-stresses."""
-
-    def __init__(self, gradients: Gradients) -> None:
-        """Keep the derivatives at nodes and of turns."""
-        self._result = gradients.result
-        self._at_nodes, self._by_turning = gradients.at_nodes(), gradients.by_turning()
-
-    def of_motion(self, share: FloatArray) -> Lift:
-        """Of a combination of the motions, (k,), of unit length."""
-        return self._found(self._at_nodes @ share, self._by_turning @ share)
-
-    def of_stress(self, share: FloatArray) -> Lift:
-        """Of a combination of the self-stresses, (s,), of unit length."""
-        nodes, turns = (np.swapaxes(a, 2, 3) @ share for a in (self._at_nodes, self._by_turning))
-        return self._found(nodes, turns)
-
-    def _found(self, at_nodes: FloatArray, by_turning: FloatArray) -> Lift:
-        result = self._result
-        moves, turns = _largest(at_nodes), _largest(by_turning)
-        node = _first(moves, partial(node_key, result))
-        element = _first(turns, partial(_element_key, result))
-        given, condensed = result.given.arrays, result.condensed
-        by_move, node_number, by_turn, element_number = 0.0, None, 0.0, None
-        if node is not None and moves[node] * result.characteristic_length > _NOTHING:
-            by_move = float(moves[node])
-            node_number = int(given.node_number[condensed.nodes[node]])
-        if element is not None and turns[element] > _NOTHING:
-            by_turn = float(turns[element])
-            element_number = int(given.element_number[condensed.elements[element]])
-        return Lift(by_move, node_number, by_turn, element_number)
-
-
 #: Differences are good to some 1e-8.
 _NOTHING = max(NO_CHANGE, 1.0e-7)
 
@@ -391,8 +363,8 @@ def node_key(result: Result, node: int) -> tuple[object, ...]:
     given = int(result.condensed.nodes[node])
     parts = result.parts
     name = parts.name_of_point(given) or next((part.name for part in parts.at(given)), "")
-    place = np.round(result.given.arrays.node_value[:3, given] / _step(result)) + 0.0
-    return parts.is_held(given), natural(name), tuple(place.tolist())
+    place = place_key(result, result.given.arrays.node_value[:3, given])
+    return parts.is_held(given), natural(name), place
 
 
 def _element_key(result: Result, element: int) -> tuple[object, ...]:
@@ -402,86 +374,65 @@ def _element_key(result: Result, element: int) -> tuple[object, ...]:
     nodes = result.given.arrays.element_node[[0, 2], given] - 1
     places = [result.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
     middle = np.mean(places, axis=0) if places else np.zeros(3)
-    rounded = np.round(middle / _step(result)) + 0.0
-    return part.kind is PartKind.BODY, natural(part.name), tuple(rounded.tolist())
+    return part.kind is PartKind.BODY, natural(part.name), place_key(result, middle)
 
 
-def _step(result: Result) -> float:
-    return 1.0e-9 * result.characteristic_length
+def place_key(result: Result, place: FloatArray) -> tuple[float, ...]:
+    """A place by which equals are sorted, without what rounding makes of it."""
+    rounded = np.round(place / (1.0e-9 * result.characteristic_length)) + 0.0
+    return tuple(rounded.tolist())
 
 
 #: A told vector of which less than this lies in the space of the undivided mechanism is not there.
 THERE = 0.5
 
 
-class UndividedBasis(Frozen):
-    """Columns of unit length, zero of what the undivided mechanism has not.
+def shares_of_motions(
+    result: Result, whole: Result, gradients: Gradients
+) -> tuple[FloatArray, FloatArray]:
+    """(k, told) motions by the basis of the undivided mechanism: the told ones, and its own.
 
-    Attributes:
+    Columns of unit length, zero of what the undivided mechanism has not.
+
+    Args:
         result: The result of which modes are told.
         whole: The same with divided sheets and wires as one beam each.
         gradients: Has the orthonormal bases of `whole`.
     """
-
-    def __init__(self, result: Result, whole: Result, gradients: Gradients) -> None:
-        """Keep them; shares are found when they are asked for."""
-        self.result, self.whole, self.gradients = result, whole, gradients
-
-    @cached_property
-    def motions(self) -> FloatArray:
-        """(k, told) the told motions."""
-        told = self.result.motions
-        if self.whole is self.result:
-            return self.own_motions
-        made = [self._share_of_motion(motion) for motion in told]
-        return _unit(np.array(made).reshape(len(told), self.gradients.motions.shape[1]).T)
-
-    @cached_property
-    def own_motions(self) -> FloatArray:
-        """(k, told) those of the undivided mechanism."""
-        scale = self.whole.raw.column_scale
-        told = self.whole.motion_basis.toarray() / scale[:, None]
-        return _unit(self.gradients.motions.T @ told)
-
-    def _share_of_motion(self, motion: Motion) -> FloatArray:
-        """(k,) of a motion of the divided mechanism; zero of one inside of a part."""
-        whole = self.whole
-        node, axis = whole.raw.column_label - 1
-        given = whole.condensed.nodes[node]
-        placed = whole.data.arrays.node_kind[node] <= NodeKind.POSITION
+    scale = whole.raw.column_scale
+    own = _unit(gradients.motions.T @ (whole.motion_basis.toarray() / scale[:, None]))
+    if whole is result:
+        return own, own
+    made = np.zeros((gradients.motions.shape[1], len(result.motions)))
+    node, axis = whole.raw.column_label - 1
+    given = whole.condensed.nodes[node]
+    placed = whole.data.arrays.node_kind[node] <= NodeKind.POSITION
+    for k, motion in enumerate(result.motions):
         both = np.where(placed, motion.displacement[given, axis], motion.rotation[given, axis])
-        vector = both / whole.raw.column_scale
-        share = self.gradients.motions.T @ vector
-        size = float(np.linalg.norm(vector))
+        vector = both / scale
+        share, size = gradients.motions.T @ vector, float(np.linalg.norm(vector))
         everything = np.concatenate((motion.displacement, motion.rotation))
-        if motion.is_internal or not size > 1.0e-9 * float(np.abs(everything).max()):
-            return np.zeros_like(share)
-        return np.asarray(share / size if np.linalg.norm(share) > THERE * size else 0.0 * share)
+        moves = size > 1.0e-9 * float(np.abs(everything).max()) and not motion.is_internal
+        if moves and np.linalg.norm(share) > THERE * size:
+            made[:, k] = share / size
+    return _unit(made), own
 
-    @cached_property
-    def stresses(self) -> FloatArray:
-        """(s, told) the told self-stresses."""
-        told = self.result.self_stresses
-        whole = self.whole
-        own = self.own_stresses
-        if whole is self.result or not len(told):
-            return own[:, : len(told)]
-        of_whole = _loads_of(list(whole.self_stresses))
-        of_told = _loads_of(list(told))
-        keys = sorted({*of_whole, *of_told})
-        left, right = (
-            np.concatenate([loads.get(key, np.zeros((6, count))) for key in keys])
-            for loads, count in ((of_whole, own.shape[1]), (of_told, len(told)))
-        )
-        shares = np.linalg.lstsq(left, right)[0]
-        return _unit(own @ shares)
 
-    @cached_property
-    def own_stresses(self) -> FloatArray:
-        """(s, told) those of the undivided mechanism."""
-        scale = self.whole.raw.row_scale
-        told = self.whole.stress_basis.toarray() / scale[:, None]
-        return _unit(self.gradients.stresses.T @ told)
+def shares_of_stresses(
+    result: Result, whole: Result, gradients: Gradients
+) -> tuple[FloatArray, FloatArray]:
+    """(s, told) the told self-stresses and those of the undivided mechanism, likewise."""
+    told, scale = result.self_stresses, whole.raw.row_scale
+    own = _unit(gradients.stresses.T @ (whole.stress_basis.toarray() / scale[:, None]))
+    if whole is result or not len(told):
+        return own[:, : len(told)], own
+    of_whole, of_told = _loads_of(list(whole.self_stresses)), _loads_of(list(told))
+    keys = sorted({*of_whole, *of_told})
+    left, right = (
+        np.concatenate([loads.get(key, np.zeros((6, count))) for key in keys])
+        for loads, count in ((of_whole, own.shape[1]), (of_told, len(told)))
+    )
+    return _unit(own @ np.linalg.lstsq(left, right)[0]), own
 
 
 def _loads_of(stresses: list[SelfStress]) -> dict[tuple[int, int], FloatArray]:

@@ -9,7 +9,7 @@ rank five belong to one linear complex (Hunt, *Kinematic Geometry of Mechanisms*
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -18,13 +18,14 @@ import numpy as np
 from ...analysis.decomposition import Decomposition
 from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
-from ...analysis.screws import Screw, ScrewKind, screw_of
-from ...core.arrays import FloatArray
-from ...core.elements import Class, NodeKind
+from ...analysis.screws import ScrewKind, screw_of
+from ...core.arrays import BoolArray, FloatArray
+from ...core.elements import Class
 from ...model.parts.parts import Part, PartKind, natural
-from ...util.groups import groups_of
+from ...util.groups import distinct, grouped, groups_of
 from ...util.records import cached_property
-from .cause import RelationKind
+from .cause import LineKind, Relation, RelationKind
+from .gradients import place_key
 
 
 class Limb(NamedTuple):
@@ -33,12 +34,10 @@ class Limb(NamedTuple):
     Attributes:
         parts: They, by name.
         ends: Indices of the position nodes at both ends in the model as given, ascending.
-        inner: Indices of the position nodes between its parts.
     """
 
     parts: tuple[Part, ...]
     ends: tuple[int, ...]
-    inner: tuple[int, ...]
 
     @property
     def name(self) -> str:
@@ -48,10 +47,6 @@ class Limb(NamedTuple):
             return self.parts[0].name
         head = heads.pop()
         return head if not heads and head else " and ".join(part.name for part in self.parts)
-
-    def at(self, position: int) -> Part:
-        """The part that ends at a position node."""
-        return next(part for part in self.parts if position in part.ends)
 
 
 class Limbs:
@@ -70,21 +65,15 @@ class Limbs:
             for part in self.parts.all
             if part.kind not in (PartKind.BODY, PartKind.HINGE) and len(part.ends) == 2
         ]
-        ends: dict[int, list[int]] = {}
-        for k, part in enumerate(flexible):
-            for position in part.ends:
-                ends.setdefault(position, []).append(k)
+        ends = grouped((p, k) for k, part in enumerate(flexible) for p in part.ends)
         inner = {p: users for p, users in ends.items() if self._is_inner(p, len(users))}
         owner = groups_of(len(flexible), ((first, last) for first, last in inner.values())).tolist()
-        groups: dict[int, list[int]] = {}
-        for k, group in enumerate(owner):
-            groups.setdefault(group, []).append(k)
         made = []
-        for mine in groups.values():
-            members = tuple(sorted((flexible[k] for k in mine), key=by_name))
+        for mine in grouped(zip(owner, flexible, strict=True)).values():
+            members = tuple(sorted(mine, key=by_name))
             points = {position for part in members for position in part.ends}
             outer = tuple(sorted(p for p in points if p not in inner))
-            made.append(Limb(members, outer, tuple(sorted(points - set(outer)))))
+            made.append(Limb(members, outer))
         return tuple(sorted(made, key=lambda limb: natural(limb.name)))
 
     def _is_inner(self, position: int, users: int) -> bool:
@@ -122,19 +111,12 @@ class Limbs:
         made: dict[object, list[tuple[Limb, int]]] = {}
         for limb in self.all:
             for position in limb.ends:
-                key = self._hub(position)
-                if key is not None:
-                    made.setdefault(key, []).append((limb, position))
+                body, turning = self.parts.body_at.get(position), self.orientation_at(position)
+                if body is not None:
+                    made.setdefault(("body", body), []).append((limb, position))
+                elif turning is not None and not all(map(self.parts.is_held, (position, turning))):
+                    made.setdefault(("joint", position), []).append((limb, position))
         return tuple((key, tuple(found)) for key, found in made.items())
-
-    def _hub(self, position: int) -> object | None:
-        body = self.parts.body_at.get(position)
-        if body is not None:
-            return ("body", body)
-        turning = self._orientations.get(position, ())
-        if all(map(self.parts.is_held, (position, *turning))):
-            return None
-        return ("joint", position) if len(turning) == 1 else None
 
     def orientation_at(self, position: int) -> int | None:
         """The one orientation node at a position node; None where there is none, or several."""
@@ -149,93 +131,85 @@ def by_name(part: Part) -> tuple[object, ...]:
 
 def position_of_hinge(outcome: Decomposition, part: Part) -> int | None:
     """The position node at which a hinge stands; None where none is known."""
-    arrays = outcome.given.arrays
-    nodes = (arrays.element_node[:, part.elements[0]] - 1).tolist()
-    for node in nodes:
-        if node < 0:
-            continue
-        if arrays.node_kind[node] <= NodeKind.POSITION:
-            return int(node)
-        place = outcome.parts.place_of(node)
-        if place is not None:
-            return int(place)
-    return None
+    nodes = (outcome.given.arrays.element_node[:, part.elements[0]] - 1).tolist()
+    places = (outcome.parts.place_of(node) for node in nodes if node >= 0)
+    return next((place for place in places if place is not None), None)
 
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
-_SAME = 1.0e-6
+SAME = 1.0e-6
 #: Of more lines only what all have in common is looked for.
 _MOST_LINES = 24
+_NONE = np.zeros(3)
 
 
-class Line(NamedTuple):
-    """A straight line."""
-
-    point: FloatArray
-    """(3,) [m]."""
-    direction: FloatArray
-    """(3,) unit vector."""
-
-    def coordinates(self, length: float) -> FloatArray:
-        """(6,) Pluecker's coordinates, moments over a length."""
-        return np.concatenate((self.direction, np.cross(self.point, self.direction) / length))
+#: A straight line: (3,) a point of it [m], and (3,) a unit vector along it.
+Line = tuple[FloatArray, FloatArray]
 
 
 def line_of(limbs: Limbs, part: Part) -> Line:
     """The line of a wire, bar or member from end to end."""
     first, last = (limbs.place(end) for end in part.ends)
-    return Line(first, (last - first) / np.linalg.norm(last - first))
+    return first, (last - first) / np.linalg.norm(last - first)
+
+
+#: Which of several lines, ascending, and something that they have in common.
+Group = tuple[list[int], FloatArray, FloatArray]
 
 
 class Lines:
-    """Several lines, with a length [m] beside which distances count."""
+    """Several lines of parts, with a length [m] beside which distances count."""
 
-    def __init__(self, lines: list[Line], length: float) -> None:
-        """Keep them; their points are taken from the middle of all."""
-        middle = np.mean([line.point for line in lines], axis=0) if lines else np.zeros(3)
-        self.middle = middle
-        self.lines = [Line(line.point - middle, line.direction) for line in lines]
-        self.length = length
+    def __init__(
+        self, of: LineKind, lines: Sequence[Line], parts: Sequence[tuple[Part, ...]], length: float
+    ) -> None:
+        """Keep them, and whose they are; points are taken from the middle of all."""
+        self.of, self.parts, self.length = of, parts, length
+        points = np.array([point for point, _ in lines]).reshape(-1, 3)
+        self.middle = points.mean(axis=0) if len(lines) else np.zeros(3)
+        self.points, self.ways = points - self.middle, np.array([way for _, way in lines])
+        self.pairs = list(combinations(range(min(len(lines), _MOST_LINES)), 2))
 
     def __len__(self) -> int:
         """How many."""
-        return len(self.lines)
+        return len(self.points)
 
-    @property
-    def rank(self) -> int:
-        """Of their coordinates."""
-        if not self.lines:
-            return 0
-        values = np.linalg.svd(
-            np.array([line.coordinates(self.length) for line in self.lines]), compute_uv=False
-        )
-        return int(np.count_nonzero(values > _SAME * values[0]))
+    def relation(
+        self,
+        kind: RelationKind,
+        group: Sequence[int],
+        direction: FloatArray = _NONE,
+        point: FloatArray | None = None,
+        *,
+        pitch: float = 0.0,
+        fold: int = 1,
+    ) -> Relation:
+        """What some of the lines have in common, with a point of theirs, from the middle."""
+        parts = tuple(part for k in group for part in self.parts[k])
+        where = _NONE if point is None else point + self.middle
+        return Relation(kind, self.of, parts, (), direction, where, pitch=pitch, fold=fold)
+
+    def coordinates(self) -> FloatArray:
+        """(n, 6) Pluecker's coordinates, moments over the length."""
+        return np.hstack((self.ways, np.cross(self.points, self.ways) / self.length))
 
     def is_parallel(self, i: int, j: int) -> bool:
         """Whether two are parallel or one."""
-        a, b = self.lines[i].direction, self.lines[j].direction
-        return bool(np.linalg.norm(np.cross(a, b)) <= _SAME)
+        return bool(np.linalg.norm(np.cross(self.ways[i], self.ways[j])) <= SAME)
 
     def is_one(self, i: int, j: int) -> bool:
         """Whether two are one line."""
-        a, b = self.lines[i], self.lines[j]
-        apart = np.cross(b.point - a.point, a.direction)
-        return self.is_parallel(i, j) and bool(np.linalg.norm(apart) <= _SAME * self.length)
+        apart = np.cross(self.points[j] - self.points[i], self.ways[i])
+        return self.is_parallel(i, j) and bool(np.linalg.norm(apart) <= SAME * self.length)
 
     def meeting(self, i: int, j: int) -> FloatArray | None:
         """(3,) the point where two meet; None where they do not, or are parallel."""
-        a, b = self.lines[i], self.lines[j]
-        normal = np.cross(a.direction, b.direction)
-        size = float(normal @ normal)
-        way = b.point - a.point
-        if size <= _SAME**2 or abs(float(way @ normal)) > _SAME * self.length * size**0.5:
+        normal = np.cross(self.ways[i], self.ways[j])
+        size, way = float(normal @ normal), self.points[j] - self.points[i]
+        if size <= SAME**2 or abs(float(way @ normal)) > SAME * self.length * size**0.5:
             return None
-        t = float(np.cross(way, b.direction) @ normal) / size
-        return np.asarray(a.point + t * a.direction)
-
-    def in_place(self, point: FloatArray) -> FloatArray:
-        """A point of these lines where it stands [m]."""
-        return np.asarray(point + self.middle)
+        t = float(np.cross(way, self.ways[j]) @ normal) / size
+        return np.asarray(self.points[i] + t * self.ways[i])
 
     def together(self, same: Callable[[int, int], bool]) -> list[list[int]]:
         """Groups of two or more that are pairwise the same, each line in one group."""
@@ -248,90 +222,46 @@ class Lines:
                 made.append(group)
         return made
 
-    def planes(self) -> list[tuple[list[int], FloatArray, FloatArray]]:
+    def planes(self) -> list[Group]:
         """Three or more in one plane each: which, the normal, and a point of it."""
-
-        def is_in(line: Line, normal: FloatArray, point: FloatArray) -> bool:
-            off = abs(float((line.point - point) @ normal))
-            return abs(float(line.direction @ normal)) <= _SAME and off <= _SAME * self.length
-
-        return self._largest(self._planes_of_pairs(), is_in)
-
-    def points(self) -> list[tuple[list[int], FloatArray, FloatArray]]:
-        """Three or more through one point each: which, nothing, and the point."""
-
-        def is_through(line: Line, _: FloatArray, point: FloatArray) -> bool:
-            off = float(np.linalg.norm(np.cross(point - line.point, line.direction)))
-            return off <= _SAME * max(self.length, float(np.linalg.norm(point)))
-
-        met = (self.meeting(i, j) for i, j in self._pairs())
-        return self._largest(
-            ((np.zeros(3), point) for point in met if point is not None), is_through
-        )
-
-    def _largest(
-        self,
-        found: Iterable[tuple[FloatArray, FloatArray]],
-        has: Callable[[Line, FloatArray, FloatArray], bool],
-    ) -> list[tuple[list[int], FloatArray, FloatArray]]:
-        """Groups of three or more, each once."""
-        made: dict[tuple[int, ...], tuple[list[int], FloatArray, FloatArray]] = {}
-        for normal, point in found:
-            group = [k for k, line in enumerate(self.lines) if has(line, normal, point)]
-            if len(group) > 2:
-                made.setdefault(tuple(group), (group, normal, point))
-        return list(made.values())
-
-    def _pairs(self) -> Iterator[tuple[int, int]]:
-        return combinations(range(min(len(self), _MOST_LINES)), 2)
-
-    def _planes_of_pairs(self) -> Iterator[tuple[FloatArray, FloatArray]]:
-        for i, j in self._pairs():
-            a, b = self.lines[i], self.lines[j]
+        found = []
+        for i, j in self.pairs:
             if self.is_one(i, j):
                 continue
             if self.is_parallel(i, j):
-                normal = np.cross(a.direction, b.point - a.point)
+                normal = np.cross(self.ways[i], self.points[j] - self.points[i])
             elif self.meeting(i, j) is not None:
-                normal = np.cross(a.direction, b.direction)
+                normal = np.cross(self.ways[i], self.ways[j])
             else:
                 continue
-            yield normal / np.linalg.norm(normal), a.point
+            normal = normal / np.linalg.norm(normal)
+            off = np.abs((self.points - self.points[i]) @ normal) <= SAME * self.length
+            found.append((off & (np.abs(self.ways @ normal) <= SAME), normal, self.points[i]))
+        return _groups(found)
 
-    def unstopped(self) -> Screw | None:
-        """The one motion that a body has which is held along these lines; of rank five."""
-        rows = np.array([line.coordinates(self.length) for line in self.lines])
-        values, axes = np.linalg.svd(rows)[1:]
-        if len(values) < 5 or int(np.count_nonzero(values > _SAME * values[0])) != 5:
-            return None
-        velocity, rotation = axes[5, :3], axes[5, 3:] / self.length
-        return screw_of(rotation, velocity, np.zeros(3), self.length, rounding=_SAME)
+    def meeting_points(self) -> list[Group]:
+        """Three or more through one point each: which, nothing, and the point."""
+        found = []
+        for point in (self.meeting(i, j) for i, j in self.pairs):
+            if point is not None:
+                off = np.linalg.norm(np.cross(point - self.points, self.ways), axis=1)
+                near = SAME * max(self.length, float(np.linalg.norm(point)))
+                found.append((off <= near, _NONE, point))
+        return _groups(found)
 
-    def are_skew(self) -> bool:
-        """Whether no two are parallel or meet."""
-        return not any(
-            self.is_parallel(i, j) or self.meeting(i, j) is not None for i, j in self._pairs()
-        )
+
+def _groups(found: Iterable[tuple[BoolArray, FloatArray, FloatArray]]) -> list[Group]:
+    """Of three lines or more, each group once."""
+    every = ((np.flatnonzero(mask).tolist(), normal, point) for mask, normal, point in found)
+    large = (each for each in every if len(each[0]) > 2)
+    return distinct(large, lambda one, other: bool(one[0] == other[0]))
 
 
 #: Of more lines nothing is said.
 _IN_COMMON_MOST_LINES = 60
-_NONE = np.zeros(3)
 
 
-class Common(NamedTuple):
-    """What some of the lines have in common."""
-
-    kind: RelationKind
-    group: tuple[int, ...]
-    """Which lines, ascending."""
-    direction: FloatArray
-    point: FloatArray
-    """Where it stands [m]."""
-    pitch: float = 0.0
-
-
-def in_common(lines: Lines, *, planar: bool) -> list[Common]:
+def in_common(lines: Lines, *, planar: bool) -> list[Relation]:
     """What dependent lines have in common, the most telling first; nothing if that is not known.
 
     Args:
@@ -340,79 +270,55 @@ def in_common(lines: Lines, *, planar: bool) -> list[Common]:
     """
     if not 2 <= len(lines) <= _IN_COMMON_MOST_LINES:
         return []
-    if told := list(_of_one_line(lines)) or list(_of_six(lines)):
-        return told
-    through = list(_of_one_point(lines))
+    every = range(len(lines))
+    ones = [
+        lines.relation(
+            "one line", group, without_sense(lines.ways[group[0]]), lines.points[group[0]]
+        )
+        for group in lines.together(lines.is_one)
+    ]
+    if ones:
+        return ones
+    values, axes = np.linalg.svd(lines.coordinates())[1:]
+    screw = None
+    if len(lines) >= 6 and int(np.count_nonzero(values > SAME * values[0])) == 5:
+        # The one motion that a body has which is held along these lines.
+        rotation, length = axes[5, 3:] / lines.length, lines.length
+        screw = screw_of(rotation, axes[5, :3], np.zeros(3), length, rounding=SAME)
+    if screw is not None and screw.kind is not ScrewKind.SCREW:
+        # Six and more that leave one motion all meet its axis, or lie across it.
+        axis = without_sense(screw.direction)
+        if screw.kind is ScrewKind.ROTATION:
+            return [lines.relation("one transversal", every, axis, screw.point)]
+        return [lines.relation("across", every, axis)]
     groups = _cover(lines, planar)
-    if through:
-        return through + [one for one in groups if len(one.group) == len(lines)]
-    covered = {k for one in groups for k in one.group}
-    if len(covered) == len(lines):
-        return groups
-    return [*_of_all(lines), *groups]
-
-
-def _of_one_line(lines: Lines) -> Iterator[Common]:
-    for group in lines.together(lines.is_one):
-        first = lines.lines[group[0]]
-        where = without_sense(first.direction), lines.in_place(first.point)
-        yield Common(RelationKind.ONE_LINE, tuple(group), *where)
-
-
-def _of_one_point(lines: Lines) -> Iterator[Common]:
-    for group, _, point in lines.points():
+    for group, _, point in lines.meeting_points():
         if len(group) == len(lines):
-            yield Common(RelationKind.CONCURRENT, tuple(group), _NONE, lines.in_place(point))
-            return
-
-
-def _of_six(lines: Lines) -> Iterator[Common]:
-    """Six and more that leave one motion: that all meet its axis, or lie across it."""
-    screw = lines.unstopped() if len(lines) >= 6 else None
-    if screw is None or screw.kind is ScrewKind.SCREW:
-        return
-    turns = screw.kind is ScrewKind.ROTATION
-    kind = RelationKind.ONE_TRANSVERSAL if turns else RelationKind.ACROSS
-    point = lines.in_place(screw.point) if turns else _NONE
-    yield Common(kind, tuple(range(len(lines))), without_sense(screw.direction), point)
-
-
-def _of_all(lines: Lines) -> Iterator[Common]:
-    every = tuple(range(len(lines)))
-    if len(lines) == 4 and lines.rank == 3 and lines.are_skew():
-        yield Common(RelationKind.REGULUS, every, _NONE, lines.in_place(_NONE))
-    screw = lines.unstopped() if len(lines) >= 6 else None
+            whole = [one for mine, one in groups if len(mine) == len(lines)]
+            return [lines.relation("concurrent", every, point=point), *whole]
+    made = [one for _, one in groups]
+    if sum(len(group) for group, _ in groups) == len(lines):
+        return made
     if screw is not None:
-        where = without_sense(screw.direction), lines.in_place(screw.point)
-        yield Common(RelationKind.COMPLEX, every, *where, screw.pitch)
+        axis = without_sense(screw.direction)
+        made.insert(0, lines.relation("complex", every, axis, screw.point, pitch=screw.pitch))
+    met = (lines.is_parallel(i, j) or lines.meeting(i, j) is not None for i, j in lines.pairs)
+    rank = int(np.count_nonzero(values > SAME * values[0]))
+    if len(lines) == 4 and rank == 3 and not any(met):
+        made.insert(0, lines.relation("regulus", every, point=_NONE))
+    return made
 
 
-def _cover(lines: Lines, planar: bool) -> list[Common]:
+def _cover(lines: Lines, planar: bool) -> list[tuple[list[int], Relation]]:
     """Groups that share no line, the largest first: parallel ones, or those in one plane."""
     found = [
-        Common(
-            RelationKind.PARALLEL,
-            tuple(group),
-            without_sense(lines.lines[group[0]].direction),
-            _NONE,
-        )
+        (group, lines.relation("parallel", group, without_sense(lines.ways[group[0]])))
         for group in lines.together(lines.is_parallel)
     ]
-    if not planar:
-        found += [
-            Common(
-                RelationKind.ONE_PLANE, tuple(group), without_sense(normal), lines.in_place(point)
-            )
-            for group, normal, point in lines.planes()
-        ]
-    found.sort(key=lambda one: (-len(one.group), one.kind is RelationKind.ONE_PLANE, one.group))
-    made: list[Common] = []
-    taken: set[int] = set()
-    for one in found:
-        if not taken & set(one.group):
-            made.append(one)
-            taken |= set(one.group)
-    return made
+    for group, normal, point in [] if planar else lines.planes():
+        found.append((group, lines.relation("one plane", group, without_sense(normal), point)))
+    found.sort(key=lambda each: (-len(each[0]), each[1].kind == "one plane", each[0]))
+    return distinct(found, lambda each, taken: not set(each[0]).isdisjoint(taken[0]))
 
 
 def clusters_of(result: Result) -> tuple[frozenset[int], ...]:
@@ -437,7 +343,14 @@ def clusters_of(result: Result) -> tuple[frozenset[int], ...]:
     # Those of which no coordinate of a joint is fixed.
     classes = result.given.arrays.coordinate_class
     free = [body for body in made if not np.any(classes[:, sorted(body)] == Class.FIXED)]
-    return tuple(sorted(free, key=lambda body: (-len(body), _key(result, body))))
+
+    def key(body: frozenset[int]) -> tuple[object, ...]:
+        """By the names of its joints, then by their places."""
+        places = result.given.arrays.node_value[:3, sorted(body)].T
+        names = sorted(natural(result.parts.name_of_point(node)) for node in body)
+        return -len(body), names, sorted(place_key(result, place) for place in places)
+
+    return tuple(sorted(free, key=key))
 
 
 def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[int]:
@@ -447,11 +360,3 @@ def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[
         if not new:
             return frozenset(body)
         body |= new
-
-
-def _key(result: Result, body: frozenset[int]) -> object:
-    """By the names of its joints, then by their places."""
-    step = 1.0e-9 * result.characteristic_length
-    places = np.round(result.given.arrays.node_value[:3, sorted(body)].T / step) + 0.0
-    names = sorted(natural(result.parts.name_of_point(node)) for node in body)
-    return names, sorted(map(tuple, places.tolist()))

@@ -40,13 +40,13 @@ from ...core.arrays import FloatArray
 from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
-from ...util.records import cached_property
+from ...util.groups import grouped
 from ...util.rotations import matrix_of
 from ..step import After, Purpose, Step, tried
 from .cause import CauseKind, Causes, Relation
 from .gradients import Gradients, node_key
 from .lines import Limb, Limbs
-from .words import MOST_NAMED, limb_names, limbs_in_words, names_in_words, relations_in_words
+from .words import MOST_NAMED, limb_names, names_in_words, relations_in_words
 
 #: Components below this part of the size of the mechanism are zero.
 _ZERO = 1.0e-12
@@ -83,15 +83,10 @@ class Mend(Step):
     is_in_place: bool = False
     stops: Screw | None = None
 
-    @property
-    def left(self) -> int:
-        """How many motions and self-stresses are left."""
-        return self.after.under_constrained + self.after.over_constrained
-
     def words(self) -> Pieces:
         """Which constraint repeats which while what is free, and how the limb is turned."""
         result = self.analysis
-        limb = limbs_in_words(result, self.parts)
+        limb = names_in_words(limb_names(result, self.parts))
         turn = f" by {degrees(abs(self.angle)):.4g} degrees about {self._line()}"
         if self.stops is not None:
             turn += f", so that it stops this {_word(self.stops)}"
@@ -162,11 +157,9 @@ def _and_then(mend: Step, what: str) -> str:
 def hub_name(result: Result, end: int) -> Named:
     """The body or point that a limb holds."""
     body = result.parts.body_at.get(end)
-    arrays = result.given.arrays
     if body is None:
-        return named_node(result, int(arrays.node_number[end]))
-    part = result.parts.of_body(body)
-    return named_element(result, int(arrays.element_number[part.elements[0]]))
+        return named_node(result, int(result.given.arrays.node_number[end]))
+    return named_element(result, result.parts.of_body(body).number)
 
 
 def motion_of(screw: Screw, on: Pieces) -> Pieces:
@@ -209,7 +202,18 @@ def change_of(
         made.append((int(arrays.node_number[node]), _rounded(after[node], length)))
     if not made or _is_in_the_way(result, limb, after):
         return None
-    return Change(places=tuple(made), vectors=tuple(_vectors(result, elements, matrix)))
+    # The vectors of elements that have one, or need one to be turned.
+    vectors, optional = [], [0, *(kind.vector for kind in element_kinds())]
+    for index in elements:
+        own = arrays.element_vector[:, index]
+        if not own.any():
+            is_none = optional[arrays.element_kind[index]] == Vector.NONE
+            if is_none or not result.parts.wide[index]:
+                continue
+            own = result.given.frames.frame[index][:, 1]
+        turned = _rounded(matrix @ own, float(np.linalg.norm(own)))
+        vectors.append((int(arrays.element_number[index]), turned))
+    return Change(places=tuple(made), vectors=tuple(vectors))
 
 
 def _is_in_the_way(result: Result, limb: Limb, places: FloatArray) -> bool:
@@ -238,24 +242,6 @@ def _distances(points: FloatArray, first: FloatArray, last: FloatArray) -> Float
     size = float(way @ way)
     share = np.clip((points - first) @ way / size, 0.0, 1.0) if size > 0.0 else 0.0 * points[:, 0]
     return np.asarray(np.linalg.norm(points - first - share[:, None] * way, axis=1))
-
-
-def _vectors(
-    result: Result, elements: list[int], matrix: FloatArray
-) -> Iterator[tuple[int, tuple[float, float, float]]]:
-    """The vectors of elements that have one, or need one to be turned."""
-    arrays, frames = result.given.arrays, result.given.frames.frame
-    optional = [0, *(kind.vector for kind in element_kinds())]
-    for index in elements:
-        own = arrays.element_vector[:, index]
-        if not own.any():
-            if not result.parts.wide[index]:
-                continue
-            if optional[arrays.element_kind[index]] == Vector.NONE:
-                continue
-            own = frames[index][:, 1]
-        turned = _rounded(matrix @ own, float(np.linalg.norm(own)))
-        yield int(arrays.element_number[index]), turned
 
 
 def _rounded(vector: FloatArray, size: float) -> tuple[float, float, float]:
@@ -309,15 +295,13 @@ def mends_of(
 
 def _best(found: list[Mend]) -> list[list[Mend]]:
     """Turns that leave the fewest and are strong, the best first; behind each its equals."""
-    least = min((one.left for one in found), default=0)
-    able = [one for one in found if one.left == least]
+    left = [one.after.under_constrained + one.after.over_constrained for one in found]
+    able = [one for one, count in zip(found, left, strict=True) if count == min(left)]
     best = max((_smallest(one) for one in able), default=0.0)
     # What is nearly as good and turns the limb where it is fastened is the simpler one.
     able = [one for one in able if _smallest(one) > _FAIR * best]
     able.sort(key=lambda one: (not one.is_in_place, -float(f"{_smallest(one):.5g}")))
-    equal: dict[tuple[str, bool], list[Mend]] = {}
-    for one in able:
-        equal.setdefault((f"{_smallest(one):.5g}", one.is_in_place), []).append(one)
+    equal = grouped(((f"{_smallest(one):.5g}", one.is_in_place), one) for one in able)
     turned: dict[tuple[object, ...], list[Mend]] = {}
     for group in equal.values():
         key = (group[0].parts, *np.round(group[0].direction, 6).tolist())
@@ -381,17 +365,9 @@ class _TurnSearch:
                     continue
                 off = np.cross(self.limbs.place(end) - point, direction)
                 in_place = bool(np.linalg.norm(off) <= _EQUAL * whole.characteristic_length)
-                made.append(
-                    Mend(
-                        *(whole, Purpose.MEND, change, _condition(whole, after), after),
-                        parts=limb.parts,
-                        end=end,
-                        direction=direction,
-                        point=point,
-                        angle=angle,
-                        is_in_place=in_place,
-                    )
-                )
+                how = whole, Purpose.MEND, change, _condition(whole, after), after
+                turn = direction, point, angle, in_place
+                made.append(Mend(*how, (), 0, limb.parts, end, (), *turn))
             if made:
                 break
         return made
@@ -409,10 +385,16 @@ class _TurnSearch:
         if body is not None:
             turned = whole.parts.bodies[body].orientations[0]
         asked = Asked(whole.asked.method, prove=False)
-        after: Result = result_of(change.apply(whole.given).data, asked)
-        left = _twists(after, (end, turned))
+        left = _twists(result_of(change.apply(whole.given).data, asked), (end, turned))
         for motion in self.special:
-            screw = _screw(whole, motion, end)
+            # How the body or point at the end moves; nothing where it does not.
+            part = None if body is None else whole.parts.of_body(body)
+            screws = (
+                one.screw
+                for one in motion.bodies
+                if part in one.bodies or any(joint.position == end for joint in one.joints)
+            )
+            screw = next(screws, None)
             if screw is None:
                 continue
             rotation = motion.rotation[turned] if turned is not None else np.zeros(3)
@@ -462,12 +444,6 @@ class _TurnSearch:
         ends = self._hub_of[limb.parts, end]
         return np.asarray(np.mean([self.limbs.place(position) for _, position in ends], axis=0))
 
-    @cached_property
-    def _moved(self) -> list[FloatArray]:
-        """The directions of special motions."""
-        motions = self.special[:_MOST_LIMBS]
-        return [one.screw.direction for motion in motions for one in motion.bodies[:1]]
-
     def _directions(self, limb: Limb, end: int) -> list[FloatArray]:
         """Of the relations and of the motions, then of limbs, and across two of them."""
         if self.whole.given.planar:
@@ -483,9 +459,12 @@ class _TurnSearch:
                 if all(float(np.linalg.norm(np.cross(unit, other))) > _EQUAL for other in made):
                     made.append(unit)
 
-        relations = self.relations
-        couples, lines = ([one.couple for one in relations], [one.direction for one in relations])
-        for axis in (*couples, *lines, *self._moved):
+        screws = [one.screw for each in self.special[:_MOST_LIMBS] for one in each.bodies[:1]]
+        for axis in (
+            *(one.couple for one in self.relations),
+            *(one.direction for one in self.relations),
+            *(screw.direction for screw in screws),
+        ):
             add(axis)
         for other, position in self._hub_of[limb.parts, end]:
             away = next((p for p in other.ends if p != position), position)
@@ -496,16 +475,6 @@ class _TurnSearch:
         for a, b in combinations(made[:3], 2):
             add(np.cross(a, b))
         return made[:_MOST_AXES]
-
-
-def _screw(whole: Result, motion: Motion, end: int) -> Screw | None:
-    """How the body or point at a node moves; None where it does not."""
-    body = whole.parts.body_at.get(end)
-    for one in motion.bodies:
-        is_body = body is not None and whole.parts.of_body(body) in one.bodies
-        if is_body or any(joint.position == end for joint in one.joints):
-            return one.screw
-    return None
 
 
 def _twists(result: Result, nodes: tuple[int, int | None]) -> FloatArray:
@@ -544,7 +513,7 @@ def joint_move(whole: Result, gradients: Gradients) -> tuple[JointMove, ...]:
     """
     if any(part.kind is not PartKind.BAR for part in whole.parts.all):
         return ()
-    blocks, lengths = gradients.at_nodes(), gradients.geometry.sizes
+    blocks, lengths = gradients.at_nodes, gradients.geometry.sizes
     left, values, _ = np.linalg.svd(blocks.reshape(blocks.shape[0], 3, -1), full_matrices=False)
     held = [whole.parts.is_held(int(given)) for given in whole.condensed.nodes]
     sizes = np.where(held, 0.0, values[:, 0] * lengths)
@@ -606,7 +575,7 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
     motions.sort(key=lambda k: causes.motions[k].kind is not CauseKind.SPECIAL)
     stresses.sort(key=lambda j: not causes.self_stresses[j].relations)
     for j in stresses:
-        k = next(iter(_going_together(result, causes, j, motions)), None)
+        k = next(_going_together(result, causes, j, motions), None)
         if k is None:
             continue
         found = causes.self_stresses[j].relations
@@ -619,7 +588,14 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
             if isinstance(mend, Mend) and mend.stops:
                 free = motion_of(mend.stops, (hub_name(result, mend.end),))
                 return (*held, ", while nothing stops ", *free)
-        return (*held, ", while nothing stops ", *_free(result, result.motions[k]))
+        first, *others = result.motions[k].bodies or (None,)
+        free = (f"motion {k + 1}",)
+        if first is not None and not (first.is_joint and others):
+            names = [part_words(part) for part in first.bodies] or [
+                joint_words(result.parts, joint) for joint in first.joints
+            ]
+            free = motion_of(first.screw, (listed(names[:MOST_NAMED]),))
+        return (*held, ", while nothing stops ", *free)
     return ()
 
 
@@ -646,14 +622,3 @@ def _going_together(
         least = _STILL * max(float(moved.max(initial=0.0)), float(turned.max(initial=0.0)))
         if max(moved[ends].max(initial=0.0), turned[turning].max(initial=0.0)) > least:
             yield k
-
-
-def _free(result: Result, motion: Motion) -> Pieces:
-    """What nothing stops: of many joints the motion's number."""
-    first = next(iter(motion.bodies), None)
-    if first is None or (first.is_joint and len(motion.bodies) > 1):
-        return (f"motion {motion.index + 1}",)
-    names = [part_words(part) for part in first.bodies] or [
-        joint_words(result.parts, joint) for joint in first.joints
-    ]
-    return motion_of(first.screw, (listed(names[:MOST_NAMED]),))

@@ -9,19 +9,17 @@ position of all that is stressed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import reduce
-from itertools import combinations
 from operator import add
-from typing import NamedTuple
 
 import numpy as np
 
 from ...analysis.mode_basis import without_sense
 from ...analysis.result import Motion, Result, SelfStress
-from ...analysis.screws import Screw, ScrewKind, Wrench, WrenchKind
-from ...core.arrays import BoolArray, FloatArray
+from ...analysis.screws import ScrewKind, Wrench, WrenchKind
+from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
 from .cause import LineKind, Relation, RelationKind
@@ -32,9 +30,11 @@ from .conditions import (
     circle_terms,
     conic_terms,
     half_turned,
+    on_two_lines,
 )
+from .gradients import place_key
 from .lines import (
-    Common,
+    SAME,
     Limb,
     Limbs,
     Line,
@@ -66,8 +66,9 @@ def pushes_on(stress: SelfStress, limbs: Limbs) -> list[tuple[object, list[Push]
         for limb, position in ends:
             if not carrying & set(limb.parts):
                 continue
-            loads = stress.of(limb.at(position)).ends
-            wrench = next((end.wrench for end in loads if end.position == position), None)
+            last = next(part for part in limb.parts if position in part.ends)
+            loads = (end.wrench for end in stress.of(last).ends if end.position == position)
+            wrench = next(loads, None)
             if wrench is not None and wrench.size > _REST * largest:
                 found.append((limb, wrench))
         if found:
@@ -84,22 +85,15 @@ def of_forces(result: Result, stress: SelfStress, limbs: Limbs) -> list[Relation
     ]
     for pushes in sorted(able, key=lambda found: -len(found)):
         lines = Lines(
-            [Line(wrench.point, wrench.direction) for _, wrench in pushes],
+            "force",
+            [(wrench.point, wrench.direction) for _, wrench in pushes],
+            [limb.parts for limb, _ in pushes],
             result.characteristic_length,
         )
-        made = [
-            Relation(
-                *(one.kind, LineKind.FORCE),
-                tuple(part for k in one.group for part in pushes[k][0].parts),
-                (),
-                *(one.direction, one.point),
-                _couple([pushes[k][1] for k in one.group]),
-                one.pitch,
-            )
-            for one in in_common(lines, planar=result.given.planar)
-        ]
-        if made:
-            return made
+        found = in_common(lines, planar=result.given.planar)
+        if found:
+            mine = ([w for limb, w in pushes if limb.parts[0] in one.parts] for one in found)
+            return [replace(one, couple=_couple(w)) for one, w in zip(found, mine, strict=True)]
     return []
 
 
@@ -125,14 +119,8 @@ def _couple(wrenches: list[Wrench]) -> FloatArray:
     return without_sense(total.moment / np.linalg.norm(total.moment))
 
 
-#: What is below this part of the lengths at hand, or this angle [rad], is none.
-_SAME = 1.0e-6
-
-
-class _Plane(NamedTuple):
-    part: Part
-    point: FloatArray
-    normal: FloatArray
+#: A sheet, (3,) a point of its plane, and the normal.
+Plane = tuple[Part, FloatArray, FloatArray]
 
 
 def of_sheets(
@@ -158,101 +146,69 @@ def of_sheets(
         kinds = {part.kind for part in parts}
         if len(parts) < len(found) or not kinds <= {*_STRAIGHT, PartKind.SHEET}:
             continue
-        sheets = _Sheets(result, found, limbs, parts)
-        yield tuple(sheets.in_one_plane())
-        yield tuple(sheets.of_motions(motions))
-
-
-class _Sheets:
-    def __init__(
-        self,
-        result: Result,
-        found: Mapping[Limb, SelfStress],
-        limbs: Limbs,
-        parts: Sequence[Part],
-    ) -> None:
-        self.length = result.characteristic_length
-        self.limbs = limbs
-        self.planes = [
-            _Plane(part, limbs.place(part.ends[0]), stress.of(part).normal)
+        planes = [
+            (part, limbs.place(part.ends[0]), stress.of(part).normal)
             for part, stress in zip(parts, found.values(), strict=True)
             if part.kind is PartKind.SHEET
         ]
-        self.wires = [part for part in parts if part.kind in _STRAIGHT]
-
-    def in_one_plane(self) -> Iterator[Relation]:
-        """Sheets, or a sheet and wires, that lie in one plane."""
-        told: set[Part] = set()
-        for plane in self.planes:
-            if plane.part in told:
-                continue
-            mine = [
-                one.part
-                for one in self.planes
-                if float(np.linalg.norm(np.cross(plane.normal, one.normal))) <= _SAME
-                and self._is_near(plane, one.point)
-            ]
-            mine += [
-                wire
-                for wire in self.wires
-                if all(self._is_near(plane, self.limbs.place(end)) for end in wire.ends)
-            ]
-            if len(mine) > 1:
-                told.update(mine)
-                normal = without_sense(plane.normal)
-                yield _relation(RelationKind.ONE_PLANE, mine, normal, plane.point)
-
-    def of_motions(self, motions: Sequence[Motion]) -> Iterator[Relation]:
-        """A line in all planes that all wires meet, or a direction that all lie across."""
-        parts = [*(plane.part for plane in self.planes), *self.wires]
-        if not self.planes or len(parts) < 2:
-            return
-        for screw in (one.screw for motion in motions for one in motion.bodies):
-            direction = without_sense(screw.direction)
-            if screw.kind is ScrewKind.ROTATION and self._all_let_turn(screw):
-                yield _relation(RelationKind.ONE_TRANSVERSAL, parts, direction, screw.point)
-                return
-            if screw.kind is ScrewKind.TRANSLATION and self._all_let_move(screw):
-                yield _relation(RelationKind.ACROSS, parts, direction, np.zeros(3))
-                return
-
-    def _all_let_turn(self, screw: Screw) -> bool:
-        if not all(
-            abs(float(plane.normal @ screw.direction)) <= _SAME
-            and self._is_near(plane, screw.point)
-            for plane in self.planes
-        ):
-            return False
-        lines = (line_of(self.limbs, wire) for wire in self.wires)
-        moments = (np.cross(at - screw.point, way) @ screw.direction for at, way in lines)
-        return all(abs(float(moment)) <= _SAME * self.length for moment in moments)
-
-    def _all_let_move(self, screw: Screw) -> bool:
-        across = [float(np.linalg.norm(np.cross(p.normal, screw.direction))) for p in self.planes]
-        ways = [line_of(self.limbs, wire).direction for wire in self.wires]
-        along = [abs(float(way @ screw.direction)) for way in ways]
-        return max((*across, *along)) <= _SAME
-
-    def _are_one(self, one: _Plane, other: _Plane) -> bool:
-        parallel = float(np.linalg.norm(np.cross(one.normal, other.normal))) <= _SAME
-        return parallel and self._is_near(one, other.point)
-
-    def _has(self, plane: _Plane, wire: Part) -> bool:
-        return all(self._is_near(plane, self.limbs.place(end)) for end in wire.ends)
-
-    def _is_near(self, plane: _Plane, point: FloatArray) -> bool:
-        return abs(float((point - plane.point) @ plane.normal)) <= _SAME * self.length
+        wires = [(part, line_of(limbs, part)) for part in parts if part.kind in _STRAIGHT]
+        yield tuple(_in_one_plane(planes, wires, limbs, result.characteristic_length))
+        yield _on_one_line(planes, wires, motions, result.characteristic_length)
 
 
-def _relation(
-    kind: RelationKind, parts: Sequence[Part], direction: FloatArray, point: FloatArray
-) -> Relation:
-    return Relation(kind, LineKind.SHEET, tuple(parts), (), direction, point)
+def _in_one_plane(
+    planes: Sequence[Plane], wires: Sequence[tuple[Part, Line]], limbs: Limbs, length: float
+) -> Iterator[Relation]:
+    """Sheets, or a sheet and wires, that lie in one plane."""
+    told: set[Part] = set()
+    for sheet, point, normal in planes:
+        if sheet in told:
+            continue
+        mine = [
+            part
+            for part, there, other in planes
+            if float(np.linalg.norm(np.cross(normal, other))) <= SAME
+            and abs(float((there - point) @ normal)) <= SAME * length
+        ]
+        for wire, _ in wires:
+            off = [abs(float((limbs.place(end) - point) @ normal)) for end in wire.ends]
+            if max(off) <= SAME * length:
+                mine.append(wire)
+        if len(mine) > 1:
+            told.update(mine)
+            yield Relation("one plane", "sheet", tuple(mine), (), without_sense(normal), point)
 
 
-#: Of more axes no half-turn is looked for, nor where they have one of these in common.
+def _on_one_line(
+    planes: Sequence[Plane],
+    wires: Sequence[tuple[Part, Line]],
+    motions: Sequence[Motion],
+    length: float,
+) -> tuple[Relation, ...]:
+    """A line in all planes that all wires meet, or a direction that all lie across."""
+    parts = *(sheet for sheet, _, _ in planes), *(wire for wire, _ in wires)
+    if not planes or len(parts) < 2:
+        return ()
+    for screw in (one.screw for motion in motions for one in motion.bodies):
+        axis, point = screw.direction, screw.point
+        if screw.kind is ScrewKind.ROTATION:
+            off = [abs(float(normal @ axis)) * length for _, _, normal in planes]
+            off += [abs(float((point - there) @ normal)) for _, there, normal in planes]
+            off += [abs(float(np.cross(at - point, way) @ axis)) for _, (at, way) in wires]
+            if max(off) <= SAME * length:
+                return (
+                    Relation("one transversal", "sheet", parts, (), without_sense(axis), point),
+                )
+        elif screw.kind is ScrewKind.TRANSLATION:
+            across = [float(np.linalg.norm(np.cross(normal, axis))) for _, _, normal in planes]
+            along = [abs(float(way @ axis)) for _, (_, way) in wires]
+            if max((*across, *along)) <= SAME:
+                return (Relation("across", "sheet", parts, (), without_sense(axis)),)
+    return ()
+
+
+#: Of more axes no half-turn is looked for.
 _MOST_TURNED = 12
-_SIMPLE = (RelationKind.ONE_LINE, RelationKind.CONCURRENT)
 
 
 def of_axes(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, ...]]:
@@ -263,41 +219,35 @@ def of_axes(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, .
     hinges = _hinges(result, parts)
     if len(hinges) < 2:
         return
-    parts = [part for part, _ in hinges]
-    lines = Lines([line for _, line in hinges], result.characteristic_length)
-
-    def relation(one: Common) -> Relation:
-        mine = tuple(parts[k] for k in one.group)
-        kind, pitch = one.kind, one.pitch
-        fold = 2 if kind is RelationKind.ROTATION else 1
-        place = one.direction, one.point
-        return Relation(kind, LineKind.AXIS, mine, (), *place, pitch=pitch, fold=fold)
-
+    lines = Lines(
+        "axis",
+        [line for _, line in hinges],
+        [(part,) for part, _ in hinges],
+        result.characteristic_length,
+    )
     groups = [
-        Common(RelationKind.PARALLEL, tuple(group), lines.lines[group[0]].direction, np.zeros(3))
+        (group, lines.relation("parallel", group, lines.ways[group[0]]))
         for group in lines.together(lines.is_parallel)
     ]
-    points = [
-        Common(RelationKind.CONCURRENT, tuple(group), np.zeros(3), lines.in_place(point))
-        for group, _, point in lines.points()
-    ]
-    if groups and sum(len(one.group) for one in groups) == len(lines):
-        yield tuple(map(relation, groups))
+    parallel = [one for _, one in groups]
+    if groups and sum(len(group) for group, _ in groups) == len(lines):
+        yield tuple(parallel)
     common = in_common(lines, planar=result.given.planar)
-    is_simple = any(one.kind in _SIMPLE for one in common)
     # By lines of one complex a motion only begins; by a symmetry it goes on.
-    for one in () if is_simple else _half_turns(lines):
-        yield (relation(one),)
-    yield tuple(map(relation, common))
-    yield tuple(map(relation, (*groups, *points)))
+    if not any(one.kind in ("one line", "concurrent") for one in common):
+        for one in _half_turns(lines):
+            yield (one,)
+    yield tuple(common)
+    met = lines.meeting_points()
+    yield *parallel, *(lines.relation("concurrent", group, point=at) for group, _, at in met)
 
 
-def _half_turns(lines: Lines) -> Iterator[Common]:
+def _half_turns(lines: Lines) -> Iterator[Relation]:
     """Half-turns that take lines onto each other, as in Bricard's line-symmetric loop."""
     count, length = len(lines), lines.length
     if not 4 <= count <= _MOST_TURNED:
         return
-    every = [(line.point[None], line.direction[None]) for line in lines.lines]
+    every = [(lines.points[[k]], lines.ways[[k]]) for k in range(count)]
     for other in range(1, count):
         for direction, point in _swapping(every[0], every[other], length):
             axis = np.concatenate((direction, point / length))[None]
@@ -307,9 +257,8 @@ def _half_turns(lines: Lines) -> Iterator[Common]:
                 for image in images
             ]
             if -1 not in found and all(i != j for i, j in enumerate(found)):
-                place = lines.in_place(point)
-                group = tuple(range(count))
-                yield Common(RelationKind.ROTATION, group, without_sense(direction), place)
+                way = without_sense(direction)
+                yield lines.relation("rotation", range(count), way, point, fold=2)
 
 
 def _swapping(one: Figure, other: Figure, length: float) -> Iterator[tuple[FloatArray, FloatArray]]:
@@ -337,7 +286,7 @@ def _hinges(result: Result, parts: Sequence[Part]) -> list[tuple[Part, Line]]:
         axis = arrays.element_vector[:, part.elements[0]]
         if axis.any():
             unit = axis / np.linalg.norm(axis)
-            made.append((part, Line(arrays.node_value[:3, place], unit)))
+            made.append((part, (arrays.node_value[:3, place], unit)))
     return made
 
 
@@ -350,31 +299,15 @@ def conic_of(points: FloatArray) -> RelationKind | None:
         return None
     at = (points - points.mean(axis=0)) / np.abs(points - points.mean(axis=0)).max()
     if _is_dependent(circle_terms(at).T):
-        return RelationKind.CIRCLE
-    if _are_on_two_lines(at):
-        return RelationKind.TWO_LINES
-    return RelationKind.CONIC if _is_dependent(conic_terms(at).T) else None
-
-
-def _are_on_two_lines(points: FloatArray) -> bool:
-    """Whether a line through two of the first three, or none of them, leaves the rest on one."""
-    for i, j in combinations(range(3), 2):
-        on = _is_on_line(points, points[i], points[j])
-        rest = points[~on]
-        if len(rest) < 3 or bool(_is_on_line(rest, rest[0], rest[1]).all()):
-            return True
-    return False
-
-
-def _is_on_line(points: FloatArray, first: FloatArray, second: FloatArray) -> BoolArray:
-    way = second - first
-    off = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
-    return np.asarray(np.abs(off) <= _SAME * float(way @ way), bool)
+        return "circle"
+    if next(on_two_lines(at), None) is not None:
+        return "two lines"
+    return "conic" if _is_dependent(conic_terms(at).T) else None
 
 
 def _is_dependent(rows: FloatArray) -> bool:
     values = np.linalg.svd(rows, compute_uv=False)
-    return bool(values[-1] <= _SAME * values[0])
+    return bool(values[-1] <= SAME * values[0])
 
 
 def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, ...]]:
@@ -382,7 +315,11 @@ def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relat
 
     Each is one set of relations that may be enough: of an axis, then all of them.
     """
-    if not _is_split(result):
+    arrays = result.data.arrays
+    free = np.any(arrays.coordinate_class == Class.DEPENDENT, axis=0)
+    held = np.any(np.isin(arrays.coordinate_class, (Class.FIXED, Class.INDEPENDENT)), axis=0)
+    # They do where some coordinates of a node are dependent, and others are not.
+    if not np.any(free & held):
         return
     figures = Figures(result)
     every: list[Relation] = []
@@ -393,27 +330,15 @@ def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relat
             if own is None:
                 continue
             way = own[1](*figures.here)[1][0]
-            if float(np.linalg.norm(np.cross(way, axis))) <= _SAME:
-                made.setdefault((own[0], RelationKind.ALONG), []).append(part)
-            elif abs(float(way @ axis)) <= _SAME:
-                made.setdefault((own[0], RelationKind.ACROSS_AXIS), []).append(part)
-        found = [
-            Relation(kind, of, tuple(mine), (), axis, np.zeros(3))
-            for (of, kind), mine in made.items()
-        ]
+            if float(np.linalg.norm(np.cross(way, axis))) <= SAME:
+                made.setdefault((own[0], "along"), []).append(part)
+            elif abs(float(way @ axis)) <= SAME:
+                made.setdefault((own[0], "across axis"), []).append(part)
+        found = [Relation(kind, of, tuple(mine), (), axis) for (of, kind), mine in made.items()]
         for one in found:
             yield (one,)
         every += found
     yield tuple(every)
-
-
-def _is_split(result: Result) -> bool:
-    """Whether some coordinates of a node are dependent, and others are not."""
-    arrays = result.data.arrays
-    classes = arrays.coordinate_class
-    free = np.any(classes == Class.DEPENDENT, axis=0)
-    held = np.any(np.isin(classes, (Class.FIXED, Class.INDEPENDENT)), axis=0)
-    return bool(np.any(free & held))
 
 
 #: How many relations are told, and tried together; and of how many bars bodies are looked for.
@@ -511,8 +436,7 @@ class _Ladder:
                 if self._are_enough(rest):
                     left = rest
             return self._told(left)
-        nowhere = np.zeros(3)
-        place = Relation(RelationKind.POSITION, LineKind.MEMBER, self.parts, (), nowhere, nowhere)
+        place = Relation("position", "member", self.parts)
         is_told = len(self.parts) > 1 and self._are_enough((place,))
         return self._told((place,)) if is_told else ()
 
@@ -526,14 +450,11 @@ class _Ladder:
         points = np.array([self.limbs.place(node) for node in self._joints()])
         middle = points.mean(axis=0)
         values, axes = np.linalg.svd(points - middle, full_matrices=False)[1:]
-        size = float(values[0])
-        if len(values) > 1 and values[1] <= _SAME * size:
-            kind, axis = RelationKind.ONE_LINE, axes[0]
-        elif self.are_bars and not self.result.given.planar and values[-1] <= _SAME * size:
-            kind, axis = RelationKind.ONE_PLANE, axes[-1]
-        else:
-            return
-        yield Relation(kind, LineKind.MEMBER, self.parts, (), without_sense(axis), middle)
+        size, in_space = float(values[0]), self.are_bars and not self.result.given.planar
+        if len(values) > 1 and values[1] <= SAME * size:
+            yield Relation("one line", "member", self.parts, (), without_sense(axes[0]), middle)
+        elif in_space and values[-1] <= SAME * size:
+            yield Relation("one plane", "member", self.parts, (), without_sense(axes[-1]), middle)
 
     def _of_clusters(self) -> Iterator[Relation]:
         """Bars that hold a body made of bars: their lines."""
@@ -543,13 +464,10 @@ class _Ladder:
             mine = [part for part in self.parts if len(set(part.ends) & positions) == 1]
             if len(mine) < 3:
                 continue
-            lines = Lines(
-                [line_of(self.limbs, part) for part in mine], self.result.characteristic_length
-            )
-            for one in in_common(lines, planar=self.result.given.planar):
-                parts = tuple(mine[k] for k in one.group)
-                where = one.direction, one.point
-                yield Relation(one.kind, LineKind.MEMBER, parts, (), *where, pitch=one.pitch)
+            lines = [line_of(self.limbs, part) for part in mine]
+            length, parts = self.result.characteristic_length, [(part,) for part in mine]
+            found = Lines("member", lines, parts, length)
+            yield from in_common(found, planar=self.result.given.planar)
             return
 
     def _of_joints(self) -> Iterator[Relation]:
@@ -559,7 +477,7 @@ class _Ladder:
         nodes = self._joints()
         kind = conic_of(np.array([self.limbs.place(node)[:2] for node in nodes]))
         if kind is not None:
-            yield Relation(kind, LineKind.JOINT, self.parts, nodes, np.zeros(3), np.zeros(3))
+            yield Relation(kind, "joint", self.parts, nodes)
 
     def _joints(self) -> tuple[int, ...]:
         """The position nodes of all that carries, by name and place."""
@@ -567,11 +485,10 @@ class _Ladder:
         elements = [index for part in self.parts for index in part.elements]
         found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist()) - {-1}
         able = [p for p in found if arrays.node_kind[p] <= NodeKind.POSITION]
-        step = 1.0e-9 * self.result.characteristic_length
 
         def key(position: int) -> tuple[object, ...]:
-            place = np.round(self.limbs.place(position) / step) + 0.0
-            return natural(self.result.parts.name_of_point(position)), tuple(place.tolist())
+            name = natural(self.result.parts.name_of_point(position))
+            return name, place_key(self.result, self.limbs.place(position))
 
         return tuple(sorted(able, key=key))
 
@@ -593,6 +510,6 @@ def merged(relations: Iterable[Relation]) -> tuple[Relation, ...]:
 def _go_together(one: Relation, other: Relation) -> bool:
     if (one.kind, one.of) != (other.kind, other.of) or not set(one.parts) & set(other.parts):
         return False
-    if one.kind is not RelationKind.PARALLEL and one.parts != other.parts:
+    if one.kind != "parallel" and one.parts != other.parts:
         return False
-    return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= _SAME)
+    return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= SAME)

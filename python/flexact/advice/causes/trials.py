@@ -17,17 +17,17 @@ from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
-from ...util.records import Frozen, cached_property
-from ...util.rotations import matrix_of
-from .cause import LineKind, Relation, RelationKind
+from ...util.records import Frozen
+from ...util.rotations import matrix_of, unit
+from .cause import Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
-from .gradients import Geometry, rank_at
+from .gradients import rank_at
+from .lines import SAME
 
 #: Of more joints no symmetry is looked for.
 _MOST_JOINTS = 36
 #: How many times a rotation may bring all back in one turn.
 _FOLDS = (2, 3, 4, 5, 6, 8)
-_SAME = 1.0e-6
 
 
 def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
@@ -45,22 +45,11 @@ def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
     places = result.given.arrays.node_value[:3, nodes].T
     middle = places.mean(axis=0)
     held = [result.parts.is_held(node) for node in nodes]
-    for axis, fold in _operations(places - middle, bars, held, result.given.planar):
-        kind = RelationKind.ROTATION if fold else RelationKind.REFLECTION
-        what = LineKind.MEMBER, tuple(parts), tuple(nodes)
-        yield Relation(kind, *what, without_sense(axis), middle, fold=max(fold, 1))
-
-
-def _operations(
-    places: FloatArray, bars: set[frozenset[int]], held: list[bool], planar: bool
-) -> Iterator[tuple[FloatArray, int]]:
-    """Axes and folds of what takes bars onto bars.
-
-    Half-turns, then reflections, of fold 0, then other rotations; about the middle of the joints.
-    """
-    size = float(np.abs(places).max())
+    places = places - middle
+    size, planar = float(np.abs(places).max()), result.given.planar
     axes = _candidates(places / size, planar)
-    in_plane = [axis for axis in axes if abs(float(axis[2])) <= _SAME]
+    in_plane = [axis for axis in axes if abs(float(axis[2])) <= SAME]
+    # Half-turns, then reflections, of fold 0, then other rotations; about the middle of the joints.
     for fold in (_FOLDS[0], 0, *_FOLDS[1:]):
         for axis in axes if fold or not planar else in_plane:
             matrix = matrix_of(2.0 * np.pi / fold * axis) if fold else _reflection(axis)
@@ -69,7 +58,9 @@ def _operations(
                 continue
             moved = {frozenset(image[k] for k in bar) for bar in bars}
             if moved == bars and all(held[k] == held[image[k]] for k in range(len(image))):
-                yield axis, fold
+                where = tuple(parts), tuple(nodes), without_sense(axis), middle
+                kind: RelationKind = "rotation" if fold else "reflection"
+                yield Relation(kind, "member", *where, fold=max(fold, 1))
 
 
 def _candidates(places: FloatArray, planar: bool) -> list[FloatArray]:
@@ -82,9 +73,9 @@ def _candidates(places: FloatArray, planar: bool) -> list[FloatArray]:
     made: dict[tuple[float, ...], FloatArray] = {}
     for axis in found:
         length = float(np.linalg.norm(axis))
-        if length > _SAME:
-            unit = without_sense(axis / length)
-            made.setdefault(tuple((np.round(unit, 5) + 0.0).tolist()), unit)
+        if length > SAME:
+            way = without_sense(axis / length)
+            made.setdefault(tuple((np.round(way, 5) + 0.0).tolist()), way)
     return list(made.values())
 
 
@@ -96,7 +87,7 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
     """Which place each moved one is at; None where one is at none."""
     apart = np.linalg.norm(moved[:, None] - places[None], axis=2)
     nearest = np.argmin(apart, axis=1)
-    if apart[np.arange(len(places)), nearest].max() > _SAME * size:
+    if apart[np.arange(len(places)), nearest].max() > SAME * size:
         return None
     image = tuple(nearest.tolist())
     return image if len(set(image)) == len(image) else None
@@ -104,29 +95,20 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
 
 def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
     """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
-    is_turn = one.kind is RelationKind.ROTATION
-    matrix = matrix_of(2.0 * np.pi / one.fold * one.direction)
-    matrix = matrix if is_turn else _reflection(one.direction)
+    order, matrix = 2, _reflection(one.direction)
+    if one.kind == "rotation":
+        order, matrix = one.fold, matrix_of(2.0 * np.pi / one.fold * one.direction)
     own = np.searchsorted(result.condensed.nodes, one.nodes)
     now = result.given.arrays.node_value[:3, list(one.nodes)].T - one.point
     image = _image(now @ matrix.T, now, float(np.abs(now).max()))
     assert image is not None, "the joints have the symmetry"
-    done: set[int] = set()
-    for first in range(len(image)):
-        if first in done:
-            continue
-        orbit = [first]
-        while image[orbit[-1]] != first:
-            orbit.append(image[orbit[-1]])
-        done.update(orbit)
-        turn = np.linalg.matrix_power(matrix, len(orbit))
-        point = places[own[first]] - one.point
-        order = (one.fold if is_turn else 2) // len(orbit)
-        images = [np.linalg.matrix_power(turn, k) @ point for k in range(max(order, 1))]
-        point = np.mean(images, axis=0)
-        for node in orbit:
-            places[own[node]] = one.point + point
-            point = matrix @ point
+    # Of each joint the mean of what the symmetry makes of the places of its images.
+    there, joints = places[own] - one.point, np.arange(len(image))
+    made = np.zeros_like(there)
+    for k in range(order):
+        made += there[joints] @ np.linalg.matrix_power(matrix, k) / order
+        joints = np.array(image)[joints]
+    places[own] = one.point + made
 
 
 #: Geometries that are tried of what may be enough; ranks that are found in all, by rows of D(c).
@@ -151,18 +133,11 @@ class Trials(Frozen):
     def __init__(self, result: Result, generic: int) -> None:
         """Keep the result."""
         self.result, self.generic = result, generic
+        #: The lines and planes of its parts, and its places and vectors.
+        self.figures = Figures(result)
+        self.geometry = self.figures.geometry
         # How many ranks may still be found.
         self.left = [int(np.clip(_MOST_WORK // max(result.rows, 1), _FEWEST, _MOST))]
-
-    @property
-    def geometry(self) -> Geometry:
-        """The places and vectors of the mechanism."""
-        return self.figures.geometry
-
-    @cached_property
-    def figures(self) -> Figures:
-        """The lines and planes of its parts."""
-        return Figures(self.result)
 
     def are_enough(self, relations: Sequence[Relation], special: int = 1) -> bool:
         """Whether what has all of these relations has so many special self-stresses.
@@ -193,20 +168,18 @@ class Trials(Frozen):
         conditions = []
         turned = rng.uniform(-_MOVED, _MOVED, 3)
         for one in relations:
-            if one.kind is RelationKind.POSITION:
+            if one.kind == "position":
                 self._keep(one.parts, places, vectors)
                 continue
-            if one.of is LineKind.MEMBER and one.kind in _SYMMETRIES:
+            if one.of == "member" and one.kind in _SYMMETRIES:
                 make_symmetric(self.result, one, places)
                 continue
             about = one.couple + turned * bool(one.couple.any())
-            made = condition_of(self.figures, one, _unit(about))
+            made = condition_of(self.figures, one, unit(about))
             if made is None:
                 return None
             conditions.append(made)
-        if not conditions:
-            return places, vectors
-        return self._led(conditions, places, vectors, rng)
+        return self._led(conditions, places, vectors, rng) if conditions else (places, vectors)
 
     def _keep(self, parts: Sequence[Part], places: FloatArray, vectors: FloatArray) -> None:
         """Put some parts back to where they are."""
@@ -235,7 +208,12 @@ class Trials(Frozen):
         ends = np.cumsum([0, *sizes])
         besides = np.concatenate([one.free for one in conditions])
         besides = besides + _MOVED * rng.uniform(-1.0, 1.0, besides.size)
-        besides[self._held(conditions)] = 0.0
+        # Of directions and points those across the plane of a mechanism are not free.
+        across: list[int] = []
+        for one, first in zip(conditions, ends.tolist(), strict=False):
+            if one.is_directed and self.result.given.planar:
+                across += range(first + 2, first + one.free.size, 3)
+        besides[across] = 0.0
         value = np.concatenate((places[node, axis] / length, vectors[elements].ravel(), besides))
         split = node.size, node.size + 3 * elements.size
 
@@ -254,7 +232,7 @@ class Trials(Frozen):
             ]
             return np.concatenate(made, axis=1)
 
-        held = self._held(conditions, split[1])
+        held = [split[1] + k for k in across]
         before, done = value, 0
         steps = _STEP * np.eye(value.size)
         for _ in range(_STEPS):
@@ -269,34 +247,18 @@ class Trials(Frozen):
             change = np.linalg.lstsq(slope, off, rcond=1.0e-9)[0]
             # Far from the end it leads anywhere.
             value = value - change / max(1.0, float(np.abs(change).max(initial=0.0)) / _FARTHEST)
-        first, last = ((at[0], turned[0]) for at, turned in map(put, (before[None], value[None])))
-        return last if done and self._is_sound(first, last) else None
-
-    def _held(self, conditions: Sequence[Condition], before: int = 0) -> list[int]:
-        """Of directions and points that are free besides those across the plane of a mechanism."""
-        made: list[int] = []
-        for one in conditions if self.result.given.planar else ():
-            count = one.free.size
-            made += range(before + 2, before + count, 3) if one.is_directed else ()
-            before += count
-        return made
-
-    def _is_sound(
-        self, before: tuple[FloatArray, FloatArray], after: tuple[FloatArray, FloatArray]
-    ) -> bool:
-        """Whether no member and no vector has become nearly none."""
+        if not done:
+            return None
+        # Whether no member and no vector has become nearly none.
         p, q = self.result.data.arrays.element_node[[0, 2]] - 1
-        both = (p >= 0) & (q >= 0)
-        lengths = [np.linalg.norm(places[q] - places[p], axis=1) for places, _ in (before, after)]
-        sizes = [np.linalg.norm(vectors, axis=1) for _, vectors in (before, after)]
-        return bool(
-            np.all(lengths[1][both] >= _SHRUNK * lengths[0][both])
-            and np.all(sizes[1] >= _SHRUNK * sizes[0])
+        there = (p >= 0) & (q >= 0)
+        at, turned = put(np.stack((before, value)))
+        lengths = np.linalg.norm(at[:, q] - at[:, p], axis=2)[:, there]
+        sizes = np.linalg.norm(turned, axis=2)
+        is_sound = np.all(lengths[1] >= _SHRUNK * lengths[0]) and np.all(
+            sizes[1] >= _SHRUNK * sizes[0]
         )
+        return (at[1], turned[1]) if is_sound else None
 
 
-def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / max(float(np.linalg.norm(vector)), 1.0e-300))
-
-
-_SYMMETRIES = (RelationKind.ROTATION, RelationKind.REFLECTION)
+_SYMMETRIES = ("rotation", "reflection")

@@ -28,8 +28,9 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import AXES, Class, coordinate_name
 from ...model.parts.parts import Part, PartKind
+from ...util.groups import grouped
 from ..words import row_of
-from .cause import Cause, CauseKind, Causes, LineKind, Relation, RelationKind
+from .cause import Cause, CauseKind, Causes, Relation
 
 #: What is below this part of the largest, or of what is added up, is none.
 _REST = 1.0e-7
@@ -87,25 +88,23 @@ _FOLDS = {2: "half-turn", 3: "third of a turn", 4: "quarter-turn", 6: "sixth of 
 _ZERO = 1.0e-9
 #: What joints lie on, and what lines have in common, by the relation.
 _FIGURES = {
-    RelationKind.CIRCLE: "one circle",
-    RelationKind.TWO_LINES: "two straight lines",
-    RelationKind.CONIC: "one conic",
+    "circle": "one circle",
+    "two lines": "two straight lines",
+    "conic": "one conic",
 }
 _COMMON = {
-    RelationKind.ONE_LINE: "lie along one line",
-    RelationKind.PARALLEL: "are parallel",
-    RelationKind.ONE_PLANE: "lie in one plane",
-    RelationKind.CONCURRENT: "meet in one point, {point} m",
-    RelationKind.ONE_TRANSVERSAL: "all meet one line, so that none of them stops the rotation "
-    "about {line}",
-    RelationKind.ACROSS: "all lie across {axis}, so that none of them stops the translation "
-    "along {axis}",
-    RelationKind.REGULUS: "lie on one hyperboloid, so that turns about them cancel out",
-    RelationKind.COMPLEX: "belong to one linear complex, so that none of them stops the screw "
+    "one line": "lie along one line",
+    "parallel": "are parallel",
+    "one plane": "lie in one plane",
+    "concurrent": "meet in one point, {point} m",
+    "one transversal": "all meet one line, so that none of them stops the rotation about {line}",
+    "across": "all lie across {axis}, so that none of them stops the translation along {axis}",
+    "regulus": "lie on one hyperboloid, so that turns about them cancel out",
+    "complex": "belong to one linear complex, so that none of them stops the screw "
     "motion about {line} of pitch {pitch:.4g} m/rad",
 }
 #: Relations of parts themselves, not of their lines of force.
-_OF_PARTS = (RelationKind.POSITION, RelationKind.ALONG, RelationKind.ACROSS_AXIS)
+_OF_PARTS = ("position", "along", "across axis")
 _TRIED = "; other geometries with this symmetry were tried and have it too"
 
 
@@ -132,14 +131,9 @@ def relations_in_words(
             f"; by a couple {'each' if len(about) > 2 else 'either'} of these groups "
             f"holds the rotation about {axis_words(about[0])}"
         )
-    elif all(one.of is LineKind.AXIS for one in relations) and relations:
+    elif all(one.of == "axis" for one in relations) and relations:
         made.append("; that is enough, wherever the joints are")
     return tuple(made)
-
-
-def limbs_in_words(result: Result, parts: Sequence[Part]) -> Pieces:
-    """Limbs, sheets and bars in a row, as "lower 0 and lower 180"."""
-    return names_in_words(limb_names(result, parts))
 
 
 def _head(part: Part) -> str:
@@ -149,10 +143,8 @@ def _head(part: Part) -> str:
 
 def limb_names(result: Result, parts: Sequence[Part]) -> list[Named]:
     """What limbs are called: what the names of their parts begin with, where it is all of them."""
-    heads: dict[str, list[Part]] = {}
-    for part in result.parts.all:
-        if _head(part) and part.kind is not PartKind.BODY:
-            heads.setdefault(_head(part), []).append(part)
+    able = (part for part in result.parts.all if _head(part) and part.kind is not PartKind.BODY)
+    heads = grouped((_head(part), part) for part in able)
     numbers = result.given.arrays.element_number
     chosen = set(parts)
     made: dict[str, Named] = {}
@@ -177,29 +169,29 @@ def _relation(result: Result, one: Relation, in_short: bool) -> Pieces:
     tried = "" if in_short else _TRIED
     if kind in _FIGURES:
         return (f"the {len(one.nodes)} joints that are stressed lie on {_FIGURES[kind]}",)
-    if kind is RelationKind.ROTATION:
+    if kind == "rotation":
         turn = _FOLDS.get(one.fold, f"turn by {360 // one.fold} degrees")
         article = "an" if turn[0] in "aeiou" else "a"
-        is_member = one.of is LineKind.MEMBER
+        is_member = one.of == "member"
         what, onto = ("what is stressed", "itself") if is_member else (plain(of), "each other")
         return (f"{article} {turn} about {line} takes {what} onto {onto}{tried}",)
-    if kind is RelationKind.REFLECTION:
+    if kind == "reflection":
         plane = f"the plane through {_point(result, one.point)} m across {axis}"
         return (f"what is stressed is symmetric about {plane}{tried}",)
-    if kind is RelationKind.POSITION:
+    if kind == "position":
         return (*of, " stand in a special position to each other")
-    if kind in (RelationKind.ALONG, RelationKind.ACROSS_AXIS):
+    if kind in ("along", "across axis"):
         many = len(limb_names(result, one.parts)) > 1
         # The normal of a sheet that is along an axis is what is told.
-        is_along = (kind is RelationKind.ALONG) is not (one.of is LineKind.SHEET)
+        is_along = (kind == "along") is not (one.of == "sheet")
         way = "along" if is_along else "across"
         return (*of, f" lie{'' if many else 's'} {way} {axis}")
-    if one.of is LineKind.SHEET and kind is not RelationKind.ONE_PLANE:
+    if one.of == "sheet" and kind != "one plane":
         return _of_sheets(result, one, axis, line, in_short)
     point = _point(result, one.point)
     words = _COMMON[kind].format(point=point, axis=axis, line=line, pitch=one.pitch)
     # What lines of force do not stop is told, and not what turns about axes do not.
-    is_short = in_short or (one.of is LineKind.AXIS and kind is not RelationKind.REGULUS)
+    is_short = in_short or (one.of == "axis" and kind != "regulus")
     return (*of, f" {words.partition(', so that')[0] if is_short else words}")
 
 
@@ -209,7 +201,7 @@ def _of_sheets(result: Result, one: Relation, axis: str, line: str, in_short: bo
     wires = limb_names(result, [part for part in one.parts if part.kind is not PartKind.SHEET])
     many, s = len(sheets) > 1, "s" if len(wires) == 1 else ""
     made: list[Piece] = [*names_in_words(sheets)]
-    if one.kind is RelationKind.ACROSS:
+    if one.kind == "across":
         made.append(" are parallel" if many else f" lies across {axis}")
         if wires:
             made += [" and ", *names_in_words(wires), f" lie{s} along {'them' if many else 'it'}"]
@@ -224,10 +216,10 @@ def _of_sheets(result: Result, one: Relation, axis: str, line: str, in_short: bo
 def _lines_of(result: Result, one: Relation) -> Pieces:
     """The lines of a relation: of limbs of two sheets fold lines, of bars and wires they."""
     names = names_in_words(limb_names(result, one.parts))
-    if one.of is LineKind.AXIS:
+    if one.of == "axis":
         many = len(limb_names(result, one.parts)) > 1
         return (f"the ax{'e' if many else 'i'}s of ", *names)
-    if one.of is not LineKind.FORCE or one.kind in _OF_PARTS:
+    if one.of != "force" or one.kind in _OF_PARTS:
         return names
     kinds = {part.kind for part in one.parts}
     if kinds <= {PartKind.WIRE, PartKind.BAR}:

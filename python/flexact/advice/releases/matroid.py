@@ -8,7 +8,7 @@ above that; in between somebody else is asked.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
-from ...util.groups import groups_of
+from ...util.groups import grouped, groups_of
 
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01
@@ -165,11 +165,6 @@ class Minor:
             rows |= piece.taken if k in into else piece.left
         return frozenset(rows)
 
-    def cleared(self, judge: Judge) -> Minor:
-        """With zeros where entries are none."""
-        self.decide(np.ones(self.factor.shape), self.factor != 0.0, judge)
-        return self
-
     def decide(self, size: FloatArray, looked_at: NDArray[np.bool_], judge: Judge) -> None:
         """Put zeros where entries are zero; they are differences of numbers of a size."""
         value = np.abs(self.factor)
@@ -181,14 +176,20 @@ class Minor:
             is_zero[i, j] = not is_regular(judge, self.exchanged((i,), (j,)), is_fair)
         self.factor[is_zero] = 0.0
 
-    def without(self, rows: NDArray[np.integer], columns: NDArray[np.integer]) -> Minor:
-        """Without some pieces, of the basis and of the others, that are decided elsewhere."""
-        gone = set(rows.tolist()), set(columns.tolist())
-        kept = [k for k in range(len(self.basis)) if k not in gone[0]]
-        kept_others = [k for k in range(len(self.others)) if k not in gone[1]]
-        chosen = self.chosen.union(
-            *(self.basis[k].taken for k in gone[0]), *(self.others[k].left for k in gone[1])
-        )
+    def without(
+        self, rows: Collection[int], columns: Collection[int], *, are_merged: bool = False
+    ) -> Minor:
+        """Without some pieces, of the basis and of the others, that are decided elsewhere.
+
+        Or that were merged into others.
+        """
+        kept = [k for k in range(len(self.basis)) if k not in rows]
+        kept_others = [k for k in range(len(self.others)) if k not in columns]
+        chosen = self.chosen
+        if not are_merged:
+            chosen = chosen.union(
+                *(self.basis[k].taken for k in rows), *(self.others[k].left for k in columns)
+            )
         some = np.ix_(kept, kept_others)
         basis, others = [self.basis[k] for k in kept], [self.others[k] for k in kept_others]
         return Minor(self.factor[some], self.error[some], basis, others, chosen)
@@ -215,15 +216,12 @@ class Minor:
         minor = Minor(made, np.where(made != 0.0, error, 0.0), basis, others, self.chosen)
         minor.error = np.maximum(minor.error, _EPSILON * size)
         minor.decide(size, both, judge)
-        return minor.without(np.array([], np.int64), np.array([j]))
+        return minor.without((), (j,))
 
     def alike(self, is_row: bool, judge: Judge) -> Iterator[tuple[int, int]]:
         """Pairs of rows or of columns of the factors that are multiples of each other."""
         factor = self.factor if is_row else self.factor.T
-        by_support: dict[bytes, list[int]] = {}
-        for k in range(len(factor)):
-            by_support.setdefault((factor[k] != 0.0).tobytes(), []).append(k)
-        for same in by_support.values():
+        for same in grouped(((row != 0.0).tobytes(), k) for k, row in enumerate(factor)).values():
             some = factor[same]
             p = int(np.argmax(np.abs(some).min(axis=0)))
             if len(same) < 2 or not np.all(some[:, p]):
@@ -296,7 +294,8 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     )
     errors = np.full(form.factor.shape, error)
     start = Minor(form.factor, errors, basis, others, frozenset())
-    return _Counter(judge).count(start.cleared(judge))
+    start.decide(np.ones(errors.shape), form.factor != 0.0, judge)
+    return _Counter(judge).count(start)
 
 
 class _Counter:
@@ -317,10 +316,8 @@ class _Counter:
         return product
 
     def _any(self, minor: Minor) -> int:
-        product, parts = _components(minor)
-        for part in parts:
-            product *= self._connected(part)
-        return product
+        factor, parts = _components(minor)
+        return factor * math.prod(map(self._connected, parts))
 
     def _connected(self, minor: Minor) -> int:
         minor, is_changed = self._reduced(minor)
@@ -342,7 +339,7 @@ class _Counter:
             raise TooManyError
         i = int(np.argmin(np.count_nonzero(minor.factor, axis=1)))
         piece = minor.basis[i]
-        with_it = piece.inside * self._any(minor.without(np.array([i]), np.array([], np.int64)))
+        with_it = piece.inside * self._any(minor.without((i,), ()))
         without = piece.outside * self._any(minor.deleted(i, self.judge)) if piece.outside else 0
         return with_it + without
 
@@ -359,7 +356,7 @@ class _Counter:
                     i = int(np.argmax(size[:, k]))
                     minor.basis[i] = in_parallel(minor.basis[i], minor.others[k])
             if single:
-                return _merged(minor, set(single), is_row), True
+                return _without_merged(minor, set(single), is_row), True
         for is_row, merge in ((False, in_parallel), (True, in_series)):
             pieces = minor.basis if is_row else minor.others
             gone: set[int] = set()
@@ -368,18 +365,12 @@ class _Counter:
                     pieces[i] = merge(pieces[i], pieces[j])
                     gone.add(j)
             if gone:
-                return _merged(minor, gone, is_row), True
+                return _without_merged(minor, gone, is_row), True
         return minor, False
 
 
-def _merged(minor: Minor, gone: set[int], is_row: bool) -> Minor:
-    """Without pieces that were put into others."""
-    pieces = minor.basis if is_row else minor.others
-    kept = [k for k in range(len(pieces)) if k not in gone]
-    left = [pieces[k] for k in kept]
-    if is_row:
-        return Minor(minor.factor[kept], minor.error[kept], left, minor.others, minor.chosen)
-    return Minor(minor.factor[:, kept], minor.error[:, kept], minor.basis, left, minor.chosen)
+def _without_merged(minor: Minor, gone: set[int], is_row: bool) -> Minor:
+    return minor.without(*((gone, ()) if is_row else ((), gone)), are_merged=True)
 
 
 def _components(minor: Minor) -> tuple[int, list[Minor]]:
@@ -392,7 +383,8 @@ def _components(minor: Minor) -> tuple[int, list[Minor]]:
     factor = math.prod(way for k, way in enumerate(ways) if sizes[group[k]] == 1)
     outside = [group != one for one in np.flatnonzero(sizes > 1)]
     return factor, [
-        minor.without(np.flatnonzero(each[:rows]), np.flatnonzero(each[rows:])) for each in outside
+        minor.without(*(set(np.flatnonzero(each).tolist()) for each in np.split(gone, [rows])))
+        for gone in outside
     ]
 
 

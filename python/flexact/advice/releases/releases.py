@@ -25,7 +25,7 @@ from ...analysis.places import deformation_words
 from ...analysis.result import Result
 from ...analysis.sparse_basis import groups_of
 from ...analysis.ways import Coordinate, Deformation
-from ...core.arrays import FloatArray
+from ...core.arrays import Basis, FloatArray
 from ...core.elements import (
     Class,
     Dual,
@@ -46,23 +46,18 @@ from .candidates import (
     Candidate,
     Places,
     Reach,
-    candidates,
-    tier_of_element,
-    tier_of_node,
-)
-from .matroid import echelon_of
-from .verify import (
-    NOTHING_LEFT_OUT,
-    LeftOut,
-    Listed,
     as_it_stands,
+    candidates,
     changed,
     complete,
     counted,
     decades,
     left_of,
     listed,
+    tier_of_element,
+    tier_of_node,
 )
+from .matroid import echelon_of
 from .words import Release, coordinate_named, outcome_as_given
 
 #: Stresses below this part of the largest of a self-stress are none.
@@ -176,7 +171,7 @@ _AT_ONCE = 60
 _LEAST_SINGULAR = 1.0e-4
 
 #: The rows over some of the vectors of a result.
-ReachOf = Callable[[Result, Places], Reach]
+ReachOf = Callable[[Result, Basis | None], Reach]
 #: (n,) how unwelcome each of its rows is; those of little are taken where they do.
 Unwelcome = Callable[[Result, Reach], FloatArray]
 
@@ -202,7 +197,7 @@ def by_steps(
             return None
         rows += now.rows
         for vectors in groups:
-            reach = reach_of(now, vectors)
+            reach = reach_of(now, space.only(vectors.astype(np.int32)))
             block = _block(reach, unwelcome(now, reach))
             if block is None:
                 return None
@@ -227,25 +222,24 @@ def _block(reach: Reach, unwelcome: FloatArray) -> tuple[list[int], float] | Non
     return None
 
 
-#: Nothing is listed.
-_NONE: Listed = ((), NOTHING_LEFT_OUT)
 #: How many supports that may be freed are listed.
 _MOST_SUPPORTS = 4
 
 
 @dataclass(frozen=True)
-class Releases(Frozen):
-    """What may be released so that no self-stress is left.
+class Sets(Frozen):
+    """What may be released so that no self-stress is left, or declared so that no motion is.
 
     Attributes:
-        size: How many self-stresses the deck as it stands has, and so how many deformations
-            must be released at least.
-        count: How many sets of so many deformations of class fixed leave no self-stress when
-            they are released; None where they are too many to be counted. It is 0 where there
-            is no self-stress: nothing is to be released then, and that is no set.
-        sets: The best of them, each tried; see `releases_of`.
-        supports: The same of supports: fixed coordinates that may be freed, not in `count`.
-        left_out: What was not looked at.
+        size: How many self-stresses, or motions that nothing determines, the deck as it stands
+            has, and so how many deformations must be released, or coordinates declared, at least.
+        count: How many sets of so many deformations of class fixed, or columns of D(c), leave
+            none when they are released, or held; None where they are too many to be counted. It
+            is 0 where there is none: nothing is to be done then, and that is no set.
+        sets: The best of them, each tried; see `releases_of` and `declarations_of`.
+        others: The same of fixed coordinates that may be freed, or of released deformations that
+            may be held; not in `count`.
+        is_too_large: Whether the model is so large that one set at most was looked for.
         doubtful: How many sets more do so for the numbers as they are, though rounding may hide
             that they do not; not in `count`, and None where they are too many.
     """
@@ -253,12 +247,32 @@ class Releases(Frozen):
     size: int
     count: int | None
     sets: tuple[Release, ...] = ()
-    supports: tuple[Release, ...] = ()
-    left_out: LeftOut = NOTHING_LEFT_OUT
+    others: tuple[Release, ...] = ()
+    is_too_large: bool = False
     doubtful: int | None = 0
 
 
-def releases_of(result: Result, with_bodies: bool = False) -> Releases:
+def _counted(
+    result: Result, purpose: Purpose, reach_of: ReachOf, unwelcome: Unwelcome
+) -> tuple[Result, Sets]:
+    """The deck as it stands, and what is known before sets are listed.
+
+    Of what is too large one set, and without anything to be done the empty one.
+    """
+    stands = as_it_stands(result)
+    size = left_of(purpose, stands)
+    space = stands.stress_space if purpose is Purpose.RELEASE else stands.motion_space
+    if not size:
+        return stands, Sets(0, 1, (Release(result, purpose, Change(), 1.0, after(result)),))
+    if space.vectors < size or not reaches.fits(space):
+        one = by_steps(stands, purpose, reach_of, unwelcome)
+        sets = () if one is None else (replace(one, analysis=result),)
+        return stands, Sets(size, None, sets, is_too_large=True)
+    count, doubtful = counted(stands, reach_of(stands, None), purpose)
+    return stands, Sets(size, count, doubtful=doubtful)
+
+
+def releases_of(result: Result, with_bodies: bool = False) -> Sets:
     """What may be released so that no self-stress is left, the best first.
 
     A set of s deformations works exactly when the s x s block of their rows in the left null
@@ -282,35 +296,29 @@ def releases_of(result: Result, with_bodies: bool = False) -> Releases:
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
     """
-    stands = as_it_stands(result)
-    size = stands.over_constrained
-    if not size:
-        nothing = Release(result, Purpose.RELEASE, Change(), 1.0, after(result))
-        return Releases(0, 1, (nothing,))
-    if stands.stress_space.vectors < size or not reaches.fits(stands.stress_space):
-        one = by_steps(stands, Purpose.RELEASE, reaches.of_rows, _tiers)
-        return Releases(size, None, _own(result, one), left_out=LeftOut(is_too_large=True))
-    count, doubtful = counted(stands, reaches.of_rows(stands), Purpose.RELEASE)
+    stands, known = _counted(result, Purpose.RELEASE, reaches.of_rows, _tiers)
+    if known.is_too_large or not known.size:
+        return known
     whole = stands
     if result.with_internal_declared is not None:
         whole = complete(result.with_internal_declared)
     elif result.condensed.chains:
         whole = complete(result)
     # Whole sheets are listed where they have as many self-stresses.
-    sets, left_out = _NONE
-    for source in dict.fromkeys(one for one in (whole, stands) if one.over_constrained == size):
-        if count != 0 and not sets:
-            sets, left_out = _listed(result, source, with_bodies)
-    supports, _ = _supports(result, whole)
-    return Releases(size, count, sets, supports, left_out, doubtful)
+    sets: tuple[Release, ...] = ()
+    for source in dict.fromkeys((whole, stands)):
+        if known.count != 0 and not sets and source.over_constrained == known.size:
+            sets = _listed(result, source, with_bodies)
+    supports: tuple[Release, ...] = ()
+    if whole.over_constrained == whole.stress_space.vectors and reaches.fits(whole.stress_space):
+        reach = reaches.of_supports(whole)
+        none = np.zeros(len(reach.index))
+        found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), none)
+        supports = listed(result, reach, Purpose.RELEASE, found, _MOST_SUPPORTS)
+    return replace(known, sets=sets, others=supports)
 
 
-def _own(result: Result, one: Release | None) -> tuple[Release, ...]:
-    """A set, if one was found, as a step of the result itself."""
-    return () if one is None else (replace(one, analysis=result),)
-
-
-def _listed(result: Result, source: Result, with_bodies: bool) -> Listed:
+def _listed(result: Result, source: Result, with_bodies: bool) -> tuple[Release, ...]:
     reach = reaches.of_rows(source)
     tiers = _tiers(source, reach)
     cost = cost_of(source, reach)
@@ -335,46 +343,13 @@ def _tiers(source: Result, reach: Reach) -> FloatArray:
     return np.array([tier_of_element(source, int(i)) for i in elements], float)
 
 
-def _supports(result: Result, source: Result) -> Listed:
-    space = source.stress_space
-    if source.over_constrained != space.vectors or not reaches.fits(space):
-        return _NONE
-    reach = reaches.of_supports(source)
-    found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))
-    return listed(result, reach, Purpose.RELEASE, found, _MOST_SUPPORTS)
-
-
 #: How many sets of released deformations that may be held are listed.
 _MOST_HELD = 4
 #: Motions of points of a body that agree to so many digits are one.
 _DIGITS = 9
 
 
-@dataclass(frozen=True)
-class Declarations(Frozen):
-    """What may be declared independent, or held, so that no motion is left.
-
-    Attributes:
-        size: How many motions the deck as it stands has that nothing determines, and so how
-            many coordinates must be declared at least.
-        count: How many sets of so many columns of D(c) leave no motion when they are held;
-            None where they are too many to be counted. It is 0 where there is no motion.
-        sets: The best of them, each tried; see `declarations_of`.
-        holds: The same of released deformations that may be held, not in `count`.
-        left_out: What was not looked at.
-        doubtful: How many sets more do so for the numbers as they are, though rounding may hide
-            that they do not; not in `count`, and None where they are too many.
-    """
-
-    size: int
-    count: int | None
-    sets: tuple[Release, ...] = ()
-    holds: tuple[Release, ...] = ()
-    left_out: LeftOut = NOTHING_LEFT_OUT
-    doubtful: int | None = 0
-
-
-def declarations_of(result: Result) -> Declarations:
+def declarations_of(result: Result) -> Sets:
     """What may be declared independent, or held, so that no motion is left, the best first.
 
     A set of m coordinates works exactly when the m x m block of their rows in the null space of
@@ -388,30 +363,23 @@ def declarations_of(result: Result) -> Declarations:
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
     """
-    stands = as_it_stands(result)
-    size = stands.under_constrained
-    if not size:
-        nothing = Release(result, Purpose.DECLARE, Change(), 1.0, after(result))
-        return Declarations(0, 1, (nothing,))
-    if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
-        one = by_steps(stands, Purpose.DECLARE, reaches.of_columns, _tiers_of_nodes)
-        return Declarations(size, None, _own(result, one), left_out=LeftOut(is_too_large=True))
-    count, doubtful = counted(stands, reaches.of_columns(stands), Purpose.DECLARE)
+    stands, known = _counted(result, Purpose.DECLARE, reaches.of_columns, _tiers_of_nodes)
+    if known.is_too_large or not known.size:
+        return known
     whole = complete(result) if result.condensed.chains else stands
-    sets, left_out = _NONE
-    for source in dict.fromkeys(one for one in (whole, stands) if one.under_constrained == size):
-        if not sets:
-            sets, left_out = _listed_coordinates(result, source)
-    is_told = whole.under_constrained == size and result.with_internal_declared is None
+    sets: tuple[Release, ...] = ()
+    for source in dict.fromkeys((whole, stands)):
+        if not sets and source.under_constrained == known.size:
+            sets = _listed_coordinates(result, source)
     holds: tuple[Release, ...] = ()
-    if is_told:
+    if whole.under_constrained == known.size and result.with_internal_declared is None:
         reach = reaches.of_released(whole)
         found = candidates(reach, lambda _, worst: decades(worst), np.zeros(len(reach.index)))
-        holds, _ = listed(result, reach, Purpose.HOLD, found, _MOST_HELD)
-    return Declarations(size, count, sets, holds, left_out, doubtful)
+        holds = listed(result, reach, Purpose.HOLD, found, _MOST_HELD)
+    return replace(known, sets=sets, others=holds)
 
 
-def _listed_coordinates(result: Result, source: Result) -> Listed:
+def _listed_coordinates(result: Result, source: Result) -> tuple[Release, ...]:
     reach = _without_repeats(source, reaches.of_columns(source))
     nodes = source.raw.column_label[0, reach.index] - 1
     tiers = _tiers_of_nodes(source, reach)

@@ -16,9 +16,9 @@ from ...analysis.naming import (
     Named,
     Piece,
     Pieces,
-    coordinate_in_words,
     in_words,
     named_element,
+    named_node,
     plain,
 )
 from ...analysis.places import (
@@ -37,6 +37,7 @@ from ...model.names import part_name
 from ...model.parts.condensing import as_given
 from ...model.parts.forms import Form
 from ...model.parts.parts import Part, PartKind
+from ...util.groups import grouped
 from ...util.text import harmless
 from ..step import Purpose, Step
 from ..words import row_of
@@ -179,10 +180,10 @@ def released(outcome: Decomposition, deformations: Iterable[Deformation]) -> Ite
         outcome: That on the model as given; see `outcome_as_given`.
         deformations: What is released.
     """
-    by_part: dict[tuple[Part, int], list[_Deformation]] = {}
-    for one in (_Deformation(outcome, *each) for each in deformations):
-        member = one.element if one.part.kind is PartKind.BODY else 0
-        by_part.setdefault((one.part, member), []).append(one)
+    every = (_Deformation(outcome, *each) for each in deformations)
+    by_part = grouped(
+        ((one.part, one.element if one.part.kind is PartKind.BODY else 0), one) for one in every
+    )
     for (part, _), mine in by_part.items():
         for one in mine:
             one.name = mine[0].name
@@ -321,8 +322,7 @@ def _phrases(outcome: Decomposition, purpose: Purpose, change: Change) -> list[P
 
 def _freed(outcome: Decomposition, node: int, name: str) -> Phrase:
     """A support that lets a coordinate go."""
-    where = coordinate_in_words(outcome, node, name)[0]
-    assert isinstance(where, Named)
+    where = named_node(outcome, node)
     where = where._replace(words=where.words + _which_end(outcome, node))
     if name.startswith("r"):
         return Phrase("let ", where, " turn", f" about {name[1:]}")
@@ -353,8 +353,7 @@ def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
         if len(change.coordinates) > 1 and index in part_of:
             inside[part_of[index]] = inside.get(part_of[index], 0) + 1
             continue
-        where = coordinate_in_words(outcome, node, name)[0]
-        assert isinstance(where, Named)
+        where = named_node(outcome, node)
         if where.words in shared and node in shared[where.words]:
             where = where._replace(words=end_words(outcome.parts, index))
         names.setdefault(where.words, where)
@@ -375,13 +374,12 @@ def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
 def _of_several_points(outcome: Decomposition, change: Change) -> dict[str, set[int]]:
     """Positions by what they are called, of those where several are called the same."""
     data = outcome.given.arrays
-    called: dict[str, set[int]] = {}
-    for node, name, _ in change.coordinates:
-        if data.node_kind[outcome.given.node_index[node]] <= NodeKind.POSITION:
-            where = coordinate_in_words(outcome, node, name)[0]
-            assert isinstance(where, Named)
-            called.setdefault(where.words, set()).add(node)
-    return {words: nodes for words, nodes in called.items() if len(nodes) > 1}
+    called = grouped(
+        (named_node(outcome, node).words, node)
+        for node, _, _ in change.coordinates
+        if data.node_kind[outcome.given.node_index[node]] <= NodeKind.POSITION
+    )
+    return {words: set(nodes) for words, nodes in called.items() if len(set(nodes)) > 1}
 
 
 def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:
@@ -408,9 +406,7 @@ def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> 
 
 def _told(phrases: Sequence[Phrase]) -> Pieces:
     """What is done; where the same is done with several parts, the first of them in full."""
-    groups: dict[tuple[str, ...], list[Phrase]] = {}
-    for phrase in phrases:
-        groups.setdefault((*phrase.frame, phrase.free), []).append(phrase)
+    groups = grouped(((phrase.frame, phrase.free), phrase) for phrase in phrases)
     items: list[Pieces] = []
     for first, *more in groups.values():
         names = list(dict.fromkeys(phrase.short for phrase in more))
@@ -458,9 +454,7 @@ def _statements(outcome: Decomposition, change: Change, keyword: str, before: st
 
 def _operands(outcome: Decomposition, change: Change) -> list[str]:
     """Numbers of elements and their deformations, and of nodes and their components."""
-    of_element: dict[int, list[int]] = {}
-    for element, number, _ in change.deformations:
-        of_element.setdefault(element, []).append(number)
+    of_element = grouped((element, number) for element, number, _ in change.deformations)
     made = [" ".join(map(str, (e, *sorted(mine)))) for e, mine in of_element.items()]
     of_node: dict[str, list[str]] = {}
     for node, name, _ in change.coordinates:

@@ -14,7 +14,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
+from ...util.groups import distinct
 from ...util.records import Frozen
 from ..step import Purpose, Step, after, analysed
 from ..words import row_of
@@ -106,7 +106,7 @@ class Line(Frozen):
 def lines_for(site: Site, aim: Aim) -> list[Line]:
     """Lines that stop one unwanted motion and nothing wanted, the best first."""
     own = [line for each in site.own for line in _through(site, aim, each)]
-    carried = site.carried([aim.may_hold])
+    carried = site.carried(aim.may_hold)
     found = [*own, *(line for each in carried for line in _through(site, aim, each))]
     if not found:
         # Of a body that is small, or all on one line, links reach out.
@@ -114,11 +114,7 @@ def lines_for(site: Site, aim: Aim) -> list[Line]:
     # Lines through one point keep their order, that of the names of the flexures along which
     # they run.
     found.sort(key=lambda line: (round(line.cost, 6), line.attachment.key))
-    made: list[Line] = []
-    for line in found:
-        if all(abs(line.force @ other.force) < _ALIKE for other in made):
-            made.append(line)
-    return made
+    return distinct(found, lambda line, other: bool(abs(line.force @ other.force) >= _ALIKE))
 
 
 def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
@@ -298,7 +294,11 @@ def _sets(
     """One set of wires that stops all that wires can stop; without one the largest there is."""
     most, smaller = aim.stoppable, list[tuple[Line, ...]]()
     for line in lines:
-        chosen = _set_from(site, aim, line)
+        # One after another, each the best for what those before it have left.
+        chosen: tuple[Line, ...] = (line,)
+        left = aim.stopped_by(line.force)
+        while len(left.unwanted) and (further := lines_for(site, left)):
+            chosen, left = (*chosen, further[0]), left.stopped_by(further[0].force)
         found = _wires(freed, site, aim, chosen, besides) if len(chosen) == most > 1 else None
         if found is not None:
             yield found
@@ -307,18 +307,6 @@ def _sets(
     smaller.sort(key=len, reverse=True)
     rest = (_wires(freed, site, aim, each, besides) for each in smaller if len(each) > 1)
     yield from islice(filter(None, rest), 1)
-
-
-def _set_from(site: Site, aim: Aim, first: Line) -> tuple[Line, ...]:
-    """Wires one after another, each the best for what those before it have left."""
-    chosen, left = [first], aim.stopped_by(first.force)
-    while len(left.unwanted):
-        further = lines_for(site, left)
-        if not further:
-            break
-        chosen.append(further[0])
-        left = left.stopped_by(further[0].force)
-    return tuple(chosen)
 
 
 def _wires(
@@ -339,17 +327,9 @@ _SHEETS_MOST_PROPOSALS, _SHEETS_MOST_TRIED = 2, 6
 _HELD = 3
 
 
-class Plane(NamedTuple):
-    """A plane in which a sheet may be put."""
-
-    attachment: Attachment
-    """Where it ends on the body."""
-    normal: FloatArray
-    """(3,) unit vector."""
-    condition: float
-    """How weakly it holds the weakest of three motions, from 1."""
-    cost: float
-    """By what it is chosen."""
+#: A plane in which a sheet may be put: where it ends on the body, (3,) unit normal, how weakly it
+#: holds the weakest of three motions, from 1, and by what it is chosen.
+Plane = tuple[Attachment, FloatArray, float, float]
 
 
 def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[Added]:
@@ -359,22 +339,19 @@ def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[
     near = SAME * site.result.characteristic_length
 
     def is_same(one: Plane, other: Plane) -> bool:
-        apart = abs(float((one.attachment.place - other.attachment.place) @ one.normal))
-        return abs(float(one.normal @ other.normal)) > 1.0 - SAME and apart <= near
+        (at, normal), (there, across) = one[:2], other[:2]
+        apart = abs(float((at.place - there.place) @ normal))
+        return abs(float(normal @ across)) > 1.0 - SAME and apart <= near
 
-    chosen: list[Plane] = []
-    for plane in sorted(
-        _planes(site, aim), key=lambda one: (round(one.cost, 6), one.attachment.key)
-    ):
-        if not any(is_same(plane, other) for other in chosen):
-            chosen.append(plane)
+    every = sorted(_planes(site, aim), key=lambda one: (round(one[3], 6), one[0].key))
+    chosen = distinct(every, is_same)
     tried = (_sheet(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
     yield from islice(filter(None, tried), _SHEETS_MOST_PROPOSALS)
 
 
 def _planes(site: Site, aim: Aim) -> Iterator[Plane]:
     space = aim.may_hold
-    for at in (*site.own, *site.carried([space])):
+    for at in (*site.own, *site.carried(space)):
         for normal in _normals(site, space, at.place):
             held = _held(space, at.place, normal)
             if held.sine_to(space) > SAME:
@@ -383,7 +360,7 @@ def _planes(site: Site, aim: Aim) -> Iterator[Plane]:
             weakest = float(np.linalg.svd(works, compute_uv=False)[-1])
             if weakest > 1.0e-2:
                 cost = (1.0 if at.is_there else LINK) / weakest
-                yield Plane(at, normal, 1.0 / weakest, cost)
+                yield at, normal, 1.0 / weakest, cost
 
 
 def _held(space: ScrewSpace, point: FloatArray, normal: FloatArray) -> ScrewSpace:
@@ -427,19 +404,16 @@ def _through_sheet(family: Family, site: Site, place: FloatArray) -> Iterator[Fl
 
 
 def _sheet(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Added | None:
-    along = _along(site, plane)
-    wire = wire_at(site, plane.attachment, along)
-    width = _three(site, np.cross(plane.normal, along))
-    change = replace(besides, sheets=(AddedSheet(*wire[:4], width, wire.body),))
-    return proposed(freed, site.subject, aim, change, _HELD, plane.condition)
-
-
-def _along(site: Site, plane: Plane) -> FloatArray:
-    """Along a flexure in the plane if there is one, else outward from the middle of the body."""
-    flat = np.abs(site.directions @ plane.normal) <= SAME
-    if flat.any():
-        return np.asarray(site.directions[int(np.argmax(flat))])
-    arm = plane.attachment.place - site.middle
-    arm = arm - (arm @ plane.normal) * plane.normal
+    at, normal, condition, _ = plane
+    # Along a flexure in the plane if there is one, else outward from the middle of the body.
+    flat = np.abs(site.directions @ normal) <= SAME
+    arm = at.place - site.middle
+    arm = arm - (arm @ normal) * normal
     size = float(np.linalg.norm(arm))
-    return np.asarray(arm / size if size > site.near else _across(plane.normal)[0])
+    along = arm / size if size > site.near else _across(normal)[0]
+    if flat.any():
+        along = site.directions[int(np.argmax(flat))]
+    wire = wire_at(site, at, along)
+    width = _three(site, np.cross(normal, along))
+    change = replace(besides, sheets=(AddedSheet(*wire[:4], width, wire.body),))
+    return proposed(freed, site.subject, aim, change, _HELD, condition)

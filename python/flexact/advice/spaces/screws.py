@@ -24,6 +24,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,14 +67,6 @@ DIRECTIONS = frozenset(
 )
 
 
-def _nowhere() -> FloatArray:
-    return np.zeros(3)
-
-
-def _no_lines() -> FloatArray:
-    return np.zeros((0, 3))
-
-
 @dataclass(frozen=True, eq=False)
 class Family(Frozen):
     """Lines, directions or screws that belong together.
@@ -112,12 +105,12 @@ are parallel, of a paraboloid | twelve of the lines |
     """
 
     kind: FamilyKind
-    point: FloatArray = field(default_factory=_nowhere)
-    direction: FloatArray = field(default_factory=_nowhere)
-    normal: FloatArray = field(default_factory=_nowhere)
+    point: FloatArray = field(default_factory=partial(np.zeros, 3))
+    direction: FloatArray = field(default_factory=partial(np.zeros, 3))
+    normal: FloatArray = field(default_factory=partial(np.zeros, 3))
     pitch: float = 0.0
-    points: FloatArray = field(default_factory=_no_lines)
-    directions: FloatArray = field(default_factory=_no_lines)
+    points: FloatArray = field(default_factory=partial(np.zeros, (0, 3)))
+    directions: FloatArray = field(default_factory=partial(np.zeros, (0, 3)))
 
     @property
     def is_of_lines(self) -> bool:
@@ -171,17 +164,13 @@ def flat_family(free: FloatArray, lined: FloatArray) -> Family:
         across = np.cross(normal, axes)
         height = float(np.sum(across * moments) / np.sum(across * across))
         return Family(FamilyKind.PLANE, height * normal, normal=normal)
-    point = _common_point(axes, moments)
+    # The point d through which all lines go: d x a = b for each.
+    matrix = np.concatenate([np.cross(np.eye(3), axis).T for axis in axes])
+    point = np.asarray(np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0])
     if len(lined) == 2:
         normal = _unit(np.cross(axes[0], axes[1]))
         return Family(FamilyKind.PENCIL, point, normal=normal)
     return Family(FamilyKind.BUNDLE, point)
-
-
-def _common_point(axes: FloatArray, moments: FloatArray) -> FloatArray:
-    """The point d through which all lines go: d x a = b for each."""
-    matrix = np.concatenate([np.cross(np.eye(3), axis).T for axis in axes])
-    return np.asarray(np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0])
 
 
 def _unit(vector: FloatArray) -> FloatArray:
@@ -296,12 +285,7 @@ def _told(pitches: FloatArray, rows: FloatArray) -> Iterator[FloatArray]:
 def _rank(rows: FloatArray) -> int:
     """How many of some rows are independent."""
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
-    if not len(rows):
-        return 0
-    return int(np.sum(np.linalg.svd(rows / sizes, compute_uv=False) > SAME))
-
-
-_ORDER = {kind: place for place, kind in enumerate(FamilyKind)}
+    return int(np.linalg.matrix_rank(rows / sizes, SAME)) if len(rows) else 0
 
 
 def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Family, ...]:
@@ -327,7 +311,11 @@ def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Fam
 def _order(family: Family) -> tuple[int, float, tuple[float, ...]]:
     """Lines, directions, screws; what eigenvectors came first does not matter."""
     shown = np.concatenate((family.direction, family.normal, family.point))
-    return _ORDER[family.kind], round(family.pitch, 9), tuple(np.round(shown, 9).tolist())
+    return (
+        list(FamilyKind).index(family.kind),
+        round(family.pitch, 9),
+        tuple(np.round(shown, 9).tolist()),
+    )
 
 
 def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -345,23 +333,11 @@ def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
     return free, lined - (lined @ free.T) @ free
 
 
-def span_of_lines(rows: FloatArray) -> FloatArray:
-    """(n, 6) rows that span all lines in the space of some; arguments as of `families_of`."""
-    if not len(rows):
-        return rows
-    return np.concatenate([rows[:0], *(span for _, span in _lines(np.concatenate(parted(rows))))])
-
-
-def _form_of(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Eigenvalues, ascending, and eigenvectors of q on a space, in its rows."""
-    form = rows[:, :3] @ rows[:, 3:].T
-    values, vectors = np.linalg.eigh((form + form.T) / 2.0)
-    return values, vectors
-
-
 def _lines(rows: FloatArray) -> Iterator[tuple[Family, FloatArray]]:
     """Each family of lines, and rows that span it."""
-    values, vectors = _form_of(rows)
+    form = rows[:, :3] @ rows[:, 3:].T
+    # Of q on the space, in its rows.
+    values, vectors = np.linalg.eigh((form + form.T) / 2.0)
     plus, minus = values > SAME, values < -SAME
     rest = vectors[:, ~(plus | minus)].T @ rows
     p, n = int(plus.sum()), int(minus.sum())
@@ -516,11 +492,6 @@ class ScrewSpace(Frozen):
         """The families of lines: rotations, or forces."""
         return tuple(family for family in self.families if family.is_of_lines)
 
-    @property
-    def translations(self) -> tuple[Family, ...]:
-        """The families of directions: translations, or couples."""
-        return tuple(family for family in self.families if family.is_of_directions)
-
     def line(self, point: ArrayLike, direction: ArrayLike, pitch: float = 0.0) -> FloatArray:
         """(6,) the unit screw of a line: a rotation about it, or a force along it.
 
@@ -540,15 +511,14 @@ class ScrewSpace(Frozen):
         d = floats(direction, "a direction")
         return np.concatenate((np.zeros(3), d / np.linalg.norm(d)))
 
-    def distance(self, screw: FloatArray) -> float:
-        """Which part of a twist or a wrench, (6,), is not in the space: from 0 to 1."""
+    def has(self, screw: FloatArray, limit: float = SAME) -> bool:
+        """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space.
+
+        No larger part of it than the limit may be beyond.
+        """
         scaled = screw * self.factors
         rest = scaled - self.scaled.T @ (self.scaled @ scaled)
-        return float(np.linalg.norm(rest) / np.linalg.norm(scaled))
-
-    def has(self, screw: FloatArray, limit: float = SAME) -> bool:
-        """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space."""
-        return self.distance(screw) <= limit
+        return float(np.linalg.norm(rest) / np.linalg.norm(scaled)) <= limit
 
     def sine_to(self, other: ScrewSpace) -> float:
         """The sine of the largest angle of this space with another one about the same point."""
@@ -568,16 +538,9 @@ class ScrewSpace(Frozen):
     @cached_property
     def span_of_lines(self) -> FloatArray:
         """(n, 6) scaled rows that span its lines, pure rotations or forces."""
-        return span_of_lines(self.scaled)
-
-    def works(self, screw: FloatArray) -> FloatArray:
-        """(k,) the work of a wrench on each twist of the basis, or of each wrench on a twist.
-
-        In parts of the largest that six numbers of this size could do.
-        """
-        scaled = screw * self.factors
-        swapped = np.concatenate((scaled[3:], scaled[:3])) / np.linalg.norm(scaled)
-        return np.asarray(self.scaled @ swapped)
+        rows = self.scaled
+        spans = [span for _, span in _lines(np.concatenate(parted(rows)))] if len(rows) else []
+        return np.concatenate((rows[:0], *spans))
 
     @cached_property
     def reciprocal(self) -> ScrewSpace:

@@ -15,12 +15,12 @@ from ...analysis.result import Result
 from ...analysis.screws import ScrewKind
 from ...core.arrays import FloatArray
 from ...deck.rendering import model_error
-from ...model.parts.parts import Joint, Part
+from ...model.parts.parts import Part
 from ...util.records import Frozen
 from ...util.text import in_short
 from ..step import Step
 from .flexures import added_in_words, sheets_for, wire_in_words, wires_for
-from .screws import Family, ScrewSpace
+from .screws import ScrewSpace
 from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
 from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read, wanted_of
 from .words import Geometry, space_in_words
@@ -53,20 +53,10 @@ class Spaces(Frozen):
     tried: bool = True
 
     @property
-    def body(self) -> Part | Joint:
-        """The body, or the joint with an orientation."""
-        return self.subject.body
-
-    @property
     def new_wires(self) -> FloatArray:
         """(w, 2, 3) ends of the wires of the first step, on the body and on the ground [m]."""
         wires = [wire for step in self.steps[:1] for wire in step.change.wires]
         return np.array([(wire.end, wire.ground) for wire in wires]).reshape(-1, 2, 3)
-
-    @property
-    def redundant(self) -> tuple[Family, ...]:
-        """Lines along which one more wire holds nothing that is not held already."""
-        return self.constraint.lines
 
 
 def spaces_of(
@@ -173,16 +163,18 @@ def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
     start = f"{body[:1].upper()}{body[1:]}"
     free, held = spaces.freedom.dimension, spaces.constraint.dimension
     if free:
-        head = f"Freedom of {body}, with nothing declared: {_independent(free, 'motion')}: "
+        many = f"{in_words(free)} independent motion{'s' * (free != 1)}"
+        head = f"Freedom of {body}, with nothing declared: {many}: "
         yield Line((head,), space_in_words(geometry, spaces.freedom))
     else:
         yield sentence(f"{start} cannot move, with nothing declared.")
     if held:
-        head = f"Constraint of {body}: {_independent(held, 'force or moment')}: "
+        many = "force or moment" if held == 1 else "forces and moments"
+        head = f"Constraint of {body}: {in_words(held)} independent {many}: "
         yield Line((head,), space_in_words(geometry, spaces.constraint))
     else:
         yield sentence(f"Nothing holds {body}.")
-    lines = tuple((geometry.of(family),) for family in spaces.redundant)
+    lines = tuple((geometry.of(family),) for family in spaces.constraint.lines)
     if lines and free:
         yield Line(("One more wire would be redundant along: ",), lines)
     elif lines:
@@ -207,15 +199,32 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
     besides = f"Besides, {body} moves" if had else f"{body[:1].upper()}{body[1:]} moves"
     others = "other " if had else ""
     yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
-    if spaces.stoppable < count:
-        yield sentence(_impossible(spaces))
+    left = count - spaces.stoppable
+    if left and not spaces.stoppable:
+        what = "it" if left == 1 else "any of them"
+        yield sentence(
+            f"No wire can stop {what}: a force along any line that does no work on what is "
+            "wanted does none on it either; a moment would be needed."
+        )
+    elif left:
+        yield sentence(
+            f"Wires can stop {in_words(spaces.stoppable)} of them; for the other "
+            f"{in_words(left)} a moment would be needed, which no force along a line gives without "
+            "work on what is wanted."
+        )
     if not spaces.tried and not result.is_told_by_parts:
         yield sentence("The mechanism is so large that no wires were tried.")
     if spaces.tried and spaces.stoppable and not spaces.steps:
         yield sentence(
             "Of the wires that were tried none stops only that and causes no self-stress."
         )
-    yield from _taken_back(result, spaces)
+    # Which declarations of what is not wanted go with the wires.
+    items: list[Pieces] = []
+    for change in [step.change for step in spaces.steps[:1]]:
+        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
+        items += [(named_element(result, element),) for element, _, _ in change.deformations]
+    if items:
+        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
 
 
 def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
@@ -244,32 +253,6 @@ def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
         )
 
 
-def _taken_back(result: Result, spaces: Spaces) -> Iterator[Line]:
-    """Which declarations of what is not wanted go with the wires."""
-    changes = [step.change for step in spaces.steps[:1]]
-    items: list[Pieces] = []
-    for change in changes:
-        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
-        items += [(named_element(result, element),) for element, _, _ in change.deformations]
-    if items:
-        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
-
-
-def _impossible(spaces: Spaces) -> str:
-    left = spaces.unwanted - spaces.stoppable
-    if not spaces.stoppable:
-        what = "it" if left == 1 else "any of them"
-        return (
-            f"No wire can stop {what}: a force along any line that does no work on what is "
-            "wanted does none on it either; a moment would be needed."
-        )
-    return (
-        f"Wires can stop {in_words(spaces.stoppable)} of them; for the other "
-        f"{in_words(left)} a moment would be needed, which no force along a line gives without "
-        "work on what is wanted."
-    )
-
-
 def _wanted(geometry: Geometry, wanted: Wanted) -> str:
     if wanted.kind is ScrewKind.TRANSLATION:
         return f"translation along {axis_words(wanted.direction)}"
@@ -286,14 +269,7 @@ def dashed_in_words(wires: int) -> str:
 
 def body_words(result: Result, spaces: Spaces) -> str:
     """What the body is called within a sentence, such as "the stage"."""
-    body = spaces.body
+    body = spaces.subject.body
     if isinstance(body, Part):
         return part_words(body)
     return joint_words(result.parts, body)
-
-
-def _independent(count: int, word: str) -> str:
-    if word == "force or moment":
-        word = "independent force or moment" if count == 1 else "independent forces and moments"
-        return f"{in_words(count)} {word}"
-    return f"{in_words(count)} independent {word}{'s' * (count != 1)}"

@@ -55,7 +55,13 @@ class Subject(NamedTuple):
 
 def subjects_of(result: Result) -> tuple[Subject, ...]:
     """All bodies, then all joints that have an orientation, without those that are ground."""
-    return tuple(each for each in _all(result) if not is_ground(result, each))
+    held = result.parts.is_held
+    # Ground is what a support holds in all that it has.
+    return tuple(
+        each
+        for each in _all(result)
+        if not (any(map(held, each.positions)) and any(map(held, each.orientations)))
+    )
 
 
 def _all(result: Result) -> Iterator[Subject]:
@@ -67,13 +73,6 @@ def _all(result: Result) -> Iterator[Subject]:
             yield Subject(joint, (joint.position,), (joint.orientation,))
 
 
-def is_ground(result: Result, subject: Subject) -> bool:
-    """Whether a support holds it in all that it has."""
-    held = result.parts.is_held
-    fixed = [position for position in subject.positions if held(position)]
-    return bool(fixed) and any(map(held, subject.orientations))
-
-
 def subject_named(result: Result, name: str) -> Subject:
     """The body or joint of a name; of a point on a body the body.
 
@@ -81,10 +80,12 @@ def subject_named(result: Result, name: str) -> Subject:
         ModelError: there is none, it is no body, or there are several.
     """
     every = tuple(_all(result))
+    placed = np.flatnonzero(result.given.arrays.node_kind <= NodeKind.POSITION).tolist()
     for spelling in (name, f"the {name}", name.removeprefix("the ")) if name.strip() else ():
         called = [each for each in every if each.name == spelling]
         found = [each for each in called if each.is_body]
-        found = found or _of_point(result, every, spelling) or called
+        places = {node for node in placed if result.parts.name_of_point(node) == spelling}
+        found = found or [each for each in every if places & set(each.positions)] or called
         if len(found) > 1:
             raise model_error(
                 "ambiguous-part",
@@ -94,12 +95,6 @@ def subject_named(result: Result, name: str) -> Subject:
         if found:
             return found[0]
     raise _no_body(result, every, name)
-
-
-def _of_point(result: Result, every: tuple[Subject, ...], name: str) -> list[Subject]:
-    placed = np.flatnonzero(result.given.arrays.node_kind <= NodeKind.POSITION).tolist()
-    places = {node for node in placed if result.parts.name_of_point(node) == name}
-    return [each for each in every if places & set(each.positions)]
 
 
 def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelError:
@@ -120,52 +115,40 @@ def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelErro
     return model_error("no-body", what, hint)
 
 
-class Rank(NamedTuple):
-    """By what the body that a designer means is found; the first that differs decides."""
-
-    declared: int
-    """Less how many coordinates of it are declared independent."""
-    is_joint: bool
-    attached: int
-    """Of joints less how many parts meet there, if more than at a fold."""
-    freedom: int
-    """Less in how many independent ways it moves."""
-    size: float
-    """Less its extent, in parts of the characteristic length."""
-    name: tuple[tuple[bool, int, str, str], ...]
-    place: tuple[float, ...]
+#: By what the body that a designer means is found; the first that differs decides: less how many
+#: coordinates of it are declared independent; whether it is a joint; of joints less how many parts
+#: meet there, if more than at a fold; less in how many independent ways it moves; less its extent,
+#: in parts of the characteristic length; its name; its place.
+Rank = tuple[int, bool, int, int, float, tuple[tuple[bool, int, str, str], ...], tuple[float, ...]]
 
 
 def rank_of(result: Result, subject: Subject, freedom: int) -> Rank:
     """The body with the least rank is the one that is meant when none is named."""
-    arrays, length = result.given.arrays, result.characteristic_length
+    arrays, length, body = result.given.arrays, result.characteristic_length, subject.body
     nodes = [*subject.positions, *subject.orientations]
     declared = int(np.sum(arrays.coordinate_class[:, nodes] == Class.INDEPENDENT))
     places = arrays.node_value[:3, list(subject.positions)].T / length
     size = float(np.linalg.norm(np.ptp(places, axis=0)))
-    parts = 0 if isinstance(subject.body, Part) else len(subject.body.parts)
-    parts = parts if parts > _OF_A_FOLD else 0
-    name = subject.body.name
-    if isinstance(subject.body, Part) and not subject.body.is_named:
+    parts, name = 0, body.name
+    if not isinstance(body, Part):
+        parts = len(body.parts) if len(body.parts) > _OF_A_FOLD else 0
+    elif not body.is_named:
         name = ""
     middle = tuple((np.round(places.mean(axis=0), 9) + 0.0).tolist())
-    return Rank(
-        -declared, not subject.is_body, -parts, -freedom, -round(size, 9), natural(name), middle
-    )
+    is_joint = not subject.is_body
+    return -declared, is_joint, -parts, -freedom, -round(size, 9), natural(name), middle
 
 
 class Freed:
-    """A mechanism in which nothing is declared; each answer is found when it is asked for."""
+    """A mechanism in which nothing is declared; each answer is found when it is asked for.
+
+    Unless it is not freed: then what moves is what nobody declared.
+    """
 
     def __init__(self, result: Result, *, is_freed: bool = True) -> None:
         """Keep the result; that of divided sheets as one beam each, where there are any."""
         self.result = result.with_internal_declared or result
         self._is_freed = is_freed
-
-    @classmethod
-    def as_declared(cls, result: Result) -> Freed:
-        """The mechanism with its declarations: what moves is what nobody declared."""
-        return cls(result, is_freed=False)
 
     @cached_property
     def _raw(self) -> RawAnalysis:
@@ -243,12 +226,6 @@ class Freed:
                 made[axis, vector[mine]] += value[mine]
         return made / len(nodes)
 
-    def twists(self, subject: Subject) -> FloatArray:
-        """(6, motions) of a body about its middle, rotations times the characteristic length."""
-        velocity = self._rates(subject.positions)
-        rotation = self._rates(subject.orientations)
-        return np.concatenate((rotation * self.result.characteristic_length, velocity))
-
     def space(self, subject: Subject) -> ScrewSpace:
         """All twists that a body has.
 
@@ -257,7 +234,9 @@ class Freed:
         """
         one = self.result
         length = one.characteristic_length
-        left, sizes, _ = np.linalg.svd(self.twists(subject), full_matrices=False)
+        velocity, rotation = self._rates(subject.positions), self._rates(subject.orientations)
+        twists = np.concatenate((rotation * length, velocity))
+        left, sizes, _ = np.linalg.svd(twists, full_matrices=False)
         rank = int(np.sum(sizes > self.outcome.rounding * max(1.0, sizes.max(initial=0.0))))
         rows = canonical(left[:, :rank].T) / np.repeat((length, 1.0), 3)
         return ScrewSpace(rows, subject.middle(one), length, False, one.given.planar)
@@ -295,11 +274,8 @@ class Site:
         self.subject = subject
         self.middle = subject.middle(result)
         self._values = result.given.arrays.node_value[:3].T
-
-    @property
-    def near(self) -> float:
-        """Points nearer than this are one [m]."""
-        return _SAME_PLACE * self.result.characteristic_length
+        #: Points nearer than this are one [m].
+        self.near = _SAME_PLACE * result.characteristic_length
 
     @cached_property
     def own(self) -> tuple[Attachment, ...]:
@@ -314,12 +290,12 @@ class Site:
                 made.append(Attachment(place, node, turned, True, self._key(node)))
         return tuple(made)
 
-    def carried(self, spaces: Sequence[ScrewSpace]) -> tuple[Attachment, ...]:
-        """Points that a link would carry: where lines of these spaces come near to the body."""
+    def carried(self, space: ScrewSpace) -> tuple[Attachment, ...]:
+        """Points that a link would carry: where lines of a space come near to the body."""
         places, own = [self.middle], [self.middle, *(each.place for each in self.own)]
-        for family in (each for space in spaces for each in space.lines):
+        for family in space.lines:
             places += [self._nearest(family, near) for near in own]
-            places += list(self._feet(family, self.middle)) if len(family.points) > 2 else []
+            places += list(_feet(family, self.middle)) if len(family.points) > 2 else []
         return self._carried(places)
 
     @property
@@ -363,16 +339,9 @@ class Site:
         if family.kind in (FamilyKind.PLANE, FamilyKind.PARALLELS_IN_PLANE):
             return place - (arm @ family.normal) * family.normal
         if len(family.points):
-            feet = self._feet(family, place)
+            feet = _feet(family, place)
             return np.asarray(feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))])
         return place
-
-    @staticmethod
-    def _feet(family: Family, place: FloatArray) -> FloatArray:
-        """(n, 3) the point of each line of a family that is nearest to a place."""
-        arms = place - family.points
-        along = np.sum(arms * family.directions, axis=1)[:, None]
-        return np.asarray(family.points + along * family.directions)
 
     @cached_property
     def directions(self) -> FloatArray:
@@ -420,6 +389,13 @@ class Site:
         # Outward, unless something is there already.
         sides.sort(key=lambda side: (side[1] > 1.0e-3, *side[:3]), reverse=True)
         return np.asarray(sides[0][3])
+
+
+def _feet(family: Family, place: FloatArray) -> FloatArray:
+    """(n, 3) the point of each line of a family that is nearest to a place."""
+    arms = place - family.points
+    along = np.sum(arms * family.directions, axis=1)[:, None]
+    return np.asarray(family.points + along * family.directions)
 
 
 def _add(axis: FloatArray, made: list[FloatArray]) -> None:

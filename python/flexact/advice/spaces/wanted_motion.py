@@ -340,7 +340,7 @@ def declared_of(result: Result, subject: Subject, space: ScrewSpace) -> tuple[Wa
     That of a coordinate of the body itself is the translation along it, or the rotation about
     it, if the body can do that; every other one is the motion in which the others stand still.
     """
-    left = Freed.as_declared(result)
+    left = Freed(result, is_freed=False)
     undeclared = left.space(subject) if left.is_known else None
     made = (
         _own(result, subject, space, freedom) or _moved(subject, space, freedom, undeclared)

@@ -31,6 +31,13 @@ _FAMILIES = {
     FamilyKind.EVERY_DIRECTION: "every direction",
 }
 
+#: The same in the plane, where a rotation is one about a point.
+_IN_PLANE = {
+    FamilyKind.PARALLELS: "every point",
+    FamilyKind.PLANE: "every line",
+    FamilyKind.DIRECTIONS_IN_PLANE: "every direction",
+}
+
 
 class Geometry:
     """Lines, planes and points of a mechanism in words: by names where something lies there."""
@@ -39,11 +46,11 @@ class Geometry:
         """Of the mechanism as it was given."""
         self.outcome = outcome
         self._values = outcome.given.arrays.node_value[:3].T
+        self._near = SAME * outcome.characteristic_length
 
     def of(self, family: Family) -> str:
         """What belongs to a family, such as "all lines through A in the plane z = 0.04 m"."""
-        planar = self.outcome.given.planar
-        made = self._in_plane(family) if planar else ""
+        made = self._in_plane(family) if self.outcome.given.planar else ""
         return made or self._in_space(family)
 
     def _in_space(self, family: Family) -> str:
@@ -71,25 +78,14 @@ class Geometry:
 
     def _in_plane(self, family: Family) -> str:
         """The same where a rotation is one about a point; empty where there is no difference."""
-        kind, about_z = family.kind, abs(family.direction[2]) > 0.5
-        if kind is FamilyKind.PARALLELS:
-            return "every point"
-        if kind is FamilyKind.PARALLELS_IN_PLANE and about_z:
-            across = np.cross(family.normal, family.direction)
-            return f"every point of {self.line(family.point, across)}"
-        if kind is FamilyKind.PARALLELS_IN_PLANE:
-            return f"all lines along {axis_words(family.direction)}"
-        if kind is FamilyKind.PENCIL:
+        if family.kind is FamilyKind.PENCIL:
             return f"all lines through {self.point(family.point)}"
-        if kind is FamilyKind.PLANE:
-            return "every line"
-        if kind is FamilyKind.DIRECTIONS_IN_PLANE:
-            return "every direction"
-        return ""
-
-    @property
-    def _near(self) -> float:
-        return SAME * self.outcome.characteristic_length
+        if family.kind is not FamilyKind.PARALLELS_IN_PLANE:
+            return _IN_PLANE.get(family.kind, "")
+        if abs(family.direction[2]) <= 0.5:
+            return f"all lines along {axis_words(family.direction)}"
+        across = np.cross(family.normal, family.direction)
+        return f"every point of {self.line(family.point, across)}"
 
     @cached_property
     def _named(self) -> tuple[tuple[str, FloatArray], ...]:
