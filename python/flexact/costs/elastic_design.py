@@ -17,8 +17,7 @@ from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, Estimate, State, elastic
 from ..elasticity.imperfections import misalignment
 from ..elasticity.solution import Solution
-from ..model.attributes import Properties
-from ..model.data import ModelData
+from ..model.data import ModelData, Properties
 from ..model.model import Model
 from ..util.records import cached_property
 from .designs import (

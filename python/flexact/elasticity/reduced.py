@@ -23,8 +23,7 @@ from ..core.elements import (
     member_table,
     role_table,
 )
-from ..model.attributes import CrossSection
-from ..model.data import ModelData
+from ..model.data import CrossSection, ModelData
 from ..model.writing import class_statements, prescribed_in
 from ..util.records import Frozen, cached_property
 from .errors import ElasticError

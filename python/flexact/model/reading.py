@@ -17,8 +17,7 @@ from ..deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, pr
 from ..deck.rendering import DeckError
 from ..util.decks import DeckFile
 from ..util.loading import load
-from .attributes import Appearance, Loads, Properties
-from .data import DeckNames, ModelData, slips_in
+from .data import Appearance, DeckNames, Loads, ModelData, Properties, slips_in
 from .model import Model
 
 LARGEST_DECK = 2**31 - 2

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from ...analysis.result import Result
 from ...analysis.sparse_basis import support_of
 from ...core.arrays import Basis, FloatArray
-from ...model.attributes import column_labels, row_labels
+from ...model.data import column_labels, row_labels
 from ...util.errors import BatchError, reason_of
 from ...util.loading import VERSION
 

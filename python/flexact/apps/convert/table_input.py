@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core.elements import Member, NodeKind
 from ...core.raw import ElementKind
-from ...model.attributes import CrossSection
+from ...model.data import CrossSection
 from ...model.draft import Shape
 from ...model.names import nearest
 from ...model.sections import Make, Material, constants_of, mass, stiffness
