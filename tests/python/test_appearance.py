@@ -18,7 +18,7 @@ from wrong_use import APPEARANCE, Call, code_of, each, two_nodes_and_a_bar
 import flexact
 from flexact import Model, ModelError
 from flexact.deck.rendering import render_problems
-from flexact.model.attributes import Appearance, CrossSection
+from flexact.model.data import Appearance, CrossSection
 
 FOLDER = Path(__file__).parent / "decks"
 NAN = np.nan

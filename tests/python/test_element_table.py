@@ -30,7 +30,7 @@ from flexact.core.elements import (
 from flexact.core.raw import ElementKind
 from flexact.deck.diagnostics import Severity
 from flexact.deck.keywords import form_of
-from flexact.model.attributes import CrossSection
+from flexact.model.data import CrossSection
 from flexact.model.parts.forms import forms_of
 from flexact.show.drawing import Form, drawing_of, resultants
 

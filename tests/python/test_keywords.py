@@ -17,7 +17,7 @@ from flexact.deck import keywords as home
 from flexact.deck import keywords as numbers
 from flexact.deck.keywords import Block, Keyword, find_keyword, keywords, words_of
 from flexact.deck.rendering import DeckError
-from flexact.model.attributes import CrossSection
+from flexact.model.data import CrossSection
 
 PAGE = ROOT / "docs" / "decks.md"
 

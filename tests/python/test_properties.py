@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import flexact
-from flexact.model.attributes import Properties
+from flexact.model.data import Properties
 
 MODEL = "BEAM 7 1 2 3 4\nTRUSS 9 3 5\nX 3 1 0 0\nX 5 1 1 0\nFIX 1\nFIX 2\nFIX 5\n"
 NAN = float("nan")

@@ -16,8 +16,7 @@ from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import Dual, NodeKind, dual_table
 from ..core.progress import Progress, reported
 from ..core.raw import RawAnalysis, RawAssembly
-from ..model.attributes import Labels, column_labels, row_labels
-from ..model.data import ModelData
+from ..model.data import Labels, ModelData, column_labels, row_labels
 from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Carriers, Parts
 from ..util import machine as memory

@@ -21,8 +21,7 @@ from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
-from ..model.attributes import Properties
-from ..model.data import ModelData
+from ..model.data import ModelData, Properties
 from ..util.records import Frozen, cached_property
 from .designs import (
     Misalignment,

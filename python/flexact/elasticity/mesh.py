@@ -20,8 +20,7 @@ from ..core.elements import (
     member_table,
     role_table,
 )
-from ..model.attributes import Appearance, Properties
-from ..model.data import ModelData
+from ..model.data import Appearance, ModelData, Properties
 from ..model.deformations import AT_P, AT_Q
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short

@@ -26,8 +26,7 @@ from ..core.elements import (
     member_table,
     role_table,
 )
-from ..model.attributes import CrossSection
-from ..model.data import ModelData
+from ..model.data import CrossSection, ModelData
 from ..model.writing import class_statements, prescribed_in
 from ..util.records import Frozen
 from .errors import ElasticError

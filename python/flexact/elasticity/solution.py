@@ -23,8 +23,7 @@ from ..core.elastic import (
     element_stiffness,
 )
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
-from ..model.attributes import Properties
-from ..model.data import ModelData
+from ..model.data import ModelData, Properties
 from ..util.matrices import complement, span
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property

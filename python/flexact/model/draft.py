@@ -16,7 +16,7 @@ from ..deck.rendering import ModelError, model_error
 from ..util.groups import grouped
 from ..util.records import cached_property
 from ..util.text import in_short
-from .attributes import NUMBERS
+from .data import NUMBERS
 from .names import one_line, part_name
 
 #: Of the size of a model: points nearer than this are at one place.

@@ -12,8 +12,7 @@ from ..core.elements import AXES, Class, NodeKind, is_position, kind_of
 from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
 from ..util.groups import groups_of
 from ..util.text import in_short
-from .attributes import NUMBERS, Appearance, Loads, Properties, rows_of
-from .data import ModelData
+from .data import NUMBERS, Appearance, Loads, ModelData, Properties, rows_of
 from .draft import Draft, Shape, Vector, classes_of
 
 #: Nodes that one message names.

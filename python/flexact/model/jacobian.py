@@ -14,8 +14,8 @@ from ..core.elements import Class
 from ..core.raw import RawAssembly
 from ..util.errors import require_kind
 from ..util.records import Frozen, cached_property
-from .attributes import Labels, column_labels, row_labels
 from .configuration import Configuration
+from .data import Labels, column_labels, row_labels
 from .model import Model
 
 

@@ -13,12 +13,11 @@ from typing import BinaryIO
 import numpy as np
 
 from ..core import calls
-from ..deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, problems_of
+from ..deck.diagnostics import Diagnostic, Problems, Severity, Source, problems_of
 from ..deck.rendering import DeckError
 from ..util.decks import DeckFile
 from ..util.loading import load
-from .attributes import Appearance, Loads, Properties
-from .data import DeckNames, ModelData, slips_in
+from .data import Appearance, DeckNames, Loads, ModelData, Properties, slips_in
 from .model import Model
 
 LARGEST_DECK = 2**31 - 2
@@ -164,7 +163,7 @@ def _too_large(name: str) -> DeckError:
 
 
 def _file_error(name: str, code: str, message: str, hint: str = "") -> DeckError:
-    item = Diagnostic(Severity.ERROR, code, message, *Place(0, 0, 0), help=hint)
+    item = Diagnostic(Severity.ERROR, code, message, help=hint)
     return DeckError(Problems.of([item]), name, None)
 
 

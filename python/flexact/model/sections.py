@@ -14,7 +14,7 @@ from ..deck.rendering import model_error
 from ..util.quantities import Quantity, QuantityError
 from ..util.text import in_short
 from .arguments import numbers, numbers_of_size, real
-from .attributes import CrossSection
+from .data import CrossSection
 from .draft import Shape
 from .names import nearest
 

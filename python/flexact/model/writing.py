@@ -13,8 +13,7 @@ from ..core.elements import AXES, Class, NodeKind, keywords_of
 from ..deck.keywords import Block
 from ..deck.tokens import ELEMENT, GRAVITY, DeckComments, comments_of, tokens_of
 from ..util.groups import grouped
-from .attributes import Appearance, CrossSection, rows_of
-from .data import ModelData
+from .data import Appearance, CrossSection, ModelData, rows_of
 from .names import one_line
 
 _IDENTITY = {

@@ -34,6 +34,19 @@ def matrix_of(rotation: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + sine * skew + versine * (skew @ skew))
 
 
+def screw_matrix(rotation: FloatArray) -> FloatArray:
+    """(..., 3, 3): times a velocity, the translation of a screw with this rotation vector.
+
+    The integral of the rotation over the time from 0 to 1.
+    """
+    angle = np.linalg.norm(rotation, axis=-1)[..., None, None]
+    skew = _skew(rotation)
+    versine = np.sinc(angle / (2 * np.pi)) ** 2 / 2
+    safe = np.where(angle > 1.0e-3, angle, 1.0)
+    third = np.where(angle > 1.0e-3, (safe - np.sin(safe)) / safe**3, 1 / 6 - angle**2 / 120)
+    return np.asarray(np.eye(3) + versine * skew + third * (skew @ skew))
+
+
 def vector_of(matrix: FloatArray) -> FloatArray:
     """Rotation vectors (..., 3) [rad] of matrices (..., 3, 3), angles below pi."""
     return vector_of_euler(euler_of(matrix))
@@ -66,25 +79,24 @@ def turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
     cross = np.empty_like(vector)
     for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         cross[:, k] = vector[:, i] * old_vector[:, j] - vector[:, j] * old_vector[:, i]
-    return np.hstack(
+    made: FloatArray = np.hstack(
         [
             scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
             scalar * old_vector + old_scalar * vector + cross,
         ]
     )
+    return made
 
 
-def left_jacobian(rotation: FloatArray) -> FloatArray:
-    """(..., 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (..., 3).
-
-    Times the velocity of a screw with this rotation it is the screw's translation.
-    """
-    angle = np.linalg.norm(rotation, axis=-1)[..., None, None]
-    skew = _skew(rotation)
-    versine = np.sinc(angle / (2 * np.pi)) ** 2 / 2
-    safe = np.where(angle > 1.0e-3, angle, 1.0)
-    third = np.where(angle > 1.0e-3, (safe - np.sin(safe)) / safe**3, 1 / 6 - angle**2 / 120)
-    return np.asarray(np.eye(3) + versine * skew + third * (skew @ skew))
+def left_jacobian(vector: FloatArray) -> FloatArray:
+    """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
+    angle = np.linalg.norm(vector, axis=1)[:, None, None]
+    cross = _skew(vector)
+    small = angle < 1.0e-4
+    safe = np.where(small, 1.0, angle)
+    first = np.where(small, 0.5 - angle**2 / 24, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
+    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
 
 
 def euler_of(matrix: FloatArray) -> FloatArray:

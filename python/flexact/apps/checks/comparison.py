@@ -30,8 +30,7 @@ from ...analysis.verdict import AnalysisError
 from ...core.arrays import Basis, FloatArray
 from ...core.progress import Progress
 from ...deck.rendering import DeckError
-from ...model.attributes import column_labels, row_labels
-from ...model.data import ModelData
+from ...model.data import ModelData, column_labels, row_labels
 from ...model.reading import deck_bytes, read_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError, reason_of

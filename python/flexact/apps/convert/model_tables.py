@@ -11,8 +11,7 @@ from ...core.arrays import ModelArrays
 from ...core.elements import AXES, Class, Member, NodeKind, Vector, element_kinds
 from ...core.raw import ElementKind
 from ...deck.tokens import comments_of
-from ...model.attributes import CrossSection
-from ...model.data import ModelData
+from ...model.data import CrossSection, ModelData
 from ...model.draft import Shape
 from .table_input import (
     LETTERS,

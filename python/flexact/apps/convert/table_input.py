@@ -18,7 +18,7 @@ from ...core.elements import Member, NodeKind, element_kinds
 from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
 from ...deck.rendering import ProblemsError
-from ...model.attributes import CrossSection
+from ...model.data import CrossSection
 from ...model.draft import Shape
 from ...model.names import nearest
 from ...model.sections import Make, Material, constants_of, mass, stiffness

@@ -21,7 +21,7 @@ from ...deck.keywords import (
     words_of,
 )
 from ...deck.tokens import Line, Tokens
-from ...model.attributes import CrossSection
+from ...model.data import CrossSection
 from .deck import ELEMENT, NODE, Deck, Position, Range
 from .hover import (
     KIND_WORDS,

@@ -15,8 +15,7 @@ import numpy as np
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ...core.elements import Class
 from ...util.records import Frozen, cached_property
-from ..attributes import Appearance
-from ..data import ModelData
+from ..data import Appearance, ModelData
 from ..names import part_name
 from .chains import Chain
 

@@ -16,8 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ...model.attributes import CrossSection
-from ...model.data import ModelData
+from ...model.data import CrossSection, ModelData
 from ...model.parts.forms import Form
 from ...model.parts.parts import Body, bodies_of
 from ...util.records import Frozen

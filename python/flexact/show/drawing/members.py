@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Member, keywords_of, planar_table
-from ...model.attributes import Appearance, CrossSection
-from ...model.data import ModelData
+from ...model.data import Appearance, CrossSection, ModelData
 from ...model.parts.forms import Form, all_held, bending_held, forms_of, is_member
 from ...util.records import Frozen
 

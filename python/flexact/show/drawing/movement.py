@@ -20,7 +20,7 @@ from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
 from ...motion.stations import onward, settle
 from ...util.records import Frozen
-from ...util.rotations import between, left_jacobian, matrix_of, vector_of
+from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
 from .pose import Pose, field_along, pose_of, reference_pose, stations
 
@@ -156,7 +156,7 @@ def _carried_by_bodies(
     made = moved.copy()
     body = np.flatnonzero(handles[0] >= 0)
     centre, about = handles[0][body], turned[handles[1][body]]
-    gone = np.einsum("kxy,ky->kx", left_jacobian(about), (moved - start)[centre])
+    gone = np.einsum("kxy,ky->kx", screw_matrix(about), (moved - start)[centre])
     arm = np.einsum("kxy,ky->kx", matrix_of(about), start[body] - start[centre])
     made[body] = start[centre] + gone + arm
     return made
