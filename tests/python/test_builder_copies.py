@@ -194,6 +194,7 @@ def test_a_deck_can_be_inserted() -> None:
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.booleans(), st.floats(-400, 400), st.booleans())
 @example(1, False, 6e-5, False)  # a hinge with one tilt released, turned by a millionth
+@example(2103, False, 0.0, False)  # a vector with 1e-31 in it, which rounding takes away
 def test_a_turned_or_mirrored_mechanism_has_its_verdict(
     seed: int, planar: bool, degrees: float, mirror: bool
 ) -> None:
@@ -213,7 +214,11 @@ def test_a_turned_or_mirrored_mechanism_has_its_verdict(
         assert error.diagnostics[0].code == "turned-class" and not planar
         assert any(name == "HINGE" for name in source.element_keywords)
         return
-    assert counts(source) == counts(model)
+    analysis, moved = analyse(source), counts(model)
+    # What is doubtful may be either of what is said.
+    said = {(each.under_constrained, each.over_constrained) for each in analysis.alternatives}
+    is_doubtful = analysis.certainty is flexact.Certainty.DOUBTFUL
+    assert counts(source) == moved or (is_doubtful and moved[:2] in said)
     # Of what is held, for all coordinates: elements know no place and no direction.
     ours, theirs = (singular_values_of_rows(each) for each in (source, model))
     assert theirs == pytest.approx(ours, abs=1e-9)
