@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
-from flexact.sweeps.batch import FilterError, deck_columns, filter_of
+from flexact.sweeps.batch import deck_columns, filter_of
 from flexact.sweeps.columns import Column
+from flexact.util.errors import BatchError
 
 ROW = {
     "deck": "guides/five wires.dat",
@@ -140,14 +141,14 @@ def test_nothing_compares_with_what_is_missing(expression: str) -> None:
     ],
 )
 def test_what_is_no_condition_is_refused_in_words(expression: str, said: str) -> None:
-    with pytest.raises(FilterError, match="--where") as refused:
+    with pytest.raises(BatchError, match="--where") as refused:
         is_wanted(expression)
     assert said in str(refused.value)
     assert len(str(refused.value)) < 400
 
 
 def test_a_column_that_is_not_wanted_says_how_to_have_it() -> None:
-    with pytest.raises(FilterError, match="--columns values"):
+    with pytest.raises(BatchError, match="--columns values"):
         filter_of("margin > 0", deck_columns("verdict"))
 
 

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 import flexact
+from flexact.analysis.freedoms import FreeMotion
 from flexact.show.drawing import drawing_of, move
-from flexact.show.drawing.movement import Natural, natural_shape
+from flexact.show.drawing.movement import natural_shape
 from flexact.show.drawing.selection import way_of
 
 #: A lever on a hinge at node 1 moves the near end of a wire; nothing holds the turns of that end
@@ -26,10 +27,10 @@ DYNE 1 1
 """
 
 
-def shape_of(text: str) -> tuple[flexact.Analysis, Natural]:
+def shape_of(text: str) -> tuple[flexact.Analysis, FreeMotion]:
     analysis = flexact.analyse(flexact.read_text(text))
     motion = way_of(analysis.freedoms[0])
-    assert isinstance(motion, Natural)
+    assert motion.is_natural
     return analysis, motion
 
 

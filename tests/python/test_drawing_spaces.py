@@ -14,7 +14,7 @@ import flexact
 from flexact.advice.spaces.screws import Family, FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
 from flexact.show.page import page
-from flexact.show.picture import SubjectError, draw, has_packages, picture_bytes
+from flexact.show.picture import PictureError, draw, has_packages, picture_bytes
 from flexact.show.spaces import MADE_BY, SpaceShape, dashes, shape_of_space
 
 DECKS = ROOT / "input_decks"
@@ -195,12 +195,12 @@ def _shown(figure: object) -> object:
 
 def test_spaces_do_not_move_and_stand_alone() -> None:
     analysis, spaces = spaces_in("paper/folded_sheet_free")
-    with pytest.raises(SubjectError, match="not both"):
+    with pytest.raises(PictureError, match="not both"):
         draw(analysis, spaces=spaces, motion=1)
     with pytest.raises(TypeError, match="spaces are those of a body"):
         draw(analysis, spaces=analysis)  # type: ignore[arg-type]
     if has_packages():
-        with pytest.raises(SubjectError, match="do not move"):
+        with pytest.raises(PictureError, match="do not move"):
             picture_bytes(analysis, ".gif", spaces=spaces)
 
 

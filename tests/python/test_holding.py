@@ -107,9 +107,9 @@ def test_what_is_not_exact_has_none(name: str) -> None:
     (frame,) = frames_of(drawing_of(analysis.given))
     assert holds_data(analysis, frame) == []
     pytest.importorskip("matplotlib")
-    from flexact.show.picture import SubjectError, picture_bytes
+    from flexact.show.picture import PictureError, picture_bytes
 
-    with pytest.raises(SubjectError, match="exactly constrained"):
+    with pytest.raises(PictureError, match="exactly constrained"):
         picture_bytes(analysis, ".png", held=True)
 
 

@@ -19,14 +19,14 @@ import flexact
 from flexact.show.drawing import BENDING, QUANTITIES, Resultants, drawing_of
 from flexact.show.drawing.diagrams import diagrams_of
 from flexact.show.drawing.members import ARROW, FREEDOM
-from flexact.show.drawing.selection import NotThereError
 from flexact.show.drawing.view import view_of
+from flexact.util.errors import BatchError
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 
 from flexact.show.page import page
-from flexact.show.picture import PictureError, SubjectError, ViewError, draw, picture_bytes
+from flexact.show.picture import PictureError, draw, picture_bytes
 
 #: What stands before the statements of the picture block.
 BLOCKS = "END\nHALT\n\nEND\n\nVISUALIZATION\n"
@@ -465,20 +465,20 @@ def test_the_verdict_is_the_title() -> None:
 
 def test_what_is_not_there_is_told() -> None:
     analysis = deck("paper/twelve_trusses")
-    with pytest.raises(NotThereError, match=r"no motion 2: the analysis gives 1 motion$"):
+    with pytest.raises(BatchError, match=r"no motion 2: the analysis gives 1 motion$"):
         draw(analysis, motion=2)
-    with pytest.raises(NotThereError, match=r"self-stress 3: the analysis gives 1 self-stress$"):
+    with pytest.raises(BatchError, match=r"self-stress 3: the analysis gives 1 self-stress$"):
         draw(analysis, stress=3)
-    with pytest.raises(NotThereError, match="no degree of freedom 1"):
+    with pytest.raises(BatchError, match="no degree of freedom 1"):
         draw(analysis, freedom=1)
     with pytest.raises(
-        SubjectError,
+        PictureError,
         match="one of normal force, twist moment, in-plane moment, out-of-plane moment",
     ):
         draw(analysis, quantity="Q")
-    with pytest.raises(SubjectError, match="is of a self-stress"):
+    with pytest.raises(PictureError, match="is of a self-stress"):
         draw(analysis, motion=1, quantity="N")
-    with pytest.raises(SubjectError, match="one of them"):
+    with pytest.raises(PictureError, match="one of them"):
         picture_bytes(analysis, ".gif", motion=1, stress=1)
     with pytest.raises(PictureError, match="png, svg, pdf, gif, mp4, webm"):
         picture_bytes(analysis, ".jpg")
@@ -486,7 +486,7 @@ def test_what_is_not_there_is_told() -> None:
 
 @pytest.mark.parametrize("view", ["side", "1", "1,2,3", "a,b", "10,95", "nan,0", "inf,0"])
 def test_views_that_are_not_known(view: str) -> None:
-    with pytest.raises(ViewError, match="iso, front, back, left, right, top, bottom"):
+    with pytest.raises(BatchError, match="iso, front, back, left, right, top, bottom"):
         draw(deck("paper/twelve_trusses"), view=view)
 
 

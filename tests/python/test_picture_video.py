@@ -18,7 +18,7 @@ from small_decks import COLLINEAR, files_in
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.show.picture import VideoError, picture_bytes
+from flexact.show.picture import PictureError, picture_bytes
 from flexact.show.picture import files as module
 
 pytest.importorskip("matplotlib")
@@ -33,7 +33,7 @@ SIZE = (301, 253)
 def require_encoder(suffix: str) -> None:
     try:
         module.check_encoder(suffix)
-    except VideoError as error:
+    except PictureError as error:
         pytest.skip(str(error))
 
 
@@ -178,7 +178,7 @@ def test_without_an_encoder_both_ways_are_named(
         assert main(["picture", str(missing), "-o", str(tmp_path / f"x{suffix}")]) != 0
         err = capsys.readouterr().err
         assert "ffmpeg" in err and "PATH" in err and "pip install imageio-ffmpeg" in err
-    with pytest.raises(VideoError, match="imageio-ffmpeg"):
+    with pytest.raises(PictureError, match="imageio-ffmpeg"):
         picture_bytes(of_text(tmp_path, COLLINEAR), ".mp4")
 
 

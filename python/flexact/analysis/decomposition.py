@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core import calls
 from ..core.arrays import Basis, FloatArray, IntArray
@@ -407,7 +406,7 @@ def column_weights(analysis: Decomposition, columns: Places = _ALL) -> FloatArra
     return np.where(kinds <= NodeKind.POSITION, 1.0, analysis.characteristic_length)
 
 
-def row_duals(analysis: Decomposition, rows: Places = _ALL) -> NDArray[np.int32]:
+def row_duals(analysis: Decomposition, rows: Places = _ALL) -> IntArray:
     """(rows,) `Dual` of rows of D(c)."""
     element, deformation = analysis.raw.row_label[:, rows] - 1
     return np.asarray(dual_table()[analysis.data.arrays.element_kind[element], deformation])

@@ -40,10 +40,12 @@ class FreeMotion(Moves, Frozen):
         analysis: The analysis that it belongs to.
         analysed: The velocities of the nodes of the model as it was analysed; its model is
             without this declaration.
+        is_natural: Whether it is the one in which what nothing determines bends least.
     """
 
     analysis: Decomposition
     analysed: Velocities
+    is_natural: bool = False
 
 
 @dataclass(frozen=True, eq=False, repr=False)

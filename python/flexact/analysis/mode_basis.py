@@ -15,9 +15,8 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
+from ..core.arrays import Basis, BoolArray, FloatArray, IndexArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
 from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.parts import Part, PartKind, natural
@@ -226,7 +225,7 @@ def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -
     return largest <= outcome.rounding
 
 
-def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
+def _held(space: Basis, key: Key) -> tuple[IndexArray, FloatArray]:
     """The places that the vectors reach, in canonical order, and these rows in full."""
     support = support_of(space)
     order = sorted(support.tolist(), key=key)  # type: ignore[arg-type]
@@ -240,8 +239,8 @@ def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
 
 def _scaled(
     vectors: FloatArray,
-    support: NDArray[np.integer],
-    owner: NDArray[np.integer],
+    support: IndexArray,
+    owner: IndexArray,
     outer: BoolArray,
     weights: FloatArray,
     units: FloatArray,
@@ -341,7 +340,7 @@ def _is_undivided(pieces: Sequence[Piece]) -> bool:
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
-    def __init__(self, outcome: Decomposition, support: NDArray[np.integer]) -> None:
+    def __init__(self, outcome: Decomposition, support: IndexArray) -> None:
         node, self.axis = outcome.raw.column_label[:, support] - 1
         self.node = outcome.condensed.nodes[node]
         self.owner = np.unique(self.node, return_inverse=True)[1]
@@ -432,7 +431,7 @@ class _MotionGroups:
             axis=1,
         )
 
-    def _along_axes(self, space: FloatArray, rows: NDArray[np.bool_]) -> FloatArray:
+    def _along_axes(self, space: FloatArray, rows: BoolArray) -> FloatArray:
         if space.shape[1] < 2:
             return space
         axes = [np.flatnonzero(rows & (self.axis == axis)) for axis in range(3)]
@@ -440,7 +439,7 @@ class _MotionGroups:
 
 
 def _part_stresses(
-    outcome: Decomposition, support: NDArray[np.integer], space: FloatArray
+    outcome: Decomposition, support: IndexArray, space: FloatArray
 ) -> FloatArray | None:
     """All self-stresses: of flexible parts, then inside of bodies; None of a large space."""
     if space.shape[1] < 2:

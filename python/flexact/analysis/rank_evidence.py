@@ -14,10 +14,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core import calls
-from ..core.arrays import Basis, FloatArray, IntArray
+from ..core.arrays import Basis, FloatArray, IndexArray, IntArray
 from ..core.elements import NodeKind, Role, length_table, role_table
 from ..util.records import cached_property
 from .decomposition import Decomposition
@@ -95,12 +94,12 @@ _MOST_PAIRS = 16
 class _Vectors(NamedTuple):
     """Some vectors of a basis, of unit norm in the scaled matrix, at the places they reach."""
 
-    support: NDArray[np.integer]
+    support: IndexArray
     """(places,) ascending."""
     value: FloatArray
     """(places, vectors)."""
 
-    def in_full(self, chosen: NDArray[np.integer], size: int) -> FloatArray:
+    def in_full(self, chosen: IndexArray, size: int) -> FloatArray:
         """(size, chosen) some of them with their zeros."""
         made = np.zeros((size, chosen.size))
         made[self.support] = self.value[:, chosen]
@@ -226,7 +225,7 @@ def powers_faded(basis: Basis, scale: FloatArray) -> float:
     return float(np.where(torn, 0, last).max()) / _BINS
 
 
-def _first_of(basis: Basis, scale: FloatArray, chosen: NDArray[np.integer]) -> _Vectors | None:
+def _first_of(basis: Basis, scale: FloatArray, chosen: IndexArray) -> _Vectors | None:
     """The first of some vectors, as many as are held in full."""
     chosen = chosen[:_MOST_VECTORS]
     if not chosen.size:
@@ -243,7 +242,7 @@ def _first_of(basis: Basis, scale: FloatArray, chosen: NDArray[np.integer]) -> _
     return _Vectors(support, value / np.linalg.norm(value / scale[support, None], axis=0))
 
 
-def _entries(outcome: Decomposition, rows: NDArray[np.integer]) -> tuple[Sparse, FloatArray]:
+def _entries(outcome: Decomposition, rows: IndexArray) -> tuple[Sparse, FloatArray]:
     """Entries of some rows of D(c), and what each of them is rounded in proportion to.
 
     An elongation changes with the positions by the direction alone, each entry to its own last

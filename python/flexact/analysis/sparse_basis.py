@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arrays import Basis, FloatArray
+from ..core.arrays import Basis, BoolArray, FloatArray, IndexArray
 from ..util.groups import grouped, least_of_groups
 from ..util.matrices import complement, null_space, span
 from .limits import ROUNDING
@@ -35,12 +35,12 @@ _TERMS_AT_ONCE = 4_000_000
 class Sparse(NamedTuple):
     """Entries of a sparse matrix; those at one place add up."""
 
-    row_of: NDArray[np.integer]
-    column_of: NDArray[np.integer]
+    row_of: IndexArray
+    column_of: IndexArray
     value: FloatArray
     rows: int
 
-    def only(self, chosen: NDArray[np.bool_]) -> Sparse:
+    def only(self, chosen: BoolArray) -> Sparse:
         """Some of the entries."""
         return Sparse(self.row_of[chosen], self.column_of[chosen], self.value[chosen], self.rows)
 
@@ -62,12 +62,12 @@ def orthonormal(basis: Basis, weights: FloatArray) -> Basis:
     return _orthonormal_by_groups(weighted)
 
 
-def support_of(basis: Basis) -> NDArray[np.integer]:
+def support_of(basis: Basis) -> IndexArray:
     """Places at which any of the vectors may be other than zero, ascending."""
     return np.flatnonzero(np.bincount(basis.place, minlength=basis.size))
 
 
-def index_of(places: NDArray[np.integer], size: int) -> NDArray[np.int64]:
+def index_of(places: IndexArray, size: int) -> NDArray[np.int64]:
     """(size,) at which of the places each number stands, -1 where at none."""
     made = np.full(size, -1)
     made[places] = np.arange(places.size)
@@ -114,8 +114,8 @@ def _orthonormal_by_groups(basis: Basis) -> Basis:
     entries = np.argsort(of_entry, kind="stable")
     bounds = np.searchsorted(of_entry[entries], np.arange(shapes.shape[1] + 1)).tolist()
     # Of each piece the number of entries of each vector, their places and values.
-    counts: list[NDArray[np.integer]] = []
-    places: list[NDArray[np.integer]] = []
+    counts: list[IndexArray] = []
+    places: list[IndexArray] = []
     values: list[FloatArray] = []
     for k, (rows, vectors) in enumerate(shapes.T.tolist()):
         mine = np.sort(entries[bounds[k] : bounds[k + 1]])
@@ -169,9 +169,7 @@ class _Grouped:
         self.rows = np.bincount(owner, minlength=self.vectors.size)
         self._first = _starts(self.rows)
 
-    def dense(
-        self, groups: NDArray[np.integer], entries: NDArray[np.integer]
-    ) -> tuple[FloatArray, NDArray[np.integer]]:
+    def dense(self, groups: IndexArray, entries: IndexArray) -> tuple[FloatArray, IndexArray]:
         """Groups of one shape in full (groups, rows, vectors), and their places (groups, rows)."""
         rows, vectors = int(self.rows[groups[0]]), int(self.vectors[groups[0]])
         made = np.zeros((groups.size, rows, vectors))
@@ -181,7 +179,7 @@ class _Grouped:
         return made, self._place[self._first[groups][:, None] + np.arange(rows)]
 
 
-def _starts(counts: NDArray[np.integer]) -> NDArray[np.integer]:
+def _starts(counts: IndexArray) -> IndexArray:
     """Where each of several pieces of these sizes begins."""
     return np.asarray(np.cumsum(counts) - counts)
 
@@ -212,7 +210,7 @@ def _squares_by_terms(matrix: Sparse, basis: Basis) -> FloatArray:
     return total
 
 
-def _first_that_fit(basis: Basis, uses: NDArray[np.integer]) -> Basis:
+def _first_that_fit(basis: Basis, uses: IndexArray) -> Basis:
     """As many of the vectors as the terms of a product allow; `uses` of each place."""
     terms = np.concatenate(([0], np.cumsum(uses[basis.place])))[basis.start]
     vectors = int(np.searchsorted(terms, _MOST_TERMS, "right")) - 1
@@ -238,7 +236,7 @@ _MOST_REFINED = 8
 _STEPS = 12
 _MOST_STARTS = 60
 
-Groups = Sequence[NDArray[np.integer]]
+Groups = Sequence[IndexArray]
 Cost = tuple[int, ...]
 #: What makes a basis of a space, (rows, k) columns, that a choice of groups leaves: (rows, k).
 Refine = Callable[[FloatArray], FloatArray]
@@ -322,7 +320,7 @@ def columns_of(pieces: Sequence[Piece], rows: int) -> FloatArray:
     return np.concatenate([np.zeros((rows, 0)), *(piece.vectors for piece in pieces)], axis=1)
 
 
-def classes_of_rows(space: FloatArray) -> list[NDArray[np.integer]]:
+def classes_of_rows(space: FloatArray) -> list[IndexArray]:
     """Rows that are parallel to each other, class by class in the order of their first rows.
 
     Rows that are zero are in none.

@@ -18,9 +18,8 @@ from itertools import islice
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.arrays import Basis, FloatArray
+from ..core.arrays import Basis, BoolArray, FloatArray, IndexArray
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
 from ..model.parts.parts import surplus_of
 from .decomposition import Decomposition, column_weights, row_weights
@@ -106,14 +105,14 @@ def deformations(result: Result) -> Deformations:
     return [(row // 6, row % 6 + 1) for row in order]
 
 
-def entry_rows(result: Decomposition) -> NDArray[np.integer]:
+def entry_rows(result: Decomposition) -> IndexArray:
     """(entries,) the row of D(c) of each entry of the assembly; -1 of what is none."""
     element, deformation = result.raw.row_label - 1
     size = 6 * result.data.arrays.element_number.size
     return np.asarray(index_of(6 * element + deformation, size)[result.assembly.row_of])
 
 
-def entry_columns(result: Decomposition) -> NDArray[np.integer]:
+def entry_columns(result: Decomposition) -> IndexArray:
     """(entries,) the column of D(c) of each entry of the assembly, likewise."""
     node, axis = result.raw.column_label - 1
     size = 3 * result.data.arrays.node_number.size
@@ -134,7 +133,7 @@ def released_rates(result: Result) -> tuple[Sparse, FloatArray]:
     return matrix.only(released[whole.row_of] & (column >= 0)), length
 
 
-def reaction_entries(result: Result, able: NDArray[np.bool_]) -> Sparse:
+def reaction_entries(result: Result, able: BoolArray) -> Sparse:
     """Reactions at some coordinates, (3 nodes,), by the rows of D(c), moments as forces."""
     arrays, whole, row = result.data.arrays, result.assembly, entry_rows(result)
     matrix = Sparse(whole.column_of, row, whole.value, able.size)
@@ -145,13 +144,13 @@ def reaction_entries(result: Result, able: NDArray[np.bool_]) -> Sparse:
     return matrix._replace(value=value)
 
 
-def is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
+def is_of_class(result: Result, wanted: Class) -> BoolArray:
     """(m,) whether the deformation of a row is of a class."""
     element, deformation = result.raw.row_label - 1
     return np.asarray(result.data.arrays.deformation_class[deformation, element] == wanted)
 
 
-def is_releasable(result: Result) -> NDArray[np.bool_]:
+def is_releasable(result: Result) -> BoolArray:
     """(m,) whether a row is of a part that can be made soft: not of a rigid body.
 
     Where there is nothing else all are, of bodies of several members those with a name first.
@@ -164,7 +163,7 @@ def is_releasable(result: Result) -> NDArray[np.bool_]:
     ):
         inside = np.zeros(result.given.arrays.element_number.size, bool)
         inside[rigid] = True
-        made: NDArray[np.bool_] = ~inside[element]
+        made: BoolArray = ~inside[element]
         if made[stressed].any():
             return made
     return np.ones(element.size, bool)
@@ -191,7 +190,7 @@ def _largest(leverage: FloatArray, key: Key) -> list[int]:
     return [int(row) for row in order[leverage[order] > NO_LEVERAGE]]
 
 
-def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = None) -> list[int]:
+def _independent_rows(basis: Basis, key: Key, able: BoolArray | None = None) -> list[int]:
     """Rows that span the space together, each as far from the ones before as can be.
 
     Only of `able` rows, if given.
@@ -200,9 +199,7 @@ def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = N
     return [int(support[i]) for i in spanning(rows, lambda i: key(int(support[i])))]
 
 
-def rows_of(
-    basis: Basis, able: NDArray[np.bool_] | None = None
-) -> tuple[FloatArray, NDArray[np.integer]]:
+def rows_of(basis: Basis, able: BoolArray | None = None) -> tuple[FloatArray, IndexArray]:
     """Those rows of a basis that are not zero, and which they are; of `able` ones, if given."""
     support = support_of(basis)
     if able is not None:

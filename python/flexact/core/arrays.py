@@ -14,6 +14,8 @@ IntArray = NDArray[np.int32]
 FloatArray = NDArray[np.float64]
 ByteArray = NDArray[np.int8]
 BoolArray = NDArray[np.bool_]
+#: Whole numbers of any size, such as indices.
+IndexArray = NDArray[np.integer]
 
 #: What numpy makes numbers of all the same.
 _NO_NUMBER = (str, bytes, type(None))

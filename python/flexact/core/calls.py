@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..util.machine import address_space
 from ..util.records import read_only
 from . import _core
-from .arrays import Basis, FloatArray, IntArray, PackedModel, room_for, unpacked
+from .arrays import Basis, ByteArray, FloatArray, IntArray, PackedModel, room_for, unpacked
 from .raw import (
     ElementKind,
     Meaning,
@@ -243,7 +243,7 @@ class _Room(NamedTuple):
         return *room_for(nodes, elements), *names, *drawn, *look, opacity, *heavy, *loaded
 
 
-def _most_in(text: NDArray[np.int8]) -> tuple[_Room, int]:
+def _most_in(text: ByteArray) -> tuple[_Room, int]:
     """The room that a deck may take, and bytes that reading it takes besides.
 
     Elements are told by the first letters of their lines: those with two nodes, TRUSS, HINGE,

@@ -10,10 +10,17 @@ from enum import IntEnum
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core import calls
-from ..core.arrays import BoolArray, FloatArray, IntArray, ModelArrays, PackedModel, packed
+from ..core.arrays import (
+    BoolArray,
+    FloatArray,
+    IndexArray,
+    IntArray,
+    ModelArrays,
+    PackedModel,
+    packed,
+)
 from ..core.elements import Member, NodeKind, coordinate_name, member_table
 from ..core.raw import RawCount, RawFrames
 from ..deck.diagnostics import Diagnostic, Problems, Severity, Source, decode, problems_of, warning
@@ -155,13 +162,13 @@ def rows_of(table: FloatArray) -> Iterator[tuple[int, tuple[float, ...]]]:
 Labels = tuple[tuple[int, str], ...]
 
 
-def row_labels(arrays: ModelArrays, label: NDArray[np.integer]) -> tuple[tuple[int, int], ...]:
+def row_labels(arrays: ModelArrays, label: IndexArray) -> tuple[tuple[int, int], ...]:
     """Element numbers and deformations from 1 of (2, m) their indices, both from 0."""
     numbers = arrays.element_number[label[0]].tolist()
     return tuple(zip(numbers, (label[1] + 1).tolist(), strict=True))
 
 
-def column_labels(arrays: ModelArrays, label: NDArray[np.integer]) -> Labels:
+def column_labels(arrays: ModelArrays, label: IndexArray) -> Labels:
     """Node numbers and coordinate names of (2, n) node indices and axes, both from 0."""
     numbers = arrays.node_number[label[0]].tolist()
     kinds = arrays.node_kind[label[0]].tolist()

@@ -13,11 +13,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..analysis.body_motions import Velocities
 from ..core import calls
-from ..core.arrays import FloatArray, packed
+from ..core.arrays import FloatArray, IndexArray, packed
 from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..core.raw import RawAssembly
 from ..model.configuration import Configuration
@@ -206,7 +205,7 @@ class Held:
 
     def _entries(
         self, here: Configuration
-    ) -> tuple[RawAssembly, NDArray[np.integer], NDArray[np.integer], FloatArray]:
+    ) -> tuple[RawAssembly, IndexArray, IndexArray, FloatArray]:
         """The assembly, and rows, columns and values of its entries that are held and may move."""
         raw = self._raw(here)
         row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]

@@ -10,13 +10,12 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..analysis.decomposition import column_weights, row_weights
 from ..analysis.limits import ROUNDING
 from ..analysis.result import Result
 from ..analysis.ways import spanning
-from ..core.arrays import Basis, FloatArray
+from ..core.arrays import Basis, FloatArray, IndexArray
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
 from ..util.groups import least_of_groups
@@ -40,8 +39,8 @@ class Component(Frozen):
         stresses: How many independent self-stresses are in it.
     """
 
-    columns: NDArray[np.integer]
-    elements: NDArray[np.integer]
+    columns: IndexArray
+    elements: IndexArray
     motions: tuple[int, ...]
     stresses: int
 
@@ -227,9 +226,7 @@ class Felt:
         return np.asarray(self.motions.T @ change)
 
 
-def _alone(
-    data: ModelData, elements: NDArray[np.integer]
-) -> tuple[ModelData, NDArray[np.integer], NDArray[np.integer]]:
+def _alone(data: ModelData, elements: IndexArray) -> tuple[ModelData, IndexArray, IndexArray]:
     """A model of some elements alone; where each node and element is in it, -1 where it is not."""
     arrays = data.arrays
     slots = arrays.element_node[:, elements]

@@ -35,10 +35,6 @@ Make = Callable[..., Contents]
 Content = TypeVar("Content", bound=Make)
 
 
-class ChoiceError(BatchError):
-    """A choice that such a file does not know."""
-
-
 #: What makes the contents of files of a suffix (of what is saved, the path, and what is chosen to
 #: be shown), what can be chosen, and what raises where a package for the suffix is missing.
 Writer = tuple[Make, tuple[str, ...], Callable[[str], object] | None]
@@ -94,7 +90,7 @@ class Writers:
         """
         make, shows, _ = self.require(path)
         if surplus := [name for name in chosen if name not in shows]:
-            raise ChoiceError(f"{path.name} shows no {' or '.join(surplus)} of its own choice")
+            raise BatchError(f"{path.name} shows no {' or '.join(surplus)} of its own choice")
         return make(thing, path, **chosen)
 
     def save(self, thing: Any, deck: ModelData, path: Path, **chosen: Any) -> None:

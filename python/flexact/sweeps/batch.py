@@ -132,10 +132,6 @@ _MOST = 2000
 _HELP = 'such as "over_constrained > 0" or "margin < 20e-6 and \'guide\' in deck"'
 
 
-class FilterError(BatchError):
-    """An expression that does not say which rows are wanted."""
-
-
 #: One side of a comparison: a column or a constant.
 _Operand = Column | float | str
 
@@ -144,7 +140,7 @@ def filter_of(expression: str, columns: Sequence[Column]) -> Test:
     """What tells of the values of a row, by the names of columns, whether it is wanted.
 
     Raises:
-        FilterError: The expression is none, or names no column.
+        BatchError: The expression is none, or names no column.
     """
     try:
         if len(expression) > _MOST:
@@ -152,7 +148,7 @@ def filter_of(expression: str, columns: Sequence[Column]) -> Test:
         tree = ast.parse(expression.strip(), mode="eval")
         return _test(tree.body, {column.name: column for column in columns})
     except (SyntaxError, ValueError, MemoryError, RecursionError):
-        raise FilterError(f"--where {in_short(expression)} is no condition, {_HELP}") from None
+        raise BatchError(f"--where {in_short(expression)} is no condition, {_HELP}") from None
 
 
 def _test(node: ast.expr, columns: Mapping[str, Column]) -> Test:
@@ -171,7 +167,7 @@ def _test(node: ast.expr, columns: Mapping[str, Column]) -> Test:
         return lambda values: all(test(values) for test in tests)
     operand = _operand(node, columns)
     if not isinstance(operand, Column):
-        raise FilterError(f"--where: {_words(operand)} is no condition, {_HELP}")
+        raise BatchError(f"--where: {_words(operand)} is no condition, {_HELP}")
     name = operand.name
     return lambda values: not _is_missing(values[name]) and bool(values[name])
 
@@ -181,13 +177,13 @@ def _comparison(
 ) -> Test:
     is_in, negated = isinstance(sign, (ast.In, ast.NotIn)), isinstance(sign, ast.NotIn)
     if not is_in and type(sign) not in _COMPARISONS:
-        raise FilterError("--where: write == or != in place of is")
+        raise BatchError("--where: write == or != in place of is")
     one = _operand(left, columns)
     if is_in and isinstance(right, (ast.Tuple, ast.List, ast.Set)):
         others = [_operand(each, columns) for each in right.elts]
         for other in others:
             if isinstance(other, Column):
-                raise FilterError(f"--where: in a list stand values, not {_words(other)}")
+                raise BatchError(f"--where: in a list stand values, not {_words(other)}")
             _require_alike(one, other)
         choice = frozenset(others)
         return lambda values: (
@@ -196,7 +192,7 @@ def _comparison(
     other = _operand(right, columns)
     if is_in:
         if not (_is_text(one) and _is_text(other)):
-            raise FilterError(
+            raise BatchError(
                 f"--where: behind in stands a text, or a list of values in parentheses, "
                 f"not {_words(other)}"
             )
@@ -221,7 +217,7 @@ def _operand(node: ast.expr, columns: Mapping[str, Column]) -> _Operand:
         if not isinstance(inner, (Column, str)):
             return -inner if isinstance(node.op, ast.USub) else inner
     words = in_short(ast.unparse(node))
-    raise FilterError(f"--where: {words} is neither a column nor a value, {_HELP}")
+    raise BatchError(f"--where: {words} is neither a column nor a value, {_HELP}")
 
 
 def _column(name: str, columns: Mapping[str, Column]) -> Column:
@@ -232,7 +228,7 @@ def _column(name: str, columns: Mapping[str, Column]) -> Column:
     hint = f"; did you mean {near[0]}?" if near else f"; there are {', '.join(columns)}"
     if later is not None:
         hint = f" without --columns {later.least}"
-    raise FilterError(f"--where: there is no column {in_short(name)}{hint}")
+    raise BatchError(f"--where: there is no column {in_short(name)}{hint}")
 
 
 def _words(operand: _Operand) -> str:
@@ -254,14 +250,14 @@ def _require_alike(one: _Operand, other: _Operand) -> None:
             f"{_words(each)} is {'a text' if _is_text(each) else 'a number'}"
             for each in (one, other)
         )
-        raise FilterError(f"--where: {' and '.join(told)}")
+        raise BatchError(f"--where: {' and '.join(told)}")
     for column, constant in ((one, other), (other, one)):
         if not isinstance(column, Column) or isinstance(constant, Column):
             continue
         known = _CHOICES.get(column.name)
         if known and constant not in (*known, ""):
             there = ", ".join(map(repr, known))
-            raise FilterError(
+            raise BatchError(
                 f"--where: there is no {column.name} {_words(constant)}; there are {there}"
             )
 

@@ -16,8 +16,8 @@ import numpy as np
 from ..analysis.naming import length_in_words
 from ..analysis.verdict import Verdict
 from ..core.arrays import BoolArray, FloatArray
-from ..show.picture.files import still_bytes
-from ..show.picture.make import PictureError, shown_figure
+from ..show.picture.files import PictureError, still_bytes
+from ..show.picture.make import shown_figure
 from ..show.writers import STILLS
 from ..util.outputs import write_together
 from ..util.text import harmless

@@ -15,7 +15,6 @@ from itertools import chain, combinations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked, column_weights, decompose
@@ -32,7 +31,7 @@ from ...analysis.ways import (
     rows_of,
     spanning,
 )
-from ...core.arrays import Basis, FloatArray
+from ...core.arrays import Basis, FloatArray, IndexArray
 from ...core.elements import Class, NodeKind, Role, coordinate_name, role_table
 from ...model.data import ModelData
 from ...model.parts.condensing import as_given
@@ -101,7 +100,7 @@ MOST_ENTRIES, MOST_WORK = 4_000_000, 50_000_000
 _NOTHING = 1.0e-7
 
 #: Rows or vectors, by their places.
-Places = NDArray[np.integer]
+Places = IndexArray
 
 
 @dataclass(frozen=True, eq=False)

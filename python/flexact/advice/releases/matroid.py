@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...core.arrays import FloatArray
+from ...core.arrays import BoolArray, FloatArray, IndexArray
 from ...util.groups import grouped, groups_of
 
 #: Entries of an echelon form beyond which the rows are better exchanged.
@@ -35,8 +34,8 @@ class Echelon:
         smallest: Smallest singular value of the block of the basis.
     """
 
-    basis: NDArray[np.integer]
-    others: NDArray[np.integer]
+    basis: IndexArray
+    others: IndexArray
     factor: FloatArray
     smallest: float
 
@@ -165,7 +164,7 @@ class Minor:
             rows |= piece.taken if k in into else piece.left
         return frozenset(rows)
 
-    def decide(self, size: FloatArray, looked_at: NDArray[np.bool_], judge: Judge) -> None:
+    def decide(self, size: FloatArray, looked_at: BoolArray, judge: Judge) -> None:
         """Put zeros where entries are zero; they are differences of numbers of a size."""
         value = np.abs(self.factor)
         limit = np.minimum(ZERO * self.error, _TINY * size)

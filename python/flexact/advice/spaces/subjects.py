@@ -8,12 +8,11 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...analysis.decomposition import Asked, column_weights, decompose
 from ...analysis.limits import ROUNDING
 from ...analysis.result import Result
-from ...core.arrays import FloatArray
+from ...core.arrays import FloatArray, IndexArray
 from ...core.elements import Class, NodeKind
 from ...core.raw import RawAnalysis
 from ...deck.rendering import ModelError, model_error
@@ -185,7 +184,7 @@ class Freed:
         return self.outcome.raw.motions.vectors == self.outcome.under_constrained
 
     @cached_property
-    def _motions(self) -> tuple[NDArray[np.integer], NDArray[np.integer], FloatArray]:
+    def _motions(self) -> tuple[IndexArray, IndexArray, FloatArray]:
         """The motions by rows, each of unit norm with rotations as lengths.
 
         Where the entries of each row begin; of each entry the motion, and its value.

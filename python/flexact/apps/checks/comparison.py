@@ -21,13 +21,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...analysis.decomposition import asked_for
 from ...analysis.result import Result, result_of
 from ...analysis.sparse_basis import support_of
 from ...analysis.verdict import AnalysisError
-from ...core.arrays import Basis, FloatArray
+from ...core.arrays import Basis, FloatArray, IndexArray
 from ...core.progress import Progress
 from ...deck.rendering import DeckError
 from ...model.data import ModelData, column_labels, row_labels
@@ -159,7 +158,7 @@ def answer_of(analysis: Result) -> StoredAnswer:
 
     def kept(
         basis: Basis,
-        support: NDArray[np.integer],
+        support: IndexArray,
         labels: Sequence[tuple[int, int | str]],
         dimension: int,
     ) -> Kept | None:

@@ -184,7 +184,7 @@ class Work:
             has_pages: Whether pages are wanted.
 
         Raises:
-            FilterError: `where` is no condition.
+            BatchError: `where` is no condition.
         """
         self._asked, self._want, self.where = asked, want, where
         self._mesh_format, self._has_pages = mesh_format, has_pages

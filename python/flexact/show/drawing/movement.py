@@ -186,10 +186,6 @@ _PAIRS = (
 _JOINTS = {Role.ROTATION: 0, Role.ANGLE: 0, Role.TILT_Y: 1, Role.TILT_Z: 2}
 
 
-class Natural(FreeMotion):
-    """The motion of a degree of freedom in which what nothing determines bends least."""
-
-
 def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
     """A motion of a degree of freedom with the least bending of what is free.
 
@@ -218,7 +214,7 @@ def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
         return motion
     made = start + np.einsum("k,knx->nx", shares, basis)
     velocities = Velocities(data, np.where(placed, made, 0.0), np.where(placed, 0.0, made))
-    return Natural(**{**vars(replace(motion)), "analysed": velocities})
+    return replace(motion, analysed=velocities, is_natural=True)
 
 
 def _rates(outcome: Decomposition, velocity: FloatArray) -> FloatArray:
@@ -359,7 +355,7 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
             break
         sides, deviation = fitted, there
     poses = (*sides[0][::-1], reference_pose(drawing.data.arrays), *sides[1])
-    natural = isinstance(motion, Natural)
+    natural = isinstance(motion, FreeMotion) and motion.is_natural
     return Movement(scale, deviation, poses, part=part, natural=natural)
 
 

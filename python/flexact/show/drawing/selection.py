@@ -49,10 +49,6 @@ def way_of(freedom: Freedom) -> Moving | None:
 _MOST_TRIED = 24
 
 
-class NotThereError(BatchError):
-    """A motion, self-stress or degree of freedom of this number is not there."""
-
-
 @dataclass(frozen=True, eq=False)
 class Selection(Frozen):
     """A motion that is shown.
@@ -85,7 +81,7 @@ def select_motion(
         can move; None where the mechanism does not move.
 
     Raises:
-        NotThereError: There is none of that number, or the degree of freedom cannot move.
+        BatchError: There is none of that number, or the degree of freedom cannot move.
         AnalysisError: The motion of that degree of freedom cannot be found.
     """
     if freedom is not None and motion is None:
@@ -106,11 +102,11 @@ def require_there(number: int, count: int, what: str, plural: str) -> None:
     """Raise unless one of this number, from 1, is among so many.
 
     Raises:
-        NotThereError: It is not; this says how many there are.
+        BatchError: It is not; this says how many there are.
     """
     if not 1 <= number <= count:
         there = f"{count or 'no'} {what if count == 1 else plural}"
-        raise NotThereError(f"there is no {what} {number}: the analysis gives {there}")
+        raise BatchError(f"there is no {what} {number}: the analysis gives {there}")
 
 
 def _of_freedom(analysis: Result, given: int | str) -> Selection:
@@ -119,11 +115,11 @@ def _of_freedom(analysis: Result, given: int | str) -> Selection:
             number = analysis.freedoms.index(analysis.freedom(given)) + 1
         except ModelError as error:
             first = error.diagnostics[0]
-            raise NotThereError(f"{first.message}: {first.help}") from None
+            raise BatchError(f"{first.message}: {first.help}") from None
     else:
         number, count = given, len(analysis.freedoms)
         require_there(number, count, "degree of freedom", "degrees of freedom")
     chosen = analysis.freedoms[number - 1]
     if (found := way_of(chosen)) is None:
-        raise NotThereError(f"degree of freedom {number}, {chosen.label}, cannot move")
+        raise BatchError(f"degree of freedom {number}, {chosen.label}, cannot move")
     return Selection(found, number, chosen)

@@ -37,10 +37,6 @@ _SQUARE = 0.015
 _SAMPLES, _MOST_SAMPLED = 24, 300
 
 
-class ViewError(BatchError):
-    """A view that is not known."""
-
-
 @dataclass(frozen=True, eq=False)
 class View(Frozen):
     """An orthographic view.
@@ -75,7 +71,7 @@ def view_of(text: str | None, drawing: Drawing) -> View:
     """The view that a name, or ``AZ,EL`` in degrees, stands for; planar drawings have but one.
 
     Raises:
-        ViewError: There is no such view.
+        BatchError: There is no such view.
     """
     asked = check_view(ISO if text is None else text)
     if drawing.planar:
@@ -108,7 +104,7 @@ def check_view(text: str) -> View | None:
         azimuth = elevation = np.nan
     if not (abs(azimuth) <= 360.0 and abs(elevation) <= 90.0):
         names = ", ".join((ISO, *NAMED))
-        raise ViewError(
+        raise BatchError(
             f"there is no view {text!r}: it is one of {names}, or the azimuth and the elevation "
             "of the eye in degrees, such as -60,25"
         )

@@ -4,10 +4,9 @@
 matplotlib and pillow are imported only when one is drawn.
 """
 
-from ..drawing.view import ViewError, check_view
-from .files import VideoError
+from ..drawing.view import check_view
+from .files import PictureError
 from .make import (
-    PictureError,
     check_packages,
     check_suffix,
     draw,
@@ -17,13 +16,9 @@ from .make import (
     shape_bytes,
     still_of,
 )
-from .subject import SubjectError
 
 __all__ = [
     "PictureError",
-    "SubjectError",
-    "VideoError",
-    "ViewError",
     "check_packages",
     "check_suffix",
     "check_view",

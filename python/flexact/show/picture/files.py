@@ -35,6 +35,10 @@ _VARIABLE = "MPLBACKEND"
 _ONE_AT_A_TIME = Lock()
 
 
+class PictureError(BatchError):
+    """A picture that cannot be made."""
+
+
 def load_matplotlib() -> None:
     """Import matplotlib, which cannot be imported where MPLBACKEND names no backend.
 
@@ -170,10 +174,6 @@ _SAME = ("-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact",
 _FILTER = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int"
 
 
-class VideoError(BatchError):
-    """A video that cannot be made."""
-
-
 def check_encoder(suffix: str) -> tuple[str, str]:
     """The program that makes such a video, and its encoder.
 
@@ -181,7 +181,7 @@ def check_encoder(suffix: str) -> tuple[str, str]:
         suffix: `.mp4` or `.webm`.
 
     Raises:
-        VideoError: There is none.
+        PictureError: There is none.
     """
     programs = _programs()
     for program in programs:
@@ -191,7 +191,7 @@ def check_encoder(suffix: str) -> tuple[str, str]:
                 return program, encoder
     kind = suffix.removeprefix(".").upper()
     lacks = f"; the ffmpeg that is here has no encoder for {kind}" if programs else ""
-    raise VideoError(
+    raise PictureError(
         f"a video needs ffmpeg{lacks}: install it so that it is on the PATH, or the package "
         "imageio-ffmpeg, which brings it: pip install imageio-ffmpeg"
     )
@@ -210,7 +210,7 @@ def video_bytes(
         title: In the file's metadata.
 
     Raises:
-        VideoError: There is no encoder, or it fails.
+        PictureError: There is no encoder, or it fails.
     """
     program, encoder = check_encoder(suffix)
     height, width = drawings[0].shape[:2]
@@ -236,14 +236,14 @@ def video_bytes(
             _encode(command, (frames[k] for k in order), Path(folder) / "said")
             return made.read_bytes()
         except OSError as error:
-            raise VideoError(f"ffmpeg made no video: {reason_of(error)}") from error
+            raise PictureError(f"ffmpeg made no video: {reason_of(error)}") from error
 
 
 def _encode(command: list[str], frames: Iterable[bytes], said: Path) -> None:
     """Give the frames to ffmpeg one by one; what it says goes to a file.
 
     Raises:
-        VideoError: It fails.
+        PictureError: It fails.
     """
     with open(said, "wb") as words:
         running = subprocess.Popen(
@@ -263,7 +263,7 @@ def _encode(command: list[str], frames: Iterable[bytes], said: Path) -> None:
     if code:
         lines = said.read_text("utf-8", "replace").split("\n")
         why = next((line.strip() for line in reversed(lines) if line.strip()), f"code {code}")
-        raise VideoError(f"ffmpeg made no video: {harmless(why)}")
+        raise PictureError(f"ffmpeg made no video: {harmless(why)}")
 
 
 def _programs() -> list[str]:

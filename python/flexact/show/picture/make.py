@@ -21,7 +21,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
 from ...model.data import ModelData
-from ...util.errors import BatchError, require_kind
+from ...util.errors import require_kind
 from ...util.partial import attempted
 from ...util.text import harmless, in_short
 from ..drawing import Drawing, drawing_of, swing
@@ -30,6 +30,7 @@ from ..writers import MOVING, PICTURES, VIDEOS
 from .canvas import Box
 from .figure import compose
 from .files import (
+    PictureError,
     check_encoder,
     gif_bytes,
     load_matplotlib,
@@ -47,10 +48,6 @@ if TYPE_CHECKING:
 
 #: Pixels along a picture, of which matplotlib draws no more.
 _WIDEST = 2**15
-
-
-class PictureError(BatchError):
-    """A picture that cannot be made."""
 
 
 def check_suffix(suffix: str) -> str:
@@ -71,7 +68,7 @@ def check_packages(suffix: str = "") -> None:
 
     Raises:
         PictureError: It is not.
-        VideoError: A video is wanted, and nothing is there that makes one.
+        PictureError: A video is wanted, and nothing is there that makes one.
     """
     if missing := _missing():
         raise PictureError(f"pictures need the package {missing[0]}: pip install matplotlib pillow")
@@ -154,8 +151,8 @@ def draw(
 
     Raises:
         PictureError: A package is missing.
-        SubjectError: Something chosen is not there.
-        ViewError: There is no such view.
+        PictureError: Something chosen is not there.
+        BatchError: There is no such view.
         TypeError: What is given is of another kind than it must be.
         ValueError: The phase or the size is out of range.
     """
@@ -323,7 +320,7 @@ def shape_bytes(
 
     Raises:
         PictureError: There is no such kind of picture, or a package is missing.
-        ViewError: There is no such view.
+        BatchError: There is no such view.
     """
     kind = check_suffix(suffix)
     check_packages(kind)

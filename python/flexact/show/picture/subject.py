@@ -11,7 +11,7 @@ from ...advice.spaces.spaces import Spaces
 from ...analysis.naming import motion_in_words
 from ...analysis.places import listed
 from ...analysis.result import Result
-from ...util.errors import BatchError, require_kind
+from ...util.errors import require_kind
 from ...util.partial import attempted
 from ...util.text import harmless
 from ..drawing import (
@@ -26,11 +26,8 @@ from ..drawing import (
 )
 from ..drawing.selection import require_there, select_motion
 from ..spaces import SpaceShown, holds_shown, spaces_shown
+from .files import PictureError
 from .stress import Stress
-
-
-class SubjectError(BatchError):
-    """A combination of subjects that makes no picture."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +63,9 @@ class Chosen:
         if self.spaces is not None:
             require_kind(self.spaces, Spaces, "spaces are those of a body, as advice has them")
             if self.moves or self.is_stressed:
-                raise SubjectError("a picture shows spaces, or motions and self-stresses, not both")
+                raise PictureError("a picture shows spaces, or motions and self-stresses, not both")
         if self.held and (self.moves or self.is_stressed or self.spaces is not None):
-            raise SubjectError("a picture shows what flexures hold alone")
+            raise PictureError("a picture shows what flexures hold alone")
         for name in ("motion", "freedom", "stress"):
             number = getattr(self, name)
             if number is None or (name == "freedom" and isinstance(number, str)):
@@ -81,11 +78,11 @@ class Chosen:
         if self.quantity is not None:
             require_kind(self.quantity, str, "a quantity is given by its name")
         if self.quantity is not None and quantity_named(self.quantity) is None:
-            raise SubjectError(
+            raise PictureError(
                 f"there is no quantity {self.quantity!r}: it is one of {', '.join(QUANTITIES)}"
             )
         if self.quantity is not None and self.stress is None and self.moves:
-            raise SubjectError("a quantity is of a self-stress; there is none in this picture")
+            raise PictureError("a quantity is of a self-stress; there is none in this picture")
 
     @property
     def moves(self) -> bool:
@@ -105,14 +102,14 @@ def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subj
     there are; else the first degree of freedom that moves; else the drawing.
 
     Raises:
-        NotThereError: Something chosen is not there.
+        BatchError: Something chosen is not there.
     """
     if chosen.moves or chosen.is_stressed:
         return _asked_for(analysis, drawing, chosen)
     if chosen.held:
         held = holds_shown(analysis, drawing.size, drawing.planar)
         if not held:
-            raise SubjectError(
+            raise PictureError(
                 "what each flexure holds is shown of mechanisms that are exactly constrained, "
                 "whose flexures each stand between two bodies"
             )
@@ -138,19 +135,19 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
     self-stress or the drawing, of which the last two do not move.
 
     Raises:
-        NotThereError: What was chosen is not there.
-        SubjectError: Several were chosen.
+        BatchError: What was chosen is not there.
+        PictureError: Several were chosen.
     """
     if chosen.held:
-        raise SubjectError("what flexures hold does not move: it is a PNG or an SVG")
+        raise PictureError("what flexures hold does not move: it is a PNG or an SVG")
     if chosen.spaces is not None:
-        raise SubjectError(
+        raise PictureError(
             "freedom and constraint spaces do not move: they are a PNG, an SVG or a PDF"
         )
     if chosen.moves or chosen.is_stressed:
         made = _asked_for(analysis, drawing, chosen)
         if len(made) > 1:
-            raise SubjectError(
+            raise PictureError(
                 "an animation shows one of them: a motion, a degree of freedom or a self-stress"
             )
         return made[0]
@@ -202,8 +199,8 @@ def refuse_zero(analysis: Result, number: int | None, quantity: str | None) -> N
         quantity: Its name; None: the dominant one, which is not zero.
 
     Raises:
-        SubjectError: It is zero; this names the quantities that are not.
-        NotThereError: There is no such self-stress.
+        PictureError: It is zero; this names the quantities that are not.
+        BatchError: There is no such self-stress.
     """
     if quantity is None:
         return
@@ -219,7 +216,7 @@ def refuse_zero(analysis: Result, number: int | None, quantity: str | None) -> N
     others = [name for each, name in names.items() if values.largest(each) > 0.0]
     are = "is" if len(others) == 1 else "are"
     rest = f"; {listed(others)} {are} not" if others else ""
-    raise SubjectError(f"{harmless(name)} is zero everywhere in self-stress {number}{rest}")
+    raise PictureError(f"{harmless(name)} is zero everywhere in self-stress {number}{rest}")
 
 
 def _heading(words: str) -> str:
