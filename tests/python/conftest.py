@@ -35,7 +35,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--sample",
         action="store_true",
-        help="of what is marked as a grid always the same few cases, and nothing that is nightly",
+        help="of grids and of dear files always the same few cases, and nothing that is nightly",
     )
 
 
@@ -47,16 +47,20 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """With --sample leave out what `make test-all` asks, which a nightly job runs."""
     if not config.getoption("--sample"):
         return
-    grids: dict[str, list[pytest.Item]] = defaultdict(list)
+    groups: dict[tuple[str, int], list[pytest.Item]] = defaultdict(list)
     kept = set()
     for item in items:
-        if item.get_closest_marker("grid"):
-            grids[item.nodeid.partition("[")[0]].append(item)
-        elif not item.get_closest_marker("nightly"):
+        if item.get_closest_marker("nightly"):
+            continue
+        if (dear := item.get_closest_marker("dear")) is not None:
+            groups[item.nodeid.partition("::")[0], dear.args[0]].append(item)
+        elif item.get_closest_marker("grid"):
+            groups[item.nodeid.partition("[")[0], FEW].append(item)
+        else:
             kept.add(item)
-    for name, cases in grids.items():
+    for (name, count), cases in groups.items():
         # The seed is the name, so that workers agree and a run is like the last.
-        kept.update(random.Random(name).sample(cases, min(FEW, len(cases))))
+        kept.update(random.Random(name).sample(cases, min(count, len(cases))))
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])
     items[:] = [item for item in items if item in kept]
 

@@ -14,6 +14,8 @@ from flexact.analysis.differences import Gravity, Side, change_of, side_of, stor
 from flexact.apps.cli.main import main
 from flexact.apps.cli.terminal import ExitCode
 
+pytestmark = pytest.mark.dear(10)
+
 #: Four bars in a square with fixed lower corners, and what makes it stiff.
 SQUARE = """\
 PLTRUSS 1 1 3

@@ -20,6 +20,8 @@ from flexact.costs.designs import Tolerance, in_words
 from flexact.costs.elastic_design import ElasticDesign, ratios
 from flexact.costs.resolve import Places
 
+pytestmark = pytest.mark.dear(20)
+
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 
 

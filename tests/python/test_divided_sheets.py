@@ -37,6 +37,8 @@ from flexact.show.drawing import Form, drawing_of
 from flexact.show.page import page
 from flexact.show.spacar_log import spacar_log
 
+pytestmark = pytest.mark.dear(30)
+
 SHAPES = {
     "straight": Division(),
     "wavy at 1e-12": Division(amplitude=1e-12),

@@ -21,6 +21,8 @@ from flexact.show.page.drawing import frames_of
 from flexact.show.page.viewer import stresses
 from flexact.show.picture import picture_bytes
 
+pytestmark = pytest.mark.dear(25)
+
 #: Deformations of an element whose ends have changed places.
 _SWAPPED = {"BEAM": [0, 1, 3, 2, 5, 4], "PLBEAM": [0, 2, 1, 3, 4, 5]}
 _BOTH_ENDS = {**_SWAPPED, "TRUSS": list(range(6)), "PLTRUSS": list(range(6))}

@@ -21,6 +21,8 @@ from flexact.apps.cli.terminal import ExitCode
 from flexact.deck.rendering import DeckError
 from flexact.model.reading import read_bytes
 
+pytestmark = pytest.mark.dear(10)
+
 pytest.importorskip("pygls")
 START = {"line": 0, "character": 0}
 BROKEN = sorted((ROOT / "input_decks" / "broken").glob("*.dat"))

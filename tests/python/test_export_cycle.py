@@ -18,6 +18,8 @@ from flexact.show.mesh.collection import cycle
 from flexact.show.writers import write
 from flexact.util.outputs import OutputError
 
+pytestmark = pytest.mark.dear(14)
+
 #: A rigid arm of length 2 that turns about z at (1, 0, 0).
 ARM = """\
 HINGE 1 2 4 0 0 1

@@ -20,6 +20,8 @@ from flexact.show.drawing import Moving
 from flexact.show.mesh import mesh_of
 from flexact.show.mesh.file import find_format, mesh_bytes, polydata_bytes
 
+pytestmark = pytest.mark.dear(150)
+
 KINDS = {kind.keyword: kind for kind in element_kinds()}
 BEAMS, LINKS, BARS, JOINTS = (
     {word for word, kind in KINDS.items() if kind.member == member}

@@ -34,6 +34,8 @@ from verdicts import (
 
 from flexact import Analysis, Model, analyse, read_text
 
+pytestmark = pytest.mark.dear(100)
+
 sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
 families: Any = importlib.import_module("families")
 exact_rank: Any = importlib.import_module("exact_rank")

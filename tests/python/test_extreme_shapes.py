@@ -9,6 +9,8 @@ from verdicts import METHODS, assert_all_right, assert_right, counts
 
 from flexact import Analysis, Model, analyse
 
+pytestmark = pytest.mark.dear(12)
+
 
 def assert_modes_are_sound(analysis: Analysis) -> None:
     """Orthonormal bases of the right size that D(c) and its transpose send to zero."""

@@ -20,6 +20,8 @@ from flexact.apps.cli.main import main
 from flexact.core import _core
 from flexact.util import machine as memory
 
+pytestmark = pytest.mark.dear(18)
+
 PAGE = mmap.PAGESIZE
 MB = 2**20
 #: Limits of the address space.

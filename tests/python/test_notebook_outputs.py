@@ -18,6 +18,8 @@ from flexact.show.notebook import output as given
 from flexact.show.notebook.output import script, style, tag
 from flexact.show.page import content_of
 
+pytestmark = pytest.mark.dear(5)
+
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 

@@ -19,6 +19,8 @@ from flexact.show.notebook import output as given
 from flexact.show.notebook.output import script, tag
 from flexact.show.page import page
 
+pytestmark = pytest.mark.dear(3)
+
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 

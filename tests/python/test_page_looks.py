@@ -10,6 +10,8 @@ from browser import Browser
 
 from flexact.show.page.assets import TERMS
 
+pytestmark = pytest.mark.dear(3)
+
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = sorted((ROOT / "docs" / "gallery").glob("*.py"))
 

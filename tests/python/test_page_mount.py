@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from browser import Browser
 
+pytestmark = pytest.mark.dear(2)
+
 ROOT = Path(__file__).resolve().parents[2]
 DECK = ROOT / "input_decks" / "paper" / "five_folded_sheets_symmetric.dat"
 

@@ -17,6 +17,8 @@ from flexact.apps.watch.worker import answer_of
 from flexact.util.errors import FlexactError
 from flexact.util.partial import STRICT, attempted
 
+pytestmark = pytest.mark.dear(12)
+
 
 def _fails(error: Exception) -> int:
     raise error

@@ -28,6 +28,8 @@ pytest.importorskip("PIL")
 from flexact.show.page import page
 from flexact.show.picture import PictureError, draw, picture_bytes
 
+pytestmark = pytest.mark.dear(30)
+
 #: What stands before the statements of the picture block.
 BLOCKS = "END\nHALT\n\nEND\n\nVISUALIZATION\n"
 #: The pale grey of the reference shape.

@@ -12,6 +12,8 @@ from small_decks import BROKEN, DECKS, files_in, write
 from flexact.apps.cli.main import main
 from flexact.util.errors import BatchError
 
+pytestmark = pytest.mark.dear(14)
+
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 

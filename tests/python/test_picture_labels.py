@@ -18,6 +18,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from flexact.advice.constraint_quality import holds_of
 from flexact.show.picture import draw
 
+pytestmark = pytest.mark.dear(4)
+
 GALLERY = sorted((Path(__file__).resolve().parents[2] / "docs" / "gallery").glob("*.py"))
 #: Of a box of words so much may be a line that leads to them.
 _LINE = 0.03

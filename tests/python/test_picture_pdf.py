@@ -24,6 +24,8 @@ pytest.importorskip("PIL")
 
 from flexact.show.picture import picture_bytes
 
+pytestmark = pytest.mark.dear(3)
+
 INPUT = ROOT / "input_decks"
 
 

@@ -26,6 +26,8 @@ pytest.importorskip("PIL")
 
 from PIL import Image
 
+pytestmark = pytest.mark.dear(2)
+
 INPUT = ROOT / "input_decks"
 SIZE = (301, 253)
 

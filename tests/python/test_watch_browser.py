@@ -9,6 +9,8 @@ from browser import Browser
 from test_watch import EXACT, GUIDE, WRONG
 from watched import Watched, until, watching
 
+pytestmark = pytest.mark.dear(3)
+
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:

@@ -26,7 +26,7 @@ from flexact.apps.watch import worker_pool as crew
 from flexact.apps.watch import worker_pool as frames
 from flexact.apps.watch.server import Secrets
 
-pytestmark = pytest.mark.posix
+pytestmark = [pytest.mark.posix, pytest.mark.dear(10)]
 
 NOBODY = 65534
 #: Reads what every user may read of the processes that there are.

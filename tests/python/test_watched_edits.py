@@ -16,6 +16,8 @@ from watched import Watched, until, watching
 
 import flexact
 
+pytestmark = pytest.mark.dear(4)
+
 DECK = (
     "% a guide\nBEAM 1 1 2 3 4 0 1 0 % sheet 1\nBEAM 2 5 6 7 8 0 1 0 % sheet 2\n"
     "BEAM 3 3 4 7 8 % stage\nX 3 0.1 0 0\nX 5 0 0.05 0\nX 7 0.1 0.05 0\nFIX 1\nFIX 2\nFIX 5\n"
