@@ -25,6 +25,8 @@ from flexact.advice.causes.causes import causes_of
 from flexact.advice.causes.gradients import generic_rank
 from flexact.model.variation import with_positions
 
+pytestmark = pytest.mark.dear(70)
+
 #: Places of both ends of flexures, the one at the ground first.
 Ends = Sequence[tuple[Sequence[float], Sequence[float]]]
 

@@ -23,6 +23,8 @@ from flexact.analysis.change import Change
 from flexact.apps.cli.main import main
 from flexact.model.editing import edited_deck
 
+pytestmark = pytest.mark.dear(40)
+
 INPUT = ROOT / "input_decks"
 ADVISED = validator("advised")
 #: The deck of README with nothing declared.

@@ -22,6 +22,8 @@ from flexact.sweeps.batch import deck_row
 from flexact.sweeps.columns import row_of
 from flexact.util.partial import STRICT
 
+pytestmark = pytest.mark.dear(16)
+
 COLUMNS = (
     *("deck", "verdict", "under_constrained", "over_constrained", "rank", "rows", "columns"),
     *("certainty", "gap", "largest_zero", "smallest_singular_value", "condition_number"),

@@ -15,6 +15,8 @@ from test_cli_process import process_environment
 from flexact.sweeps.journal import Journal, JournalError
 from flexact.util.outputs import OutputError
 
+pytestmark = pytest.mark.dear(15)
+
 HEAD = {"journal": 1, "decks": ["\u03b1", "\udcff.dat"]}
 RECORDS = [{"row": [k, 0.1 * k, None, float("inf")], "text": "x\ny"} for k in range(5)]
 

@@ -25,6 +25,8 @@ from flexact.apps.cli.main import main
 from flexact.sweeps.journal import Journal
 from flexact.util.outputs import OutputError
 
+pytestmark = pytest.mark.dear(14)
+
 KINDS = (*DECKS.values(), BROKEN)
 
 

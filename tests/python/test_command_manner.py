@@ -15,7 +15,7 @@ from small_decks import BROKEN, write
 from flexact.apps.cli.main import main
 from flexact.util.text import columns, refitted, table, wrapped
 
-pytestmark = pytest.mark.dear(10)
+pytestmark = pytest.mark.dear(6)
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"

@@ -19,6 +19,8 @@ from flexact import Model, Table, Verdict, analyse, sweep
 from flexact.sweeps.evaluate import scaled_jacobian
 from flexact.util.roots import Zero, minimum, sign_change
 
+pytestmark = pytest.mark.dear(50)
+
 DECKS = Path(__file__).parents[2] / "input_decks"
 BASE = [(math.cos(a), math.sin(a), 0.0) for a in np.radians((0, 120, 240))]
 

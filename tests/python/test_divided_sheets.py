@@ -37,7 +37,7 @@ from flexact.show.drawing import Form, drawing_of
 from flexact.show.page import page
 from flexact.show.spacar_log import spacar_log
 
-pytestmark = pytest.mark.dear(30)
+pytestmark = pytest.mark.dear(15)
 
 SHAPES = {
     "straight": Division(),

@@ -20,6 +20,8 @@ from flexact.show.drawing import (
 from flexact.show.drawing.movement import moved_by_screws
 from flexact.util.rotations import matrix_of, vector_of
 
+pytestmark = pytest.mark.dear(100)
+
 
 def moved(name: str, index: int = 0) -> tuple[flexact.Analysis, Drawing, Movement]:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))

@@ -15,6 +15,8 @@ from flexact.sweeps import dask as dask_client
 from flexact.sweeps.chunks import EngineError
 from flexact.sweeps.running import Done, results_of
 
+pytestmark = pytest.mark.dear(4)
+
 distributed = pytest.importorskip("distributed")
 
 MANY = 1000

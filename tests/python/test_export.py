@@ -15,6 +15,8 @@ import flexact
 from flexact.apps.cli.main import main
 from flexact.show.drawing.selection import select_motion
 
+pytestmark = pytest.mark.dear(20)
+
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 #: Two bars in line: two motions in space.
 TWO_MOTIONS = "TRUSS 1 1 2\nTRUSS 2 2 3\nX 1 -1 0 0\nX 3 1 0 0\nFIX 1\nFIX 3\n"

@@ -15,6 +15,8 @@ from flexact.model.reading import read_text
 from flexact.motion.extent import extent_in_words, finite_in_words
 from flexact.motion.finiteness import EvidenceKind, Extents, Kind, extents_of
 
+pytestmark = pytest.mark.dear(30)
+
 FINITE, BEGINS = Kind.FINITE, Kind.INFINITESIMAL
 CERTIFIED, FOLLOWED, FITTED = (
     EvidenceKind.CERTIFIED,

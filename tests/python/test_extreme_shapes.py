@@ -9,7 +9,7 @@ from verdicts import METHODS, assert_all_right, assert_right, counts
 
 from flexact import Analysis, Model, analyse
 
-pytestmark = pytest.mark.dear(12)
+pytestmark = pytest.mark.dear(6)
 
 
 def assert_modes_are_sound(analysis: Analysis) -> None:

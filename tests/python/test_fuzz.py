@@ -46,6 +46,7 @@ def test_the_package_takes_every_deck(part: int) -> None:
     assert {"refused", "analysed"} <= outcomes
 
 
+@pytest.mark.nightly
 def test_the_core_takes_every_deck_with_sanitizers() -> None:
     if not sanitized.PROGRAM.exists():
         pytest.skip("needs the program that tools/test_core.sh builds")

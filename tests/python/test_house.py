@@ -48,6 +48,9 @@ def is_for_type_checkers(node: ast.AST) -> bool:
 
 def nodes_of(tree: ast.AST, typed: bool) -> Iterator[ast.AST]:
     for node in ast.iter_child_nodes(tree):
+        # In expressions nothing is imported.
+        if isinstance(node, ast.expr):
+            continue
         if typed or not is_for_type_checkers(node):
             yield node
             yield from nodes_of(node, typed)

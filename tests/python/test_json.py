@@ -25,6 +25,8 @@ import flexact
 from flexact import Analysis, Model, analyse
 from flexact.apps.cli.main import main
 
+pytestmark = pytest.mark.dear(80)
+
 INPUT = ROOT / "input_decks"
 PATHS = sorted(path for path in INPUT.rglob("*.dat") if path.parent.name != "broken")
 

@@ -18,7 +18,7 @@ from flexact.show.notebook import output as given
 from flexact.show.notebook.output import script, style, tag
 from flexact.show.page import content_of
 
-pytestmark = pytest.mark.dear(5)
+pytestmark = pytest.mark.dear(3)
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")

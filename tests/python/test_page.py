@@ -24,6 +24,8 @@ from flexact.show.page import Entry, broken_page, content, index_page, page
 from flexact.show.page import viewer as viewer_data
 from flexact.show.page.assets import SCRIPTS, asset, json_for_script, script
 
+pytestmark = pytest.mark.dear(16)
+
 PAGE = ROOT / "python" / "flexact" / "show" / "page"
 CLAMPED = ROOT / "input_decks" / "paper" / "folded_sheet_clamped.dat"
 

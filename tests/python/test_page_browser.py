@@ -14,7 +14,7 @@ import flexact
 from flexact.advice.describe import verdict_in_words
 from flexact.show.page import broken_page, page
 
-pytestmark = pytest.mark.dear(7)
+pytestmark = pytest.mark.dear(5)
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 SHARED = "input_decks/paper/folded_sheet_clamped.dat"

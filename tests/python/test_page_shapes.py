@@ -14,7 +14,7 @@ from flexact.core.elements import NodeKind
 from flexact.show.drawing import QUANTITIES, Drawing, drawing_of, move, resultants, solid, stations
 from flexact.show.drawing.selection import way_of
 
-pytestmark = pytest.mark.dear(3)
+pytestmark = pytest.mark.dear(2)
 
 #: Sheets, wires, bars, rigid links, hinges; in space and in the plane; on paths and on screws.
 DECKS = (

@@ -17,7 +17,7 @@ from flexact.apps.watch.worker import answer_of
 from flexact.util.errors import FlexactError
 from flexact.util.partial import STRICT, attempted
 
-pytestmark = pytest.mark.dear(12)
+pytestmark = pytest.mark.dear(6)
 
 
 def _fails(error: Exception) -> int:

@@ -29,7 +29,7 @@ from flexact.analysis.screws import ScrewKind
 from flexact.analysis.ways import Coordinate, on_motions
 from flexact.apps.cli.main import main
 
-pytestmark = pytest.mark.dear(80)
+pytestmark = pytest.mark.dear(50)
 
 DECK = "BEAM 1 1 2 3 4 0 1 0\nX 3 0.1 0 0\nFIX 1\nFIX 2\nRLSE 1 2 5 6\nEND\nHALT\n"
 

@@ -28,7 +28,7 @@ pytest.importorskip("PIL")
 from flexact.show.page import page
 from flexact.show.picture import PictureError, draw, picture_bytes
 
-pytestmark = pytest.mark.dear(30)
+pytestmark = pytest.mark.dear(20)
 
 #: What stands before the statements of the picture block.
 BLOCKS = "END\nHALT\n\nEND\n\nVISUALIZATION\n"

@@ -16,7 +16,7 @@ import flexact
 from flexact.apps.cli.main import main
 from flexact.apps.cli.terminal import ExitCode
 
-pytestmark = pytest.mark.dear(5)
+pytestmark = pytest.mark.dear(4)
 
 ROOT = Path(__file__).resolve().parents[2]
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"

@@ -13,6 +13,8 @@ import flexact
 from flexact import Trace, trace
 from flexact.motion import Ending
 
+pytestmark = pytest.mark.dear(18)
+
 DECKS = ROOT / "input_decks"
 
 

@@ -14,6 +14,8 @@ from pathlib import Path
 import pytest
 from watched import Events, Watched, ask, is_running, until, watching
 
+pytestmark = pytest.mark.dear(12)
+
 #: Two sheets that guide a stage; the README says that it is over-constrained by 1.
 GUIDE = """\
 BEAM 1  1 2 3 4  0 1 0     % sheet 1

@@ -70,12 +70,12 @@ def _module(name: str) -> ModuleType:
     try:
         return import_module(name)
     except ImportError as error:
-        what, package = "mesh files need", name
-        if name != "meshio":
-            what, package = "mesh format vtp needs", "vtk"
-        raise MeshFormatError(
-            f"{what} the package {package}: pip install {package} ({error})"
-        ) from error
+        needs = (
+            "mesh files need the package meshio: pip install meshio"
+            if name == "meshio"
+            else "mesh format vtp needs the package vtk: pip install vtk"
+        )
+        raise MeshFormatError(f"{needs} ({error})") from error
 
 
 def mesh_bytes(mesh: Mesh, form: str) -> bytes:
