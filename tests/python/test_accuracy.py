@@ -33,7 +33,7 @@ from flexact.show.page.content import verdict_of_side
 from flexact.show.picture.make import _words as picture_words
 from flexact.show.spacar_log import spacar_log
 
-pytestmark = pytest.mark.dear(40)
+pytestmark = pytest.mark.dear(30)
 
 TEN_MICROMETRES = 1e-5
 GREEN = Verdict.EXACT.colour

@@ -24,6 +24,8 @@ from flexact.advice.causes.words import (
 )
 from flexact.analysis.naming import plain
 
+pytestmark = pytest.mark.dear(16)
+
 DECKS = [
     "flexures/five_wires_lower_two_parallel",
     "flexures/parallel_guide_undeclared",

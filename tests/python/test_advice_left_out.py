@@ -13,6 +13,8 @@ import flexact
 from flexact import Analysis, Model
 from flexact.util.partial import STRICT
 
+pytestmark = pytest.mark.dear(12)
+
 
 def guide() -> Analysis:
     """A stage on two parallel sheets, nothing of which is declared."""

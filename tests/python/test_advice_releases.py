@@ -33,7 +33,7 @@ from flexact.analysis import ways as leverage
 from flexact.analysis.naming import Named, plain
 from flexact.core.elements import Class
 
-pytestmark = pytest.mark.dear(70)
+pytestmark = pytest.mark.dear(50)
 
 #: Beams without vectors on a lattice of 0.05, many of whose default axes tie.
 TIES = """\

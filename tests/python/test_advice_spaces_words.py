@@ -16,6 +16,8 @@ from flexact.advice.spaces.spaces import spaces_lines, spaces_of
 from flexact.advice.spaces.subjects import Freed
 from flexact.analysis.naming import plain
 
+pytestmark = pytest.mark.dear(15)
+
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
 #: What may change with place, scale and turn: points, directions, planes and pitches.
 _CHANGES = (

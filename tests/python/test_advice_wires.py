@@ -23,6 +23,8 @@ from flexact.analysis.change import AddedWire, Change
 from flexact.analysis.screws import ScrewKind
 from flexact.model.parts.parts import PartKind
 
+pytestmark = pytest.mark.dear(40)
+
 X, Y, Z = np.eye(3)
 MODELS = {
     **{name: on_wires(wires) for name, wires in WIRES.items()},

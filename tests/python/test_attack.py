@@ -25,6 +25,8 @@ from attack.truth import Counts, counts_of_text, is_prime, primes
 import flexact
 from flexact.core.arrays import FloatArray
 
+pytestmark = pytest.mark.dear(100)
+
 SEED = 2024
 #: Of each family; all methods together take about 15 s.
 DECKS = 40

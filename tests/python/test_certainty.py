@@ -21,6 +21,8 @@ import flexact
 from flexact import Analysis, Model, analyse
 from flexact.core.arrays import FloatArray
 
+pytestmark = pytest.mark.dear(120)
+
 sys.path.append(str(ROOT / "tests" / "benchmarks"))
 families: Any = importlib.import_module("families")
 

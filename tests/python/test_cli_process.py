@@ -12,6 +12,8 @@ from small_decks import json_lines, write
 
 import flexact
 
+pytestmark = pytest.mark.dear(14)
+
 
 def command(
     *arguments: object, environment: Mapping[str, str] | None = None

@@ -22,7 +22,7 @@ from flexact.apps.cli.command import VERBS, parser_of
 from flexact.apps.cli.main import main
 from flexact.apps.cli.terminal import ExitCode
 
-pytestmark = pytest.mark.dear(60)
+pytestmark = pytest.mark.dear(40)
 
 ROOT = Path(__file__).parents[2]
 #: They serve until they are stopped, are for shells, or take long: their examples are read alone.

@@ -14,7 +14,7 @@ from flexact.analysis.differences import Gravity, Side, change_of, side_of, stor
 from flexact.apps.cli.main import main
 from flexact.apps.cli.terminal import ExitCode
 
-pytestmark = pytest.mark.dear(10)
+pytestmark = pytest.mark.dear(5)
 
 #: Four bars in a square with fixed lower corners, and what makes it stiff.
 SQUARE = """\

@@ -20,7 +20,7 @@ from flexact.costs.designs import Tolerance, in_words
 from flexact.costs.elastic_design import ElasticDesign, ratios
 from flexact.costs.resolve import Places
 
-pytestmark = pytest.mark.dear(20)
+pytestmark = pytest.mark.dear(12)
 
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 

@@ -17,7 +17,7 @@ from test_page import Elements
 from flexact.costs.page import page_bytes
 from flexact.show.drawing import drawing_of, swing
 
-pytestmark = pytest.mark.dear(5)
+pytestmark = pytest.mark.dear(3)
 
 Keys = pytest.importorskip("selenium.webdriver").Keys
 #: Words of the charts that lie over each other, by their boxes as drawn.

@@ -29,7 +29,7 @@ from flexact.costs.charts import (
 from flexact.costs.designs import CostValues, Number, Released
 from flexact.show.charts import STYLES, apart, exact_scale, linear_scale, log_scale, told, unit_for
 
-pytestmark = pytest.mark.dear(14)
+pytestmark = pytest.mark.dear(8)
 
 matplotlib = pytest.importorskip("matplotlib")
 SVG = "{http://www.w3.org/2000/svg}"

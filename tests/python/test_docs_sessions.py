@@ -16,7 +16,7 @@ from wording import AsStored
 from flexact.advice.spaces.screws import FamilyKind
 from flexact.apps.cli.main import main
 
-pytestmark = pytest.mark.dear(6)
+pytestmark = pytest.mark.dear(3)
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if steps(page)]

@@ -17,6 +17,8 @@ from flexact.show.page import page
 from flexact.show.picture import PictureError, draw, has_packages, picture_bytes
 from flexact.show.spaces import MADE_BY, SpaceShape, dashes, shape_of_space
 
+pytestmark = pytest.mark.dear(13)
+
 DECKS = ROOT / "input_decks"
 #: With translations and parallel lines, lines that meet one, a screw, one direction.
 NAMES = (

@@ -20,7 +20,7 @@ from crossing.judge import offence_of
 from crossing.mechanisms import CHANGES, Deck, mechanisms, sources
 from crossing.outputs import WITHOUT_DECK, Output, outputs
 
-pytestmark = pytest.mark.dear(12)
+pytestmark = pytest.mark.dear(10)
 
 SEED, PARTS = 28, 4
 #: Those that take long are in the crossing alone, but for one that moves.

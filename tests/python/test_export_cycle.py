@@ -18,7 +18,7 @@ from flexact.show.mesh.collection import cycle
 from flexact.show.writers import write
 from flexact.util.outputs import OutputError
 
-pytestmark = pytest.mark.dear(14)
+pytestmark = pytest.mark.dear(8)
 
 #: A rigid arm of length 2 that turns about z at (1, 0, 0).
 ARM = """\

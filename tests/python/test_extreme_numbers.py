@@ -16,6 +16,8 @@ from flexact import Analysis, Model, analyse
 from flexact.apps.cli.main import main
 from flexact.util import machine as memory
 
+pytestmark = pytest.mark.dear(25)
+
 LEAST = 5e-324
 HUGE = 1.7976931348623157e308
 

@@ -12,7 +12,7 @@ from small_decks import BROKEN, DECKS, write
 from flexact.apps.cli.main import main
 from flexact.show.page import Entry, index_page
 
-pytestmark = pytest.mark.dear(5)
+pytestmark = pytest.mark.dear(3)
 
 Keys = pytest.importorskip("selenium.webdriver").Keys
 SHOWN = """return Array.from(document.querySelectorAll(".card")).filter(card => !card.hidden)

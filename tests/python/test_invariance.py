@@ -14,6 +14,8 @@ from reference_decks import NAMES, REFERENCE, text_of, transform
 
 import flexact
 
+pytestmark = pytest.mark.dear(120)
+
 # From a turn about all axes to half a turn, which leaves every coordinate on its axis: decks that
 # state single coordinates can be turned by the later ones only.
 TURNS = {

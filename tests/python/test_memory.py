@@ -20,7 +20,7 @@ from flexact.apps.cli.main import main
 from flexact.core import _core
 from flexact.util import machine as memory
 
-pytestmark = pytest.mark.dear(18)
+pytestmark = pytest.mark.dear(10)
 
 PAGE = mmap.PAGESIZE
 MB = 2**20

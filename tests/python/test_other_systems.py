@@ -31,6 +31,8 @@ from flexact.util import interruption, windows
 from flexact.util import machine as memory
 from flexact.util import text as plain_text
 
+pytestmark = pytest.mark.dear(18)
+
 HERE = Path(__file__).parent
 #: Characters of every kind that our words, or a deck, may hold.
 ODD = "5 \xb5m \N{RIGHTWARDS ARROW} 2 m\xb2 \xb1 1\xb0"

@@ -17,6 +17,8 @@ from flexact.advice.describe import verdict_in_words
 from flexact.analysis.naming import Named, sentence
 from flexact.show.page import before_and_after
 
+pytestmark = pytest.mark.dear(4)
+
 Keys = pytest.importorskip("selenium.webdriver").Keys
 PAPER = ROOT / "input_decks" / "paper"
 CAMERAS = (

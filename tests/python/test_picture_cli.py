@@ -12,7 +12,7 @@ from small_decks import BROKEN, DECKS, files_in, write
 from flexact.apps.cli.main import main
 from flexact.util.errors import BatchError
 
-pytestmark = pytest.mark.dear(14)
+pytestmark = pytest.mark.dear(8)
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")

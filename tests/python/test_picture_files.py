@@ -25,7 +25,7 @@ from PIL import Image
 from flexact.show.picture import PictureError, picture_bytes
 from flexact.show.writers import PICTURES
 
-pytestmark = pytest.mark.dear(16)
+pytestmark = pytest.mark.dear(10)
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 SVG = "{http://www.w3.org/2000/svg}"

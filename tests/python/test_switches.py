@@ -26,6 +26,8 @@ from flexact.apps.watch.editable_model import (
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 
+pytestmark = pytest.mark.dear(150)
+
 #: How many places of a deck are switched.
 MOST = 6
 CLASSES = ("deformation_class", "coordinate_class")

@@ -13,7 +13,7 @@ import flexact
 from flexact import Trace, trace
 from flexact.motion import Ending
 
-pytestmark = pytest.mark.dear(18)
+pytestmark = pytest.mark.dear(12)
 
 DECKS = ROOT / "input_decks"
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from watched import Events, Watched, ask, is_running, until, watching
 
-pytestmark = pytest.mark.dear(12)
+pytestmark = pytest.mark.dear(9)
 
 #: Two sheets that guide a stage; the README says that it is over-constrained by 1.
 GUIDE = """\

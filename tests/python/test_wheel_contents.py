@@ -14,6 +14,8 @@ from types import ModuleType
 
 import pytest
 
+pytestmark = pytest.mark.dear(8)
+
 ROOT = Path(__file__).resolve().parents[2]
 LICENCES = ROOT / "licenses"
 TEXTS = {path.name: path.read_bytes() for path in LICENCES.iterdir()}
