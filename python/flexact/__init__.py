@@ -224,7 +224,7 @@ def __getattr__(name: str) -> object:
     """A public name, loaded from its module."""
     if name not in _HOME_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    _load("flexact.core.narrow").prepare()
+    _load("flexact.util.machine").prepare_libraries()
     value: object = getattr(_load(f"flexact.{_HOME_OF[name]}"), name)
     globals()[name] = value
     return value

@@ -18,7 +18,16 @@ import numpy as np
 
 from ..analysis.change import Change
 from ..analysis.mode_words import internal_in_words
-from ..analysis.naming import Line, Pieces, counted, counts_in_words, filled, plain
+from ..analysis.naming import (
+    Line,
+    Pieces,
+    counted,
+    counts_in_words,
+    filled,
+    in_a_row,
+    plain,
+    sentence_of,
+)
 from ..analysis.naming import sentence as line_of
 from ..analysis.places import listed
 from ..analysis.result import Result
@@ -44,7 +53,6 @@ from .releases.releases import (
 )
 from .spaces.spaces import Spaces, spaces_lines, spaces_of
 from .step import After, Purpose, Step, together, tried
-from .words import in_a_row, sentence
 
 #: What has a statement.
 _Made = TypeVar("_Made")
@@ -446,7 +454,7 @@ def _modes(
 def _both(advice: Advice) -> Section:
     """Which constraint is spent twice while which motion is free."""
     both = both_in_words(advice.analysis, advice.causes)
-    return ((Line(sentence(both)), False),) if both else ()
+    return ((Line(sentence_of(both)), False),) if both else ()
 
 
 def _steps(advice: Advice, most: int | None) -> Iterator[Section]:

@@ -17,7 +17,17 @@ from ..analysis.mode_words import (
     pressing_in_words,
     stress_in_parts,
 )
-from ..analysis.naming import Named, Piece, Pieces, in_words, named_node
+from ..analysis.naming import (
+    Named,
+    Piece,
+    Pieces,
+    begun,
+    ended,
+    in_a_row,
+    in_words,
+    named_node,
+    sentence_of,
+)
 from ..analysis.places import joint_node, with_article
 from ..analysis.result import Motion, Result, SelfStress
 from ..analysis.screws import Screw
@@ -25,7 +35,6 @@ from ..motion.extent import Extent, extent_in_words
 from ..util.records import Frozen, cached_property
 from .causes.cause import Cause, Causes
 from .causes.words import cause_of_motion_in_words, cause_of_stress_in_words
-from .words import begun, ended, in_a_row, sentence
 
 #: How many deformations of a large model are told.
 _MOST_TOLD = 4
@@ -46,7 +55,7 @@ def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
         return ended(("Most stressed are ", *joined(told)))
     parts = stress_in_parts(stress, len(stress.parts))
     if len(parts) == 1:
-        return sentence(("stressed in itself is ", *parts[0]))
+        return sentence_of(("stressed in itself is ", *parts[0]))
     many = in_words(len(parts)).capitalize()
     return ended((f"{many} parts are stressed against each other: ", *joined(parts)))
 
@@ -156,9 +165,9 @@ class AdvisedMotion(Frozen):
         """What moves, how far it goes, and why it is there."""
         result, index = _result_of(self.motion), self.motion.index
         return (
-            sentence(motion_in_sentence(result, self.motion)),
-            sentence(extent_in_words(result, self.extent)),
-            sentence(cause_of_motion_in_words(result, index, self.causes)),
+            sentence_of(motion_in_sentence(result, self.motion)),
+            sentence_of(extent_in_words(result, self.extent)),
+            sentence_of(cause_of_motion_in_words(result, index, self.causes)),
         )
 
     @property
@@ -170,7 +179,7 @@ class AdvisedMotion(Frozen):
             is_one = len(told) == 1 and len(told[0].names) == 1
         stopped = f": nothing stops {'it' if is_one else 'them'}"
         moves = motion_in_sentence(result, motion)
-        return in_a_row((sentence((*moves, stopped)), *self.sentences[1:]))
+        return in_a_row((sentence_of((*moves, stopped)), *self.sentences[1:]))
 
     def __repr__(self) -> str:
         """Number and words."""
@@ -199,8 +208,8 @@ class AdvisedStress(Frozen):
         """Which parts fight over what, and why it is there."""
         result, index = _result_of(self.stress), self.stress.index
         return (
-            sentence(stress_in_sentence(result, self.stress)),
-            sentence(cause_of_stress_in_words(result, index, self.causes)),
+            sentence_of(stress_in_sentence(result, self.stress)),
+            sentence_of(cause_of_stress_in_words(result, index, self.causes)),
         )
 
     @property

@@ -11,13 +11,12 @@ from typing import NamedTuple
 
 from ..analysis.change import Change
 from ..analysis.decomposition import Asked
-from ..analysis.naming import Pieces, counts_in_words, plain
+from ..analysis.naming import Pieces, counts_in_words, plain, sentence_of
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import Verdict
 from ..deck.rendering import model_error
 from ..model.model import Model
 from ..util.records import Frozen, cached_property
-from .words import sentence
 
 
 class Purpose(str, Enum):
@@ -78,7 +77,7 @@ class Step(Frozen):
     @cached_property
     def pieces(self) -> Pieces:
         """What is done, as a sentence."""
-        return sentence(self.words())
+        return sentence_of(self.words())
 
     @property
     def outcome(self) -> str:

@@ -16,6 +16,7 @@ ByteArray = NDArray[np.int8]
 BoolArray = NDArray[np.bool_]
 #: Whole numbers of any size, such as indices.
 IndexArray = NDArray[np.integer]
+AnyArray = NDArray[Any]
 
 #: What numpy makes numbers of all the same.
 _NO_NUMBER = (str, bytes, type(None))

@@ -9,15 +9,23 @@ from __future__ import annotations
 import math
 import sys
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..util.machine import address_space
 from ..util.records import read_only
 from . import _core
-from .arrays import Basis, ByteArray, FloatArray, IntArray, PackedModel, room_for, unpacked
+from .arrays import (
+    AnyArray,
+    Basis,
+    ByteArray,
+    FloatArray,
+    IntArray,
+    PackedModel,
+    room_for,
+    unpacked,
+)
 from .raw import (
     ElementKind,
     Meaning,
@@ -177,7 +185,7 @@ def read_deck(text: bytes) -> RawDeck:
     views = [each[..., :count].T for each, count in zip(said, many, strict=True)]
     views[1] = views[1] == 1
 
-    def of(first: int, last: int) -> dict[str, NDArray[Any]]:
+    def of(first: int, last: int) -> dict[str, AnyArray]:
         return {name: views[k].copy() for k, name in enumerate(_SAID[first:last], first)}
 
     return RawDeck(
@@ -230,7 +238,7 @@ class _Room(NamedTuple):
         """What it takes."""
         return (60 + 96 * self.is_valued) * self.nodes + (80 + 168 * self.is_valued) * self.elements
 
-    def made(self) -> tuple[NDArray[Any], ...]:
+    def made(self) -> tuple[AnyArray, ...]:
         """The arrays, as the core takes them; it wants none without a column."""
         nodes, elements = max(1, self.nodes), max(1, self.elements)
         of_node, of_element = (n if self.is_valued else 1 for n in (nodes, elements))

@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from numpy.typing import NDArray
-
-from .arrays import Basis, BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
+from .arrays import AnyArray, Basis, BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
 
 
 class Meaning(NamedTuple):
@@ -69,7 +67,7 @@ class RawDeck(NamedTuple):
     """(2, nn) likewise of each node's, the comment of its X statement."""
     planar: bool
     problems: RawDiagnostics
-    appearance: dict[str, NDArray[Any]]
+    appearance: dict[str, AnyArray]
     """The fields of an `Appearance`; none where the deck has nothing of it."""
     properties: dict[str, FloatArray]
     """Those of `Properties`, likewise."""

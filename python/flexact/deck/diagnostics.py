@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.arrays import ByteArray, IntArray
+from ..core.arrays import ByteArray, IndexArray, IntArray
 from ..core.raw import RawDiagnostics
 from ..util.records import Word, cached_property
 
@@ -43,7 +42,7 @@ class Source:
     name: str
 
     @cached_property
-    def _breaks(self) -> NDArray[np.intp]:
+    def _breaks(self) -> IndexArray:
         return np.flatnonzero(np.frombuffer(self.text, np.int8) == _LINE_FEED)
 
     def line(self, number: int) -> bytes:

@@ -22,6 +22,7 @@ from ...analysis.naming import (
     named_element,
     named_node,
     plain,
+    row_of,
 )
 from ...analysis.places import axis_words, end_words, listed, part_words, with_article
 from ...analysis.result import Result
@@ -29,7 +30,6 @@ from ...core.arrays import FloatArray
 from ...core.elements import AXES, Class, coordinate_name
 from ...model.parts.parts import Part, PartKind
 from ...util.groups import grouped
-from ..words import row_of
 from .cause import Cause, CauseKind, Causes, Relation
 
 #: What is below this part of the largest, or of what is added up, is none.

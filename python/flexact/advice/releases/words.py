@@ -20,6 +20,7 @@ from ...analysis.naming import (
     named_element,
     named_node,
     plain,
+    row_of,
 )
 from ...analysis.places import (
     bending_of,
@@ -40,7 +41,6 @@ from ...model.parts.parts import Part, PartKind
 from ...util.groups import grouped
 from ...util.text import harmless
 from ..step import Purpose, Step
-from ..words import row_of
 
 #: Number of an element and a deformation of it, from 1, of the model as given.
 Deformation = tuple[int, int]

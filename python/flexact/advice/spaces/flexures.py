@@ -18,7 +18,7 @@ from itertools import islice
 import numpy as np
 
 from ...analysis.change import AddedSheet, AddedWire, Change
-from ...analysis.naming import Named, Pieces
+from ...analysis.naming import Named, Pieces, row_of
 from ...analysis.places import axis_words, direction_words, node_words, others_words, place_words
 from ...analysis.result import Result
 from ...analysis.screws import sense_of
@@ -28,7 +28,6 @@ from ...util.errors import FlexactError
 from ...util.groups import distinct
 from ...util.records import Frozen
 from ..step import Purpose, Step, after, analysed
-from ..words import row_of
 from .screws import SAME, Family, FamilyKind, ScrewSpace
 from .subjects import Attachment, Freed, Site, Subject
 from .wanted_motion import Aim

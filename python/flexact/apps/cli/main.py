@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:
         end_at_once()
     try:
-        load("flexact.core.narrow").prepare()
+        load("flexact.util.machine").prepare_libraries()
         code: int = load("flexact.apps.cli.command").run(arguments)
         return code
     except (MemoryError, ImportError) as error:

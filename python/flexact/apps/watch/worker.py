@@ -22,13 +22,13 @@ from typing import Any, BinaryIO
 
 from ...analysis.decomposition import asked_for
 from ...analysis.result import Result, result_of
-from ...core import narrow
 from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
 from ...deck.rendering import ProblemsError
 from ...model.model import Model
 from ...model.reading import file_bytes, read_file
 from ...show.page.content import broken_content
 from ...show.window import take_with
+from ...util.machine import prepare_libraries
 from ...util.partial import why
 from .scene import SCRIPT, Answer, Broken, ResultSummary, errors_part, shown_of, summary_of
 from .worker_pool import receive, send
@@ -290,7 +290,7 @@ def answer_of(
 
 def main() -> None:
     """Answer jobs until nobody asks any more; what scripts print goes along with the answers."""
-    narrow.prepare()
+    prepare_libraries()
     jobs, line = _lines()
     said = _Said(line)
     sys.stdout = io.TextIOWrapper(said, "utf-8", "replace", line_buffering=True)

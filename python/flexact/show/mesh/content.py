@@ -9,11 +9,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...analysis.result import Result, SelfStress
 from ...analysis.verdict_words import certainty_word, verdict_word
-from ...core.arrays import BoolArray, FloatArray
+from ...core.arrays import AnyArray, BoolArray, FloatArray, IndexArray
 from ...model.parts.forms import forms_of
 from ...util.partial import attempted
 from ...util.records import Frozen, cached_property
@@ -61,7 +60,7 @@ _TEXTS = ("verdict", "certainty", "element_names")
 MOST_COMPONENTS = 2_000
 
 
-def field_data_of(analysis: Result) -> dict[str, NDArray[np.generic]]:
+def field_data_of(analysis: Result) -> dict[str, AnyArray]:
     """The field data of a result's mesh."""
     data, margin = analysis.given, analysis.margin
     lengths = (margin.length, margin.angle)
@@ -81,7 +80,7 @@ def field_data_of(analysis: Result) -> dict[str, NDArray[np.generic]]:
     }
 
 
-def as_bytes(text: str) -> NDArray[np.uint8]:
+def as_bytes(text: str) -> AnyArray:
     """A text as an array."""
     return np.frombuffer(text.encode("utf-8", "backslashreplace"), np.uint8)
 
@@ -92,7 +91,7 @@ def spelt(name: str) -> str:
     return lines.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
-def component_names(data: Mapping[str, NDArray[np.generic]]) -> dict[str, list[str]]:
+def component_names(data: Mapping[str, AnyArray]) -> dict[str, list[str]]:
     """What ParaView is to call the components of field data: texts as they read, units, names."""
     texts = {name: bytes(data[name].tobytes()).decode() for name in _TEXTS}
     names = texts["element_names"].split("\n")[:-1]
@@ -104,8 +103,6 @@ def component_names(data: Mapping[str, NDArray[np.generic]]) -> dict[str, list[s
         "element_number": names if data["element_number"].size <= MOST_COMPONENTS else [],
     }
 
-
-Integers = NDArray[np.int64]
 
 #: `form` of a support is this and its `Support`; behind them a declared translation, and rotation.
 SUPPORT = max(Form)
@@ -134,9 +131,9 @@ class Surface(NamedTuple):
     """
 
     points: FloatArray
-    of: Integers
-    quads: Integers
-    owner: Integers
+    of: IndexArray
+    quads: IndexArray
+    owner: IndexArray
 
 
 def _joined(surfaces: Iterable[Surface]) -> Surface:
@@ -159,7 +156,7 @@ _WORDS = {
 }
 
 
-def _tube_quads(rings: FloatArray) -> Integers:
+def _tube_quads(rings: FloatArray) -> IndexArray:
     """(k, 4) corners of the faces of rings (r, c, 3) that are closed at both ends.
 
     Seen from outside they go against the clock.
@@ -231,12 +228,12 @@ class Layout(Frozen):
     drawing: Drawing
     points: FloatArray
     frame: FloatArray
-    node: Integers
-    axis_point: Integers
+    node: IndexArray
+    axis_point: IndexArray
     has_stress: BoolArray
     strips: tuple[tuple[np.ndarray, FloatArray], ...]
-    corners: tuple[Integers, Integers, Integers]
-    element: Integers
+    corners: tuple[IndexArray, IndexArray, IndexArray]
+    element: IndexArray
 
     def motion(
         self, displacement: FloatArray, rotation: FloatArray
@@ -319,7 +316,7 @@ def _straight(drawing: Drawing) -> Iterator[Strip]:
 
 def _lines(
     drawing: Drawing, starts: list[int], strips: tuple[Strip, ...]
-) -> tuple[Integers, Integers, Integers]:
+) -> tuple[IndexArray, IndexArray, IndexArray]:
     """Points of the lines, their elements, and the nodes of the points of all axes."""
     lines, owners = [np.zeros((0, 2), np.int64)], [np.zeros(0, np.int64)]
     nodes = [drawing.hinges.nodes[:, 0]]
@@ -413,12 +410,12 @@ class Mesh(Frozen):
     """
 
     points: FloatArray
-    corners: tuple[Integers, Integers, Integers]
-    point_data: dict[str, NDArray[np.generic]]
-    cell_data: dict[str, NDArray[np.generic]]
-    field_data: dict[str, NDArray[np.generic]]
+    corners: tuple[IndexArray, IndexArray, IndexArray]
+    point_data: dict[str, AnyArray]
+    cell_data: dict[str, AnyArray]
+    field_data: dict[str, AnyArray]
     names: Sequence[str]
-    element: Integers
+    element: IndexArray
 
     def to_meshio(self) -> meshio.Mesh:
         """The same for meshio; names are in the field data, as bytes.
@@ -548,7 +545,7 @@ class Meshes:
         return Mesh(points, corners, *data, self.names, element)
 
     @cached_property
-    def _of_cells(self) -> dict[str, NDArray[np.generic]]:
+    def _of_cells(self) -> dict[str, AnyArray]:
         """Cell data: a symbol has a form alone."""
         arrays, element = self.analysis.given.arrays, self.reference.element
         nothing = np.zeros(len(self.symbols.quads), np.int64)
@@ -559,13 +556,13 @@ class Meshes:
         }
 
     @cached_property
-    def _of_analysis(self) -> dict[str, NDArray[np.generic]]:
+    def _of_analysis(self) -> dict[str, AnyArray]:
         """Point data that are the same in every pose."""
         layout, numbers = self.reference, self.analysis.given.arrays.node_number
         symbols = np.zeros(len(self.symbols.points))
         node = np.zeros(len(layout.points) + len(symbols), np.int64)
         node[: layout.node.size] = np.where(layout.node >= 0, numbers[layout.node], 0)
-        values: dict[str, NDArray[np.generic]] = {"node": node}
+        values: dict[str, AnyArray] = {"node": node}
         most = self.most_modes
         for k, motion in enumerate(self.analysis.motions[:most], start=1):
             moved, turned = self._motion(motion.displacement, motion.rotation)
