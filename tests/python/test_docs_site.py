@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import re
 from pathlib import Path
@@ -11,6 +12,8 @@ from types import ModuleType
 import pytest
 import test_docs
 from page_sessions import steps
+
+import flexact
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -33,6 +36,18 @@ def test_navigation_holds_every_page_once() -> None:
     named = [each for each in re.findall(r"(\S+\.md)$", NAVIGATION, re.MULTILINE)]
     written = [each for each in named if not each.startswith("api/")]
     assert sorted(written) == sorted(page.relative_to(DOCS).as_posix() for page in PAGES)
+
+
+def test_every_public_name_has_a_page() -> None:
+    """By the room that it comes from; the site is refused where one has none."""
+    tree = ast.parse((ROOT / "tools" / "site" / "hooks.py").read_text("utf-8"))
+    (pages,) = (
+        ast.literal_eval(node.value)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "NAMES"
+    )
+    rooms = [room for _, of_page in pages.values() for room in of_page]
+    assert sorted(rooms) == sorted({home.split(".")[0] for home in flexact._HOMES})
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

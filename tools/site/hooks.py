@@ -15,12 +15,12 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 GALLERY = "gallery/"
 LIVE = "gallery/live/"
-#: Pages of names, and the parts of the package whose names they hold.
+#: Pages of names, and the rooms of the package whose names they hold.
 NAMES = {
-    "models": ("Models and decks", ("deck", "model", "diagnostics")),
-    "analysis": ("Analysis, results, advice", ("analysis", "result", "advising", "base")),
-    "stiffness": ("Stiffness and cost", ("stiffness", "costing")),
-    "sweeps": ("Sweeps, tracing, notebooks", ("variants", "tracing", "notebook")),
+    "models": ("Models and decks", ("deck", "model")),
+    "analysis": ("Analysis, results, advice", ("api", "analysis", "advice", "util")),
+    "stiffness": ("Stiffness and cost", ("elasticity", "costs")),
+    "sweeps": ("Sweeps, tracing, notebooks", ("sweeps", "tracing", "show")),
 }
 
 
