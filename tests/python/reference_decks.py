@@ -3,6 +3,7 @@
 
 import importlib
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -29,3 +30,11 @@ def truth_of(name: str) -> tuple[int, int]:
     """Under-constraint and over-constraint by the oracle, which names the source."""
     content = json.loads((REFERENCE / f"{name}.json").read_text(encoding="utf-8"))
     return content["under_constrained"], content["over_constrained"]
+
+
+#: Decks with motions that nothing holds and with self-stresses, both by the oracle; those with
+#: degrees of freedom; and those whose sheets and wires are one beam each, or count as several.
+MOVING = [name for name in NAMES if truth_of(name)[0]]
+STRESSED = [name for name in NAMES if truth_of(name)[1]]
+DRIVEN = [name for name in NAMES if re.search(r"^\s*DYN[XE]\b", text_of(name), re.MULTILINE)]
+UNDIVIDED = [name for name in NAMES if not name.endswith("_beams")]

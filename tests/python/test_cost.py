@@ -363,15 +363,13 @@ def glanced(of: Any) -> str:
 @pytest.mark.parametrize(
     "of",
     [
-        *(SIX, ROOT / "input_decks" / "flexures" / "notch_guide.dat", model("A03"), model("D11")),
+        *(SIX, ROOT / "input_decks" / "flexures" / "notch_guide.dat", model("A03")),
         *(spider(), side_by_side(2), side_by_side(4)),
     ],
     ids=str,
 )
 def test_analyse_tells_what_cost_finds(of: Any) -> None:
     """The clamp, the direction, the size and what it does are those of the first line of cost."""
-    if not flexact.analyse(of).over_constrained:
-        pytest.skip("it costs nothing")
     found = cost(of, release=())
     first = next(line for line in found.describe().split("\n\n") if "It costs" in line)
     told = glanced(of)

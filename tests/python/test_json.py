@@ -16,7 +16,7 @@ from json_numbers import assert_all_told, walk
 from json_schema import RESULT, assert_valid, schema
 from known_models import folded_sheet, ring, sheet_clamped_twice, twelve_trusses
 from large_results import changed, first_of
-from reference_decks import ROOT
+from reference_decks import ROOT, UNDIVIDED
 from small_decks import BROKEN, DECKS, json_lines, write
 from test_margin import two_wires
 from test_wording import RESULTS
@@ -248,11 +248,10 @@ def test_a_self_stress_is_in_newton_metres_beside_the_raw_column() -> None:
     assert stress["components"][-1]["word"] == "torsion"
 
 
-@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-def test_components_are_those_of_motions_and_self_stresses(path: Path) -> None:
-    analysis = analyse(path)
-    if analysis.data is not analysis.given:
-        pytest.skip("components are those of one beam a sheet, see test_divided_sheets.py")
+@pytest.mark.parametrize("name", UNDIVIDED)
+def test_components_are_those_of_motions_and_self_stresses(name: str) -> None:
+    """Where a sheet is one beam; of others see test_divided_sheets.py."""
+    analysis = analyse(INPUT / f"{name}.dat")
     made, model = analysis.to_dict(), analysis.model
     for motion, mode in zip(analysis.motions, made["motions"], strict=True):
         moved, turned = np.zeros_like(motion.displacement), np.zeros_like(motion.rotation)

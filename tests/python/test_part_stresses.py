@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from known_models import folded_sheet, sheet_clamped_twice, twelve_trusses
 from part_models import CROSSING, EX, EY, EZ, HERE, PLACES, Placed, cross_hinge, guide
-from reference_decks import NAMES, ROOT
+from reference_decks import MOVING, NAMES, ROOT, STRESSED
 
 from flexact import Analysis, Model, ModelError, SelfStress, analyse
 from flexact.analysis.part_stresses import Load
@@ -40,7 +40,7 @@ def size(analysis: Analysis, stress: SelfStress) -> float:
     return max(end.wrench.size for part in stress.parts for end in part.ends)
 
 
-@pytest.mark.parametrize("name", DECKS)
+@pytest.mark.parametrize("name", STRESSED)
 def test_bodies_and_joints_are_in_balance(name: str) -> None:
     analysis = deck(name)
     about = np.array([0.3, -0.2, 0.7]) * analysis.characteristic_length
@@ -52,7 +52,7 @@ def test_bodies_and_joints_are_in_balance(name: str) -> None:
             assert np.abs(off).max() < 1e-9 * max(1.0, size(analysis, stress))
 
 
-@pytest.mark.parametrize("name", DECKS)
+@pytest.mark.parametrize("name", STRESSED)
 def test_each_part_is_in_balance(name: str) -> None:
     analysis = deck(name)
     for stress in analysis.self_stresses:
@@ -61,7 +61,7 @@ def test_each_part_is_in_balance(name: str) -> None:
             assert np.abs(total(loads, np.zeros(3))).max() < 1e-9 * max(1.0, size(analysis, stress))
 
 
-@pytest.mark.parametrize("name", DECKS)
+@pytest.mark.parametrize("name", [name for name in STRESSED if name in MOVING])
 def test_what_parts_exert_does_no_work_in_a_motion(name: str) -> None:
     """Virtual work: a motion leaves held deformations as they are, part by part."""
     analysis = deck(name)
@@ -69,14 +69,16 @@ def test_what_parts_exert_does_no_work_in_a_motion(name: str) -> None:
         for motion in analysis.motions:
             for part in stress.parts:
                 work = 0.0
-                for end in part.ends:
-                    nodes = _nodes_of(analysis, end.position, part.part.elements)
+                elements = part.part.elements
+                ends = [_nodes_of(analysis, end.position, elements) for end in part.ends]
+                for end, nodes in zip(part.ends, ends, strict=True):
                     if nodes is None:
-                        return
+                        break
                     position, orientation = nodes
                     work += float(end.wrench.force @ motion.displacement[position])
                     work += float(end.wrench.moment @ motion.rotation[orientation])
-                assert abs(work) < 1e-9 * max(1.0, size(analysis, stress))
+                # Where a joint ends, its node does not say how the part moves.
+                assert None in ends or abs(work) < 1e-9 * max(1.0, size(analysis, stress))
 
 
 def _nodes_of(
