@@ -1,25 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A result, or advice on it, to a file: picture, page or mesh, as its suffix says."""
+"""A result to a file whose suffix says what it is to be: picture, page or mesh."""
 
 from __future__ import annotations
 
-import contextlib
 from operator import index
 from pathlib import Path
 from typing import Any
 
-from ..advice.advice import Advice, sections_of
-from ..advice.spaces.spaces import spaces_of
-from ..analysis.change import Change
-from ..analysis.decomposition import Asked
-from ..analysis.naming import Pieces
-from ..analysis.result import Result, result_of
-from ..deck.rendering import ModelError, model_error
+from ..analysis.result import Result
 from ..util.errors import BatchError
 from ..util.partial import attempted
 from .drawing.selection import select_motion
 from .mesh.collection import MESHES
-from .page import before_and_after, page, with_way_back
+from .page import page, with_way_back
 from .picture import check_packages, picture_bytes, still_of
 from .picture.files import fewer_colours
 from .writers import PAGES, PICTURES, Contents, Writers, as_bytes
@@ -97,49 +90,3 @@ def small_picture(analysis: Result) -> bytes | None:
         if made is None
         else attempted("The picture", lambda: fewer_colours(made, _COLOURS), None, None)
     )
-
-
-def page_of_change(advice: Advice, change: Change, words: Pieces) -> bytes:
-    """A page that shows the mechanism as it is beside what a change makes of it, moving.
-
-    Args:
-        advice: The advice on the mechanism.
-        change: What is done.
-        words: The same, for people.
-    """
-    before, asked = advice.analysis, advice.analysis.asked
-    model = change.apply(before.given)
-    after: Result = result_of(
-        model.data, Asked(asked.method, asked.tolerance, asked.prove, asked.accuracy), before.name
-    )
-    told = (line for section in sections_of(advice) for line, _ in section)
-    stills = still_of(before), still_of(after)
-    body = None
-    if advice.spaces is not None:
-        # It may have another name now, or none.
-        with contextlib.suppress(ModelError):
-            body = spaces_of(after, advice.spaces.subject.name, wires=False)
-    spaces = advice.spaces, body
-    return as_bytes(before_and_after(before, after, words, told, stills, spaces=spaces))
-
-
-def page_of_advice(advice: Advice) -> bytes:
-    """The page of a mechanism alone, with freedom and constraint to be switched on."""
-    return as_bytes(page(advice.analysis, still_of(advice.analysis), advice.spaces))
-
-
-def picture_of_advice(advice: Advice, suffix: str) -> bytes:
-    """A picture of the freedom and the constraint of the body.
-
-    Args:
-        advice: The advice on the mechanism.
-        suffix: `.png`, `.svg` or `.pdf`.
-
-    Raises:
-        ModelError: there is no body that could move.
-        PictureError: a package is missing.
-    """
-    spaces = advice.spaces
-    if spaces is None:
-        raise model_error("no-body", "nothing in this mechanism has a freedom space to be drawn")
-    return picture_bytes(advice.analysis, suffix, spaces=spaces)

@@ -102,13 +102,13 @@ def _written(
     """
     kind = target.suffix.lower()
     name = "standard output" if target == STDOUT else harmless(str(target))
-    pages = "flexact.show.saving"
+    pages = "flexact.show.page.advice"
     content: bytes
     if kind in STILLS:
-        content = load(pages).picture_of_advice(advice, kind)
+        content = load(pages).picture_of(advice, kind)
         said = f"freedom and constraint drawn in {name}"
     elif kind in PAGES and not steps and not len(advice):
-        content = load(pages).page_of_advice(advice)
+        content = load(pages).page_as_it_is(advice)
         said = f"shown in {name}; {_there(advice)}"
     else:
         # Of a page by default the first step, or what makes it exact.
@@ -125,7 +125,7 @@ def _written(
         words = f"step{'s' * (len(taken) > 1)} {listed(names)}"
         if kind in PAGES:
             pieces = tuple(piece for one in taken for piece in (*one.pieces, " "))
-            content = load(pages).page_of_change(advice, change, pieces)
+            content = load(pages).page_of(advice, change, pieces)
             said = f"{words} shown in {name}, {after.outcome}"
         else:
             given = advice.analysis.given
