@@ -81,6 +81,16 @@ class Role(IntEnum):
     ANGLE = 15
 
 
+#: The number of ESTIFF, from 0, that stiffens a deformation of a beam or a bar, by its role.
+STIFFNESS_NUMBER: dict[int, int] = {
+    Role.ELONGATION: 0,
+    Role.TORSION: 1,
+    **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), 2),
+    **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q), 3),
+    **dict.fromkeys((Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q), 1),
+}
+
+
 POSITION_NAMES = ("x", "y", "z")
 ROTATION_NAMES = ("rx", "ry", "rz")
 

@@ -27,6 +27,7 @@ from ...analysis.sparse_basis import groups_of
 from ...analysis.ways import Coordinate, Deformation
 from ...core.arrays import Basis, FloatArray
 from ...core.elements import (
+    STIFFNESS_NUMBER,
     Class,
     Dual,
     NodeKind,
@@ -62,14 +63,7 @@ from .words import Release, coordinate_named, outcome_as_given
 
 #: Stresses below this part of the largest of a self-stress are none.
 _NOTHING = 1.0e-7
-#: Columns of ESTIFF by role: of the stiffness, and of the shear of a bending.
-_STIFFNESS: dict[int, int] = {
-    Role.ELONGATION: 0,
-    Role.TORSION: 1,
-    **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), 2),
-    **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q), 3),
-    **dict.fromkeys((Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q), 1),
-}
+#: Numbers of ESTIFF, from 0, of the shear of a bending, by its role.
 _SHEAR: dict[int, int] = {
     **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), 4),
     **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q), 5),
@@ -132,6 +126,8 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
     """
     properties = result.given.properties
     assert properties is not None
+    # What is not given, such as the numbers of shear, is none.
+    stiffness = np.nan_to_num(properties.stiffness)
     made = np.zeros((stressed.size, stressed.size))
     element, deformation = result.raw.row_label - 1
     kind = result.data.arrays.element_kind[element]
@@ -142,9 +138,8 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
     for k in np.flatnonzero(stressed).tolist():
         e, role = int(element[k]), int(roles[k])
         given = int(result.condensed.elements[e])
-        # What was not said of shear is none.
-        numbers = np.nan_to_num(properties.stiffness[given]).tolist()
-        value = numbers[_STIFFNESS.get(role, int(deformation[k]))]
+        numbers = stiffness[given].tolist()
+        value = numbers[STIFFNESS_NUMBER.get(role, int(deformation[k]))]
         if not value > 0.0:
             if result.parts.of_element(given).kind is PartKind.BODY:
                 continue

@@ -13,7 +13,7 @@ from ...analysis.decomposition import Decomposition
 from ...analysis.freedoms import FreeMotion
 from ...analysis.result import Motion
 from ...core.arrays import FloatArray, ModelArrays
-from ...core.elements import Class, NodeKind, Role, role_table
+from ...core.elements import STIFFNESS_NUMBER, Class, NodeKind, Role, role_table
 from ...model.configuration import Configuration
 from ...model.parts.condensing import Condensed
 from ...model.parts.parts import bodies_of
@@ -166,24 +166,13 @@ def _carried_by_bodies(
 _MOST = 200
 #: Stiffness below this part of the largest is none; changes below it are none.
 _NOTHING = 1.0e-10
-#: The column of ESTIFF that stiffens a deformation, by its role in a beam or a bar.
-_COLUMN = {
-    Role.ELONGATION: 0,
-    Role.TORSION: 1,
-    Role.BENDING_XZ_P: 2,
-    Role.BENDING_XZ_Q: 2,
-    Role.BENDING_XY_P: 3,
-    Role.BENDING_XY_Q: 3,
-    Role.PLANAR_BENDING_P: 1,
-    Role.PLANAR_BENDING_Q: 1,
-}
 #: Bending at both ends of a beam, which are stiff together: 4, -2; -2, 4.
 _PAIRS = (
     (Role.BENDING_XZ_P, Role.BENDING_XZ_Q),
     (Role.BENDING_XY_P, Role.BENDING_XY_Q),
     (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
 )
-_JOINTS = {Role.ROTATION: 0, Role.ANGLE: 0, Role.TILT_Y: 1, Role.TILT_Z: 2}
+_JOINTS: dict[int, int] = {Role.ROTATION: 0, Role.ANGLE: 0, Role.TILT_Y: 1, Role.TILT_Z: 2}
 
 
 def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
@@ -247,7 +236,7 @@ def _stress(outcome: Decomposition, rates: FloatArray) -> FloatArray:
     size = np.where(length > 0.0, length, 1.0)
     given = _stiffness(outcome)
     made = np.zeros_like(rates)
-    for each, column in {**_COLUMN, **_JOINTS}.items():
+    for each, column in {**STIFFNESS_NUMBER, **_JOINTS}.items():
         rows, places = np.nonzero(role == each)
         joint = each in _JOINTS
         stiff = np.ones(rows.size) if given is None else given[rows, column]
