@@ -14,7 +14,7 @@ from test_page import Elements
 
 import flexact
 from flexact.advice.describe import verdict_in_words
-from flexact.analysis.naming import Named, sentence
+from flexact.analysis.naming import Named, line_of
 from flexact.show.page import before_and_after
 
 pytestmark = pytest.mark.dear(4)
@@ -35,7 +35,7 @@ def pair() -> tuple[flexact.Analysis, flexact.Analysis, str]:
         for name in ("five_folded_sheets_symmetric", "five_folded_sheets")
     )
     changed = ("turn ", Named("element", 9, "lower 180"), " by 90 degrees")
-    return before, after, before_and_after(before, after, changed, [sentence("An advice.")])
+    return before, after, before_and_after(before, after, changed, [line_of("An advice.")])
 
 
 @pytest.fixture(scope="module")

@@ -25,10 +25,10 @@ from ..analysis.naming import (
     counts_in_words,
     filled,
     in_a_row,
+    line_of,
     plain,
     sentence_of,
 )
-from ..analysis.naming import sentence as line_of
 from ..analysis.places import listed
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict

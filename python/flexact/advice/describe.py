@@ -22,9 +22,9 @@ from ..analysis.naming import (
     counts_in_words,
     filled,
     in_words,
+    line_of,
     part_in_words,
     plain,
-    sentence,
 )
 from ..analysis.places import listed, part_words
 from ..analysis.result import Result
@@ -131,8 +131,8 @@ def _of_folds(under: int, folds: int) -> list[str]:
 
 def _verdict(result: Result) -> Iterator[Line]:
     if result.name:
-        yield sentence(harmless(result.name).replace(" ", TIE))
-    yield sentence(str(verdict_in_words(result)))
+        yield line_of(harmless(result.name).replace(" ", TIE))
+    yield line_of(str(verdict_in_words(result)))
     yield margin_line(result)
 
 
@@ -142,7 +142,7 @@ def _counts(result: Result) -> Iterator[_Told]:
         ("coordinates", *map(str, result.counts.coordinates)),
         ("deformations", *map(str, result.counts.deformations)),
     ]
-    yield sentence(f"{declared_in_words(result)}.")
+    yield line_of(f"{declared_in_words(result)}.")
 
 
 def _motions(result: Result, most: int | None) -> Iterator[Line]:
@@ -171,7 +171,7 @@ def _notes(result: Result, about_model: bool) -> Iterator[Line]:
     lines = []
     for item in islice(warnings_of(result), known, None):
         place = f" (line {item.line})" if item.line else ""
-        lines.append(sentence(f"{item.severity}: {harmless(item.message)}{place}"))
+        lines.append(line_of(f"{item.severity}: {harmless(item.message)}{place}"))
     yield from dict.fromkeys(lines)
 
 
@@ -185,22 +185,22 @@ def _modes(
     many = what + ending
     heading = (many if count > 1 else what).capitalize()
     how = f"{way} indeterminate; relative values, only their ratios matter"
-    yield sentence(f"{heading} ({how})")
+    yield line_of(f"{heading} ({how})")
     if internal:
-        yield sentence(f"  {internal}")
+        yield line_of(f"  {internal}")
     shown = 0
     for shown, line in enumerate(modes, start=1):
         numbered = line._replace(head=(f"  {shown}. ", *line.head))
         yield numbered.shortened(_PARTS)
     if count > shown and not internal:
         more = counted(count - shown, f"more {what}", "", ending)
-        yield sentence(f"  ... and {more}")
+        yield line_of(f"  ... and {more}")
     if count > given:
         told = f"Of these {count} {many} {given} are given; the method svd gives all."
-        yield sentence(told)
+        yield line_of(told)
     if count > 1:
         told = f"These {many} are one basis of many: any combination of them is also one."
-        yield sentence(told)
+        yield line_of(told)
 
 
 # What can be done, in short ------------------------------------------------------
@@ -242,12 +242,12 @@ def _lines_on_internal(result: Result, whole: Result, advice: Way) -> Iterator[L
     counts = counts_in_words(whole.under_constrained, whole.over_constrained)
     be = "is" if len(chains) == 1 else "are"
     start = listed(names)
-    yield sentence(
+    yield line_of(
         f"{start[:1].upper()}{start[1:]} {be} divided into beams whose deformations are not "
         f"declared; counted as one beam each, the mechanism is {counts}."
     )
     if result.given.source is None:
-        yield sentence("To declare what is inside: model.declare_internal_motions()")
+        yield line_of("To declare what is inside: model.declare_internal_motions()")
         return
     statements = tuple((f"DYNE {part.operands}",) for part in advice.parts)
     yield Line(("To declare what is inside, instead of RLSE: ",), statements, (), advice.more)
@@ -258,7 +258,7 @@ def _lines_on_folds(result: Result, whole: Result) -> Iterator[Line]:
     counts = counts_in_words(whole.under_constrained, whole.over_constrained)
     s, them = ("", "it") if len(result.folds) == 1 else ("s", "them")
     yield _line(result, f"To declare the fold{s}: ", next(iter(on_motions(result))))
-    yield sentence(f"With {them} declared the mechanism is {counts}.")
+    yield line_of(f"With {them} declared the mechanism is {counts}.")
     yield from lines_on_motions(whole)
 
 

@@ -56,7 +56,7 @@ class Line(NamedTuple):
         return tuple(zip(self.items, behind, strict=False))
 
 
-def sentence(*pieces: Piece) -> Line:
+def line_of(*pieces: Piece) -> Line:
     """A line without items."""
     return Line(pieces)
 

@@ -20,9 +20,9 @@ from .naming import (
     counted,
     counts_in_words,
     length_in_words,
+    line_of,
     named_element,
     named_node,
-    sentence,
 )
 from .places import parts_words
 from .result import Result
@@ -54,7 +54,7 @@ def margin_line(result: Result) -> Line:
         told += (" would change this, to first order.",)
     if accuracy is not None:
         told += (f" The accuracy is {' and '.join(_sizes(*accuracy))}.",)
-    return sentence("Margin: ", *told)
+    return line_of("Margin: ", *told)
 
 
 def margin_in_short(result: Result) -> str:
@@ -151,22 +151,22 @@ def decision(result: Result) -> Iterator[Line]:
         if result.is_told_by_parts:
             named = parts_words([result.parts.of_element(chain.elements[0]) for chain in chains])
         each, of = ("", "it") if len(chains) == 1 else (" each", "them")
-        yield sentence(
+        yield line_of(
             f"Taken as one beam{each} in D(c), as what is inside of {of} is declared: {named}."
         )
     rows, columns, rank = result.rows, result.columns, result.rank
     size = f"{counted(rows, 'row', '', 's')} and {counted(columns, 'column', '', 's')}"
-    yield sentence(f"D(c) has {size}; its rank is {rank}.")
+    yield line_of(f"D(c) has {size}; its rank is {rank}.")
     yield from _method(result)
     small, zero = result.gap
     if small is not None or zero is not None:
         above = "no singular value but zeros"
         if small is not None:
             above = f"smallest non-zero singular value {small:.4g}"
-        yield sentence(f"Rank decision (free of units): {above}, {_zeros(result)}.")
+        yield line_of(f"Rank decision (free of units): {above}, {_zeros(result)}.")
     yield from _certainty(result)
     if result.condition_number is not None:
-        yield sentence(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
+        yield line_of(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
 
 
 def _zeros(result: Result) -> str:
@@ -185,14 +185,14 @@ def _certainty(result: Result) -> Iterator[Line]:
     proof = result.proof
     if result.certainty is Certainty.CERTAIN:
         if proof is None:
-            yield sentence(
+            yield line_of(
                 f"The rank is numerically certain, by the method {result.method}; "
                 f"not proven: {_why_not_proven(result)}."
             )
         elif proof.rank == result.rank:
-            yield sentence(f"Proven for {_OF[proof.of]}: the rank is {_proven(proof)}.")
+            yield line_of(f"Proven for {_OF[proof.of]}: the rank is {_proven(proof)}.")
         else:
-            yield sentence(
+            yield line_of(
                 "The rank is numerically certain within the rounding of the geometry; "
                 f"{_AS_THEY_ARE[proof.of].lower()}, to the last digit, "
                 f"the rank is {_proven(proof)}."
@@ -205,9 +205,9 @@ def _certainty(result: Result) -> Iterator[Line]:
             ways = _sizes(item.change_m or None, item.change_rad or None)
             others.append(f"{counts} (a change by {' or '.join(ways)})" if ways else counts)
         meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
-        yield sentence(f"The decision on the rank is doubtful{meant}.")
+        yield line_of(f"The decision on the rank is doubtful{meant}.")
         if proof:
-            yield sentence(f"{_AS_THEY_ARE[proof.of]} the rank is {_proven(proof)}.")
+            yield line_of(f"{_AS_THEY_ARE[proof.of]} the rank is {_proven(proof)}.")
 
 
 def certainty_word(result: Result) -> str:
@@ -254,7 +254,7 @@ def _method(result: Result) -> Iterator[Line]:
     if method == "sparse":
         below = f"{result.bound:.1e}"
         shown = f"; its factorisation shows at most how many singular values lie below {below}"
-    yield sentence(f"Method: {method}{chosen}{pieces}{shown}.")
+    yield line_of(f"Method: {method}{chosen}{pieces}{shown}.")
 
 
 _ALL_DIGITS = "give the geometry with all its digits"

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..analysis.naming import filled, sentence
+from ..analysis.naming import filled, line_of
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
@@ -41,7 +41,7 @@ _SMALL = 1.0e-6
 def with_quick_cost(words: str, result: Result, width: int = USUAL) -> str:
     """The words about a result, and a paragraph of what over-constraint costs, if it is known."""
     told = quick_cost(result)
-    return f"{words}\n\n{filled(sentence(told), width=width)}" if told else words
+    return f"{words}\n\n{filled(line_of(told), width=width)}" if told else words
 
 
 def quick_cost(result: Result) -> str:

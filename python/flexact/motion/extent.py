@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Literal, NamedTuple
 
 from ..analysis.decomposition import Decomposition
-from ..analysis.naming import Line, Pieces, length_in_words, sentence
+from ..analysis.naming import Line, Pieces, length_in_words, line_of
 from ..util.records import Frozen
 from .follow import Ending
 
@@ -189,7 +189,7 @@ def finite_in_words(extents: Extents) -> tuple[Line, ...]:
     else:
         words = f"Together they go on in {wide} of {many}."
     paths = (f"A path begins with {_shares(branch)}." for branch in extents.branches)
-    return tuple(map(sentence, (words, *paths)))
+    return tuple(map(line_of, (words, *paths)))
 
 
 def _shares(branch: Branch) -> str:

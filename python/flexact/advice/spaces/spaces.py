@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...analysis.change import Change
-from ...analysis.naming import Line, Pieces, coordinate_in_words, in_words, named_element, sentence
+from ...analysis.naming import Line, Pieces, coordinate_in_words, in_words, line_of, named_element
 from ...analysis.places import axis_words, joint_words, part_words
 from ...analysis.result import Result
 from ...analysis.screws import ScrewKind
@@ -151,7 +151,7 @@ def spaces_lines(result: Result, spaces: Spaces | None, *, added: bool = True) -
     if not subjects_of(result):
         return ()
     return (
-        sentence(
+        line_of(
             "What a body can do was left out: the mechanism has so many motions, with nothing "
             "declared, that not all of them are kept."
         ),
@@ -167,18 +167,18 @@ def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
         head = f"Freedom of {body}, with nothing declared: {many}: "
         yield Line((head,), space_in_words(geometry, spaces.freedom))
     else:
-        yield sentence(f"{start} cannot move, with nothing declared.")
+        yield line_of(f"{start} cannot move, with nothing declared.")
     if held:
         many = "force or moment" if held == 1 else "forces and moments"
         head = f"Constraint of {body}: {in_words(held)} independent {many}: "
         yield Line((head,), space_in_words(geometry, spaces.constraint))
     else:
-        yield sentence(f"Nothing holds {body}.")
+        yield line_of(f"Nothing holds {body}.")
     lines = tuple((geometry.of(family),) for family in spaces.constraint.lines)
     if lines and free:
         yield Line(("One more wire would be redundant along: ",), lines)
     elif lines:
-        yield sentence("One more wire would be redundant along any line.")
+        yield line_of("One more wire would be redundant along any line.")
     yield from _on_intent(result, geometry, spaces, body)
 
 
@@ -190,32 +190,32 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
         yield Line((word,), tuple((_wanted(geometry, each),) for each in had))
     for each in spaces.wanted:
         if not each.is_free:
-            yield sentence(f"Wanted, but stopped: {_wanted(geometry, each)}.")
+            yield line_of(f"Wanted, but stopped: {_wanted(geometry, each)}.")
     count = spaces.unwanted
     if not count:
         if had:
-            yield sentence(f"Nothing else of {body} moves.")
+            yield line_of(f"Nothing else of {body} moves.")
         return
     besides = f"Besides, {body} moves" if had else f"{body[:1].upper()}{body[1:]} moves"
     others = "other " if had else ""
-    yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
+    yield line_of(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
     left = count - spaces.stoppable
     if left and not spaces.stoppable:
         what = "it" if left == 1 else "any of them"
-        yield sentence(
+        yield line_of(
             f"No wire can stop {what}: a force along any line that does no work on what is "
             "wanted does none on it either; a moment would be needed."
         )
     elif left:
-        yield sentence(
+        yield line_of(
             f"Wires can stop {in_words(spaces.stoppable)} of them; for the other "
             f"{in_words(left)} a moment would be needed, which no force along a line gives without "
             "work on what is wanted."
         )
     if not spaces.tried and not result.is_told_by_parts:
-        yield sentence("The mechanism is so large that no wires were tried.")
+        yield line_of("The mechanism is so large that no wires were tried.")
     if spaces.tried and spaces.stoppable and not spaces.steps:
-        yield sentence(
+        yield line_of(
             "Of the wires that were tried none stops only that and causes no self-stress."
         )
     # Which declarations of what is not wanted go with the wires.
