@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
 from itertools import groupby, islice
-from typing import Any, TypeVar, overload
+from typing import Any, NamedTuple, TypeVar, overload
 
 import numpy as np
 
@@ -29,13 +29,11 @@ from ..analysis.naming import (
     plain,
     sentence_of,
 )
-from ..analysis.places import listed
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..core.progress import Progress
 from ..motion.extent import EvidenceKind, Extent, Extents, Kind, finite_in_words
 from ..motion.finiteness import extents_of
-from ..util.errors import FlexactError
 from ..util.partial import attempted
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, harmless
@@ -45,14 +43,16 @@ from .causes.causes import causes_of
 from .causes.realignment import both_in_words
 from .describe import MOST_MODES, verdict_in_words
 from .motions import AdvisedMotion, AdvisedStress
+from .releases.candidates import COUNT_SECONDS
 from .releases.releases import (
     Sets,
     declarations_of,
     releases_of,
     undeclarations_of,
 )
+from .repairs import MOST_STATEMENTS, Repair, best_together, repairs_of, turned_alike
 from .spaces.spaces import Spaces, spaces_lines, spaces_of
-from .step import After, Purpose, Step, together, tried
+from .step import After, Purpose, Step, tried
 
 #: What has a statement.
 _Made = TypeVar("_Made")
@@ -62,6 +62,7 @@ _Told = TypeVar("_Told", AdvisedMotion, AdvisedStress, Step)
 _MOST_ENTRIES = 20_000
 #: What steps are for.
 _AIMS = {
+    Purpose.REPAIR: "To stop nothing twice and leave nothing free that is not declared",
     Purpose.MEND: "To let what is stopped twice stop what is free",
     Purpose.UNDECLARE: "To drive nothing against a constraint",
     Purpose.RELEASE: "To stop nothing twice",
@@ -73,11 +74,25 @@ _AIMS = {
 #: What takes time, in the order in which it is found, and what is said meanwhile.
 _PIECES = {
     "causes": "finding causes",
+    "repairs": "looking for repairs",
     "extents": "following motions",
     "releases": "trying releases",
     "declarations": "trying declarations",
     "spaces": "finding freedoms",
 }
+
+
+class Counts(NamedTuple):
+    """How many smallest sets there are; None of those that are too many to be counted."""
+
+    releases: int | None
+    """Of deformations whose release leaves no self-stress."""
+    declarations: int | None
+    """Of coordinates whose declaration leaves no motion."""
+    doubtful_releases: int | None
+    """How many more of the first rounding leaves in doubt."""
+    doubtful_declarations: int | None
+    """And of the second."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,15 +136,21 @@ class Advice(Frozen, Sequence[Step]):
         return self.made("how far motions go", lambda: extents_of(self.analysis), none)
 
     @cached_property
+    def repairs(self) -> tuple[Repair, ...]:
+        """Few statements about equal parts that make the mechanism exactly constrained."""
+        return self.made("repairs", lambda: tuple(repairs_of(self.analysis)), ())
+
+    @cached_property
     def releases(self) -> Sets:
         """Sets of deformations whose release leaves no self-stress."""
-        result, none = self.analysis, Sets(self.analysis.over_constrained, None)
+        result = self.analysis
+        none = Sets(result.over_constrained, Purpose.RELEASE)
         return self.made("releases", lambda: releases_of(result, self.bodies), none)
 
     @cached_property
     def declarations(self) -> Sets:
         """Sets of coordinates whose declaration, or holding, leaves no motion."""
-        none = Sets(self.analysis.under_constrained, None)
+        none = Sets(self.analysis.under_constrained, Purpose.DECLARE)
         return self.made("declarations", lambda: declarations_of(self.analysis), none)
 
     @cached_property
@@ -189,18 +210,38 @@ class Advice(Frozen, Sequence[Step]):
             yield replace(step, number=number)
 
     def _found_steps(self, progress: Progress | None) -> Iterator[Step]:
-        """Steps of all kinds, in the order in which they are shown."""
+        """Steps of all kinds, in the order in which they are shown: what makes it exact first."""
+        result = self.analysis
         self._find("causes", progress)
-        yield from self._as_it_stands(self.causes.mends)
-        yield from self.made(
-            "declarations to take back", lambda: undeclarations_of(self.analysis), ()
-        )
+        mends = tuple(self._as_it_stands(self.causes.mends))
+        taken_back = self.made("declarations to take back", lambda: undeclarations_of(result), ())
+        first = [one for one in (*mends, *taken_back) if one.after.verdict is Verdict.EXACT]
+        yield from self.made("turns", lambda: turned_alike(result), ())
+        yield from first
+        self._find("repairs", progress)
+        yield from self.repairs
+        if not first and not self.repairs and result.verdict is Verdict.BOTH:
+            both = partial(best_together, result, taken_back, self._sets)
+            yield from self.made("a step", both, ())
+        if not self.repairs:
+            yield from (one for one in (*mends, *taken_back) if one not in first)
         self._find("releases", progress)
-        yield from (*self.releases.sets, *self.releases.others)
+        yield from self._besides((*self.releases.sets, *self.releases.others))
         self._find("declarations", progress)
-        yield from (*self.declarations.sets, *self.declarations.others)
+        yield from self._besides((*self.declarations.sets, *self.declarations.others))
         self._find("spaces", progress)
         yield from self._as_it_stands(() if self.spaces is None else self.spaces.steps)
+
+    def _sets(self) -> tuple[tuple[Step, ...], tuple[Step, ...]]:
+        return self.releases.sets, self.declarations.sets
+
+    def _besides(self, steps: Iterable[Step]) -> Iterator[Step]:
+        """Those that are worth to be read besides repairs: of few statements, and others."""
+        known = {each.effect for each in self.repairs}
+        for step in steps:
+            places = (*step.change.deformations, *step.change.coordinates)
+            if not known or (len(places) <= MOST_STATEMENTS and frozenset(places) not in known):
+                yield step
 
     def _as_it_stands(self, steps: Iterable[Step]) -> Iterator[Step]:
         """Steps that were tried with divided sheets as one beam each, tried without."""
@@ -211,26 +252,6 @@ class Advice(Frozen, Sequence[Step]):
                 after = self.made("a step", partial(tried, result, step.change), None)
             if after is not None:
                 yield replace(step, analysis=result, after=after)
-
-    @cached_property
-    def exact_by(self) -> tuple[int, ...]:
-        """Numbers of steps, one of each kind that it takes, that make it exactly constrained.
-
-        They are the best of each kind, analysed together; none where one step does it alone, or
-        where they do not do it.
-        """
-        firsts = {step.purpose: step.number for step in reversed(self.steps)}
-        release = Purpose.UNDECLARE if Purpose.UNDECLARE in firsts else Purpose.RELEASE
-        able = [firsts[kind] for kind in (release, Purpose.DECLARE) if kind in firsts]
-        exact = (step for step in self.steps if step.after.verdict is Verdict.EXACT)
-        if self.analysis.verdict is not Verdict.BOTH or len(able) < 2 or any(exact):
-            return ()
-        change = together(self.steps[number - 1].change for number in able)
-        try:
-            is_exact = tried(self.analysis, change).verdict is Verdict.EXACT
-        except FlexactError:
-            return ()
-        return tuple(able) if is_exact else ()
 
     @property
     def left_out(self) -> Iterator[str]:
@@ -250,8 +271,10 @@ class Advice(Frozen, Sequence[Step]):
                 continue
             if sets.is_too_large:
                 yield f"sets of {what}, for so many {many}"
+            elif not sets.is_counted:
+                continue
             elif sets.count is None:
-                yield f"how many sets of {what} there are: too many to be counted"
+                yield f"how many sets of {what} there are: too many for {COUNT_SECONDS:.0f} seconds"
             elif sets.doubtful != 0:
                 more = sets.doubtful and counted(sets.doubtful, "set", "", "s")
                 more = more or "some sets"
@@ -261,6 +284,14 @@ class Advice(Frozen, Sequence[Step]):
         yield from self.failed
         if count := sum(one.reason == "too large" for one in self.extents.motions):
             yield f"how far {counted(count, 'motion', ' goes', 's go')}: too large to be followed"
+
+    def count(self) -> Counts:  # type: ignore[override]
+        """How many sets of releases, and of declarations, leave nothing over.
+
+        Counting takes at most ten seconds each; nothing else of the advice asks for it.
+        """
+        sets = self.releases, self.declarations
+        return Counts(*(each.count for each in sets), *(each.doubtful for each in sets))
 
     def found(self, progress: Progress | None = None) -> Advice:
         """The advice itself, when all of it is found; `progress` is told how far that is."""
@@ -470,9 +501,6 @@ def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
             *(_item(step.number, step.pieces) for step in told[:most]),
             *_more(len(told) - len(told[:most]), "such way", "s"),
         )
-    if numbers := tuple(map(str, advice.exact_by)):
-        how = f"--apply {','.join(numbers)}"
-        yield (_said(f"Steps {listed(numbers)} together make it exactly constrained ({how})."),)
 
 
 def _item(number: int, pieces: Pieces) -> Told:

@@ -89,8 +89,8 @@ def of_sets(places: str, sets: Sets, told: Collection[tuple[Purpose, Change]]) -
     """
     return {
         "size": sets.size,
-        "count": sets.count,
-        "doubtful": sets.doubtful,
+        "count": sets.count if sets.is_counted else None,
+        "doubtful": sets.doubtful if sets.is_counted else None,
         "sets": [
             {
                 places: [[number, place] for number, place, _ in getattr(one.change, places)],

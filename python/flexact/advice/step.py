@@ -22,6 +22,7 @@ from ..util.records import Frozen, cached_property
 class Purpose(str, Enum):
     """What a step is to do."""
 
+    REPAIR = "declare what moves and release what is stopped twice"
     UNDECLARE = "take back what is driven against a constraint"
     RELEASE = "release what is stopped twice"
     DECLARE = "declare what moves"

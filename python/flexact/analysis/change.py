@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A change of a mechanism: what is held, declared or released otherwise, moved, or added."""
+"""A change of a mechanism: what is held or declared otherwise, moved, added or left out."""
 
 from __future__ import annotations
 
@@ -63,6 +63,8 @@ class Change(Frozen):
         wires: Wires that are added, from a body to the ground.
         sheets: Sheets that are added likewise.
         vectors: Number of an element and the vector, y vector or axis, that it gets (x, y, z).
+        left_out: Numbers of elements that are left out, with those of their ends that no other
+            element uses.
     """
 
     deformations: tuple[tuple[int, int, Class], ...] = ()
@@ -71,6 +73,7 @@ class Change(Frozen):
     wires: tuple[AddedWire, ...] = ()
     sheets: tuple[AddedSheet, ...] = ()
     vectors: tuple[tuple[int, tuple[float, float, float]], ...] = ()
+    left_out: tuple[int, ...] = ()
 
     def apply(self, data: ModelData) -> Model:
         """The changed model; of a deck its comments stay.
@@ -92,6 +95,8 @@ class Change(Frozen):
                 {(node, name): given for node, name, given in self.coordinates},
             )
         model = Model.from_data(data)
+        for number in self.left_out:
+            model.delete(number, ends=True)
         flexures: list[AddedWire | AddedSheet] = [*self.wires, *self.sheets]
         for added in flexures:
             end, ground = _ends(model, data, added)

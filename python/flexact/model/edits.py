@@ -170,14 +170,18 @@ def moment(
     return vector((0.0, 0.0, given[2]), "moment", "N m")  # type: ignore[arg-type]
 
 
-def delete_elements(draft: Draft, indices: Iterable[int]) -> None:
-    """Delete elements, and the points between the beams of a chain that nobody else uses."""
+def delete_elements(draft: Draft, indices: Iterable[int], ends: bool = False) -> None:
+    """Delete elements, and the points between the beams of a chain that nobody else uses.
+
+    With `ends` all their points that nobody else uses.
+    """
     gone = set(indices)
+    nodes = {n for index in gone for n in draft.slots[index]} - {0}
     # Nodes at which one of these elements ends and the next begins.
     begins = {n for index in gone for n in draft.slots[index][:2]}
-    ends = {n for index in gone for n in draft.slots[index][2:]}
+    finishes = {n for index in gone for n in draft.slots[index][2:]}
     stated = {number for number, _ in draft.coordinate_class}
-    inner = (begins & ends) - stated - {0}
+    inner = nodes if ends else (begins & finishes) - stated - {0}
     draft.keep_elements([i for i in range(len(draft.kinds)) if i not in gone])
     for number in inner - {node for slots in draft.slots for node in slots}:
         draft.drop_node(number)

@@ -905,10 +905,14 @@ class Model:
             else:
                 draft.name_node(existing(draft, target).position, checked_name(name))
 
-    def delete(self, target: Point | PartLike | FoldedSheet | Assembly) -> None:
+    def delete(
+        self, target: Point | PartLike | FoldedSheet | Assembly, *, ends: bool = False
+    ) -> None:
         """Delete a part with its inner points, or a point that no part uses.
 
-        The ends of a deleted part stay; delete them, too, if they were fixed.
+        Args:
+            target: The part or the point.
+            ends: Whether ends of a part go with it where no other part uses them; else they stay.
 
         Raises:
             ModelError: there is no such point or part, or parts use the point.
@@ -916,7 +920,7 @@ class Model:
         draft = self._change()
         with call("delete", target):
             if edits.names_part(draft, target):
-                edits.delete_elements(draft, drawn_elements(draft, target))
+                edits.delete_elements(draft, drawn_elements(draft, target), ends)
             else:
                 edits.delete_point(draft, existing(draft, target))
 

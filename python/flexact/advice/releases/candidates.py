@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, combinations
+from time import monotonic
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -401,6 +402,8 @@ def removes_all(before: Result, after: Result, purpose: Purpose) -> bool:
 
 #: Larger counts are not given: readers of JSON may take them for other numbers.
 _LARGEST = 2**53
+#: For so long sets are counted.
+COUNT_SECONDS = 10.0
 #: Rows times vectors squared beyond which a count is not begun.
 _MOST_WORK = 2.0e9
 #: How many blocks are tried that the numbers leave in doubt, and rows of D(c) in all of them.
@@ -429,13 +432,15 @@ def counted(stands: Result, reach: Reach, purpose: Purpose) -> tuple[int | None,
         return 0, 0
     if float(rows) * vectors**2 > _MOST_WORK:
         return None, 0
+    until = monotonic() + COUNT_SECONDS
     known: dict[Rows, bool] = {}
     doubtful: set[Rows] = set()
 
     def judge(chosen: Rows) -> bool | None:
         if chosen not in known:
             tries = len(known) + 1
-            if tries > _MOST_JUDGED or tries * stands.rows > _MOST_ROWS_JUDGED:
+            is_late = monotonic() > until
+            if is_late or tries > _MOST_JUDGED or tries * stands.rows > _MOST_ROWS_JUDGED:
                 return None
             change = together(reach.change(int(reach.index[i])) for i in sorted(chosen))
             try:
@@ -454,7 +459,7 @@ def counted(stands: Result, reach: Reach, purpose: Purpose) -> tuple[int | None,
 
     def count(judge: Judge) -> int | None:
         try:
-            found = count_bases(reach.rows, error, judge)
+            found = count_bases(reach.rows, error, judge, until)
         except TooManyError:
             return None
         return found if found <= _LARGEST else None

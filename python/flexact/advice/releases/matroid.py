@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
+from time import monotonic
 from typing import NamedTuple
 
 import numpy as np
@@ -268,16 +269,17 @@ class Minor:
 _FOUND, _MOST_DIVISIONS, _MOST_FACTORS = 20_000, 600, 300_000
 
 
-def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
+def count_bases(matrix: FloatArray, error: float, judge: Judge, until: float = math.inf) -> int:
     """How many sets of k rows of a matrix (n, k) have a regular block.
 
     Args:
         matrix: Rows of an orthonormal basis of a space.
         error: By how much its entries may be off.
         judge: Asked about the sets of which the numbers do not tell.
+        until: When to give up, by the clock `time.monotonic` [s].
 
     Raises:
-        TooManyError: there are more than can be counted.
+        TooManyError: there are more than can be counted, or than were counted until then.
     """
     form = echelon_of(matrix, ZERO * error)
     if form is None:
@@ -294,14 +296,14 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     errors = np.full(form.factor.shape, error)
     start = Minor(form.factor, errors, basis, others, frozenset())
     start.decide(np.ones(errors.shape), form.factor != 0.0, judge)
-    return _Counter(judge).count(start)
+    return _Counter(judge, until).count(start)
 
 
 class _Counter:
     """Counts the bases of minors, within a number of divisions."""
 
-    def __init__(self, judge: Judge) -> None:
-        self.judge = judge
+    def __init__(self, judge: Judge, until: float) -> None:
+        self.judge, self.until = judge, until
         self.divisions = self.factors = self.found = 0
 
     def count(self, minor: Minor) -> int:
@@ -334,7 +336,7 @@ class _Counter:
         # What hangs together has a basis for each exchange of one of it.
         least = max(self.found, minor.factor.size)
         is_much = self.divisions > _MOST_DIVISIONS or self.factors > _MOST_FACTORS
-        if least > _FOUND and is_much:
+        if (least > _FOUND and is_much) or monotonic() > self.until:
             raise TooManyError
         i = int(np.argmin(np.count_nonzero(minor.factor, axis=1)))
         piece = minor.basis[i]

@@ -38,7 +38,7 @@ from ...core.elements import (
 )
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
-from ...util.records import Frozen
+from ...util.records import Frozen, cached_property
 from ..step import Purpose, Step, after, together, tried
 from . import candidates as reaches
 from .candidates import (
@@ -228,29 +228,60 @@ class Sets(Frozen):
     Attributes:
         size: How many self-stresses, or motions that nothing determines, the deck as it stands
             has, and so how many deformations must be released, or coordinates declared, at least.
-        count: How many sets of so many deformations of class fixed, or columns of D(c), leave
-            none when they are released, or held; None where they are too many to be counted. It
-            is 0 where there is none: nothing is to be done then, and that is no set.
+        purpose: What the sets are to do.
+        stands: The result of the deck as it stands, on which sets are counted; None where the
+            model could not be analysed so.
         sets: The best of them, each tried; see `releases_of` and `declarations_of`.
         others: The same of fixed coordinates that may be freed, or of released deformations that
             may be held; not in `count`.
         is_too_large: Whether the model is so large that one set at most was looked for.
-        doubtful: How many sets more do so for the numbers as they are, though rounding may hide
-            that they do not; not in `count`, and None where they are too many.
     """
 
     size: int
-    count: int | None
+    purpose: Purpose
+    stands: Result | None = None
     sets: tuple[Release, ...] = ()
     others: tuple[Release, ...] = ()
     is_too_large: bool = False
-    doubtful: int | None = 0
+
+    @property
+    def count(self) -> int | None:
+        """How many sets of so many deformations of class fixed, or columns of D(c), leave none.
+
+        That is, when they are released, or held; counted when it is asked for, in at most
+        `COUNT_SECONDS`. None where they are too many to be counted. It is 0 where there is none;
+        where nothing is to be done there is one, the empty set.
+        """
+        return self._counted[0]
+
+    @property
+    def doubtful(self) -> int | None:
+        """How many sets more do so for the numbers as they are.
+
+        Rounding may hide that they do not; None where they are too many.
+        """
+        return self._counted[1]
+
+    @property
+    def is_counted(self) -> bool:
+        """Whether they have been counted."""
+        return "_counted" in self.__dict__
+
+    @cached_property
+    def _counted(self) -> tuple[int | None, int | None]:
+        if not self.size:
+            return 1, 0
+        if self.is_too_large or self.stands is None:
+            return None, 0
+        is_release = self.purpose is Purpose.RELEASE
+        reach = (reaches.of_rows if is_release else reaches.of_columns)(self.stands)
+        return counted(self.stands, reach, self.purpose)
 
 
-def _counted(
+def _as_it_stands(
     result: Result, purpose: Purpose, reach_of: ReachOf, unwelcome: Unwelcome
-) -> tuple[Result, Sets]:
-    """The deck as it stands, and what is known before sets are listed.
+) -> Sets:
+    """What is known before sets are listed.
 
     Of what is too large one set, and without anything to be done the empty one.
     """
@@ -258,21 +289,21 @@ def _counted(
     size = left_of(purpose, stands)
     space = stands.stress_space if purpose is Purpose.RELEASE else stands.motion_space
     if not size:
-        return stands, Sets(0, 1, (Release(result, purpose, Change(), 1.0, after(result)),))
+        nothing = Release(result, purpose, Change(), 1.0, after(result))
+        return Sets(0, purpose, stands, (nothing,))
     if space.vectors < size or not reaches.fits(space):
         one = by_steps(stands, purpose, reach_of, unwelcome)
         sets = () if one is None else (replace(one, analysis=result),)
-        return stands, Sets(size, None, sets, is_too_large=True)
-    count, doubtful = counted(stands, reach_of(stands, None), purpose)
-    return stands, Sets(size, count, doubtful=doubtful)
+        return Sets(size, purpose, stands, sets, is_too_large=True)
+    return Sets(size, purpose, stands)
 
 
 def releases_of(result: Result, with_bodies: bool = False) -> Sets:
     """What may be released so that no self-stress is left, the best first.
 
     A set of s deformations works exactly when the s x s block of their rows in the left null
-    space of D(c) is regular; they are counted on the deck as it stands, where each beam of a
-    divided sheet is one of its own. What is listed are deformations of whole sheets, at their
+    space of D(c) is regular; where that is asked for, they are counted on the deck as it stands,
+    where each beam of a divided sheet is one of its own. What is listed are deformations of whole sheets, at their
     ends, as a designer would release them. `condition` of a set is the inverse of the
     smallest singular value of its block in an orthonormal basis, with moments compared by the
     characteristic length: by so much the largest self-stress can exceed what the released
@@ -291,8 +322,9 @@ def releases_of(result: Result, with_bodies: bool = False) -> Sets:
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
     """
-    stands, known = _counted(result, Purpose.RELEASE, reaches.of_rows, _tiers)
-    if known.is_too_large or not known.size:
+    known = _as_it_stands(result, Purpose.RELEASE, reaches.of_rows, _tiers)
+    stands = known.stands
+    if known.is_too_large or not known.size or stands is None:
         return known
     whole = stands
     if result.with_internal_declared is not None:
@@ -302,7 +334,7 @@ def releases_of(result: Result, with_bodies: bool = False) -> Sets:
     # Whole sheets are listed where they have as many self-stresses.
     sets: tuple[Release, ...] = ()
     for source in dict.fromkeys((whole, stands)):
-        if known.count != 0 and not sets and source.over_constrained == known.size:
+        if not sets and source.over_constrained == known.size:
             sets = _listed(result, source, with_bodies)
     supports: tuple[Release, ...] = ()
     if whole.over_constrained == whole.stress_space.vectors and reaches.fits(whole.stress_space):
@@ -358,8 +390,9 @@ def declarations_of(result: Result) -> Sets:
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
     """
-    stands, known = _counted(result, Purpose.DECLARE, reaches.of_columns, _tiers_of_nodes)
-    if known.is_too_large or not known.size:
+    known = _as_it_stands(result, Purpose.DECLARE, reaches.of_columns, _tiers_of_nodes)
+    stands = known.stands
+    if known.is_too_large or not known.size or stands is None:
         return known
     whole = complete(result) if result.condensed.chains else stands
     sets: tuple[Release, ...] = ()
@@ -375,13 +408,22 @@ def declarations_of(result: Result) -> Sets:
 
 
 def _listed_coordinates(result: Result, source: Result) -> tuple[Release, ...]:
+    reach, found = coordinate_sets(source)
+    return listed(result, reach, Purpose.DECLARE, found)
+
+
+def coordinate_sets(source: Result) -> tuple[Reach, list[Candidate]]:
+    """Coordinates over the motions, and sets of them that leave no motion, the best first."""
     reach = _without_repeats(source, reaches.of_columns(source))
     nodes = source.raw.column_label[0, reach.index] - 1
     tiers = _tiers_of_nodes(source, reach)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
+    # Coordinates that are called after a body come before those of its other points.
+    firsts = source.condensed.nodes[nodes], source.parts.first_points
+    late = tiers + 0.5 * ((tiers < BODY) & (turns == 0.0) & ~np.isin(*firsts))
 
     def ranking(sets: Places, condition: FloatArray) -> FloatArray:
-        of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
+        of_sets = np.sort(late[sets], axis=1)[:, ::-1]
         turning = turns[sets].sum(axis=1)[:, None]
         return np.concatenate([decades(condition), of_sets, turning], axis=1)
 
@@ -389,7 +431,7 @@ def _listed_coordinates(result: Result, source: Result) -> tuple[Release, ...]:
     first: dict[tuple[int, ...], Candidate] = {}
     for one in candidates(reach, ranking, tiers):
         first.setdefault(tuple(i for i in one.members if tiers[i] < LINK), one)
-    return listed(result, reach, Purpose.DECLARE, list(first.values()))
+    return reach, list(first.values())
 
 
 def _tiers_of_nodes(source: Result, reach: Reach) -> FloatArray:

@@ -261,8 +261,6 @@ def _can_go(outcome: Decomposition, part: Part) -> bool:
 _MOST_SETS, _MOST_NAMED = 3, 11
 #: Of more statements or calls it is told how many there are.
 _MOST_STATEMENTS = 24
-#: Parts that are counted in the plural.
-_PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -284,20 +282,22 @@ class Release(Step):
         )
         if purpose is not Purpose.HOLD:
             is_freed = not self.change.deformations
-            note = "" if is_freed else _statements(outcome, self.change, "RLSE")
+            note = "" if is_freed else statements_in_words(outcome, self.change, "RLSE")
         elif outcome.given.source is not None:
-            note = _statements(outcome, self.change, "RLSE", "without ")
+            note = statements_in_words(outcome, self.change, "RLSE", "without ")
         else:
-            note = _statements(outcome, self.change, HOLD)
+            note = statements_in_words(outcome, self.change, HOLD)
         told = _told(phrases)
         return (*told, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
 
     def _declared(self, outcome: Decomposition) -> Pieces:
         """What is declared or held."""
         change = self.change
-        declared, fixed = (_statements(outcome, change, word) for word in ("DYNX", "FIX"))
+        declared, fixed = (statements_in_words(outcome, change, word) for word in ("DYNX", "FIX"))
         it = "it" if len(change.coordinates) == 1 else "them"
-        own, *others = (_coordinates(outcome, each) for each in (change, *self.alternatives))
+        own, *others = (
+            coordinates_in_words(outcome, each) for each in (change, *self.alternatives)
+        )
         more = [each for each in others if plain(each) != plain(own)]
         pieces: list[Piece] = ["declare ", *own, " independent"]
         pieces.append(f" ({declared})" if declared else "")
@@ -339,7 +339,7 @@ def _which_end(outcome: Decomposition, node: int) -> str:
     return f" at ({at}" if words else ""
 
 
-def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
+def coordinates_in_words(outcome: Decomposition, change: Change) -> Pieces:
     """Coordinates by their points and bodies; those inside of sheets and wires are counted."""
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
@@ -398,7 +398,7 @@ def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> 
     if len(phrases) > 1:
         sets = [row_of(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
     elif is_all_said:
-        return (f"; likewise{at} ", *_named([each[0].part for each in others]))
+        return (f"; likewise{at} ", *together_in_words([each[0].part for each in others]))
     else:
         sets = [each[0].short for each in others]
     return (f"; likewise{at} ", *_shortened(sets, len(phrases)))
@@ -426,20 +426,35 @@ def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
     return (*(piece for piece in made if piece), *((f"; or {more} more",) if more > 0 else ()))
 
 
-def _named(parts: Sequence[Named]) -> Pieces:
-    """Names, such as "sheets 2, 4 and 6"."""
-    heads = {part.words.rpartition(" ")[0] for part in parts}
-    numbers = [part.words.rpartition(" ")[2] for part in parts]
-    head = heads.pop() if len(heads) == 1 else ""
-    if len(parts) > 1 and head in _PLURALS and all(map(str.isdigit, numbers)):
-        short = [
-            (Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)
-        ]
-        return (f"{_PLURALS[head]} ", *row_of(short))
-    return row_of([(part,) for part in parts])
+def together_in_words(parts: Sequence[Named]) -> Pieces:
+    """Names, such as "sheets 2, 4 and 6" or "left arms 2 to 6"; of many without a number the first.
+
+    Numbers of names that begin alike are put together.
+    """
+    heads = grouped((part.words.rpartition(" ")[::2], part) for part in parts)
+    by_head = grouped((head, (number, mine[0])) for (head, number), mine in heads.items())
+    items: list[Pieces] = []
+    for head, numbered in by_head.items():
+        numbers = [int(n) if n.isascii() and n.isdigit() else -1 for n, _ in numbered]
+        if len(numbers) == 1 or min(numbers) < 0 or not head[-1:].isalpha():
+            items += [(part,) for _, part in numbered]
+            continue
+        runs = grouped((n - k, k) for k, n in enumerate(numbers))
+        ends: list[Pieces] = []
+        for run in runs.values():
+            short = [numbered[k][1]._replace(words=numbered[k][0]) for k in run]
+            ends += [(short[0], " to ", short[-1])] if len(run) > 2 else [(each,) for each in short]
+        items.append((f"{_plural(head)} ", *row_of(ends)))
+    return row_of(items, _MOST_NAMED)
 
 
-def _statements(outcome: Decomposition, change: Change, keyword: str, before: str = "") -> str:
+def _plural(head: str) -> str:
+    return head + ("es" if head.endswith(("s", "x", "ch", "sh")) else "s")
+
+
+def statements_in_words(
+    outcome: Decomposition, change: Change, keyword: str, before: str = ""
+) -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
     if outcome.given.source is not None:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ...advice.advice import Advice, advice_of, describe
 from ...advice.json import line_of
+from ...advice.releases.candidates import COUNT_SECONDS
 from ...advice.step import together, tried
 from ...analysis.places import listed
 from ...analysis.verdict import Verdict
@@ -111,8 +112,8 @@ def _written(
         content = load(pages).page_as_it_is(advice)
         said = f"shown in {name}; {_there(advice)}"
     else:
-        # Of a page by default the first step, or what makes it exact.
-        asked = steps or tuple((k, 1) for k in advice.exact_by or (1,))
+        # Of a page by default the first step.
+        asked = steps or ((1, 1),)
         # Those up to what is taken are enough.
         there = tuple(islice(advice.numbered(progress), max(step for step, _ in asked)))
         for step, _ in asked:
@@ -162,6 +163,8 @@ def advise_decks(chosen: argparse.Namespace) -> ExitCode:
                 # A deck that a step makes needs no step behind it.
                 if chosen.json or target is None or target.suffix.lower() in (*PAGES, *STILLS):
                     advice.found(bar.show_work)
+                if chosen.count:
+                    advice.count()
                 with unwinding():
                     written = ""
                     if target is not None:
@@ -224,6 +227,12 @@ VERB = Verb(
             "--bodies",
             action="store_true",
             help="release insides of rigid bodies, too, where anything else does it as well",
+        ),
+        argument(
+            "--count",
+            action="store_true",
+            help="count the smallest sets of releases and of declarations, in at most "
+            f"{COUNT_SECONDS:.0f} seconds each",
         ),
         argument("--json", action="store_true", help="one JSON object a line on stdout"),
         argument(
