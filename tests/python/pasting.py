@@ -27,8 +27,10 @@ from flexact.advice.describe import describe
 
 #: What a statement of a deck begins with in a note.
 _KEYWORDS = "DYNX|DYNE|FIX|RLSE"
-_NOTE = re.compile(rf"(?:without )?(?:{_KEYWORDS}) \d|model\.\w+\(")
+_NOTE = re.compile(rf"(?:without )?(?:{_KEYWORDS}|[A-Z]+) \d|model\.\w+\(")
 _STATEMENT = re.compile(rf"({_KEYWORDS})((?: \d+)+)")
+#: A statement that goes with an element or a node, by its keyword and number.
+_OWNED = re.compile(r"[A-Z]+ \d+")
 #: Blocks of a deck end with one of these.
 _ENDS = ("END", "HALT")
 
@@ -117,9 +119,15 @@ def _with_statements(deck: str, note: str) -> str:
     if " or " in note:
         note = note.partition(" or ")[0]
     lines = deck.replace("\r", "").split("\n")
-    without = note.startswith("without ")
+    without = False
     added: list[str] = []
-    for each in note.removeprefix("without ").split(", "):
+    for each in note.split(", "):
+        # What stands behind "without" goes, up to the end of the note.
+        without = without or each.startswith("without ")
+        each = each.removeprefix("without ")
+        if without and _OWNED.fullmatch(each):
+            lines[:] = [line for line in lines if line.split()[:2] != each.split()]
+            continue
         new, _, old = each.partition(" instead of ")
         if without:
             new, old = "", each

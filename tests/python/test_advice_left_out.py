@@ -39,7 +39,7 @@ FAILING = {
     "flexact.advice.advice.spaces_lines": "words of freedom and constraint",
     "flexact.advice.motions.motion_in_sentence": "a motion",
     "flexact.advice.motions.stress_in_sentence": "a self-stress",
-    "flexact.advice.releases.words._statements": "a step",
+    "flexact.advice.releases.words.statements_in_words": "a step",
 }
 
 

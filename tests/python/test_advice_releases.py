@@ -317,7 +317,9 @@ def test_counts_are_those_of_the_decimals(deck: str) -> None:
     assert releases.count is not None and releases.doubtful is not None
     assert releases.count + releases.doubtful == minors_counted(deck)
     assert (releases.doubtful > 0) == (deck is NEARLY_REGULAR)
-    told = analysis.advice().to_dict()
+    advice = analysis.advice()
+    advice.count()
+    told = advice.to_dict()
     assert told["releases"]["doubtful"] == releases.doubtful
     assert any(str(releases.doubtful) in each for each in told["left_out"]) == bool(
         releases.doubtful

@@ -50,6 +50,7 @@ from .releases.releases import (
     releases_of,
     undeclarations_of,
 )
+from .releases.words import Release
 from .repairs import MOST_STATEMENTS, Repair, best_together, repairs_of, turned_alike
 from .spaces.spaces import Spaces, spaces_lines, spaces_of
 from .step import After, Purpose, Step, tried
@@ -218,13 +219,16 @@ class Advice(Frozen, Sequence[Step]):
         first = [one for one in (*mends, *taken_back) if one.after.verdict is Verdict.EXACT]
         yield from self.made("turns", lambda: turned_alike(result), ())
         yield from first
+        both = partial(best_together, result, taken_back, self._sets)
+        is_both = not first and result.verdict is Verdict.BOTH
+        if is_both and taken_back:
+            yield from self.made("a step", both, ())
         self._find("repairs", progress)
         yield from self.repairs
-        if not first and not self.repairs and result.verdict is Verdict.BOTH:
-            both = partial(best_together, result, taken_back, self._sets)
+        if is_both and not taken_back and not self.repairs:
             yield from self.made("a step", both, ())
-        if not self.repairs:
-            yield from (one for one in (*mends, *taken_back) if one not in first)
+        rest = taken_back if self.repairs else (*mends, *taken_back)
+        yield from (one for one in rest if one not in first)
         self._find("releases", progress)
         yield from self._besides((*self.releases.sets, *self.releases.others))
         self._find("declarations", progress)
@@ -232,7 +236,7 @@ class Advice(Frozen, Sequence[Step]):
         self._find("spaces", progress)
         yield from self._as_it_stands(() if self.spaces is None else self.spaces.steps)
 
-    def _sets(self) -> tuple[tuple[Step, ...], tuple[Step, ...]]:
+    def _sets(self) -> tuple[tuple[Release, ...], tuple[Release, ...]]:
         return self.releases.sets, self.declarations.sets
 
     def _besides(self, steps: Iterable[Step]) -> Iterator[Step]:

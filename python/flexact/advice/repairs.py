@@ -20,25 +20,30 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.calls import calls_of
 from ..analysis.change import Change
-from ..analysis.naming import Named, Pieces, begun, named_element, plain, row_of
+from ..analysis.naming import Named, Pieces, named_element, row_of
 from ..analysis.places import axis_words, part_words, place_words
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
-from ..analysis.ways import is_of_class, rows_of
+from ..analysis.ways import Step as Way
+from ..analysis.ways import is_of_class, on_motions, rows_of
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, Role, role_table
+from ..deck.tokens import DeckComments
 from ..model.deformations import AT_P, AT_Q
 from ..model.parts.forms import PLANAR, XZ
 from ..model.parts.parts import Part, PartKind, natural, surplus_of
+from ..model.writing import dynamics_of, statements_of
 from ..util.errors import FlexactError
 from ..util.groups import grouped, groups_of
 from .causes.lines import Limb as LimbOfParts
 from .causes.lines import Limbs
 from .causes.realignment import change_of
 from .releases.candidates import complete, fits
-from .releases.releases import coordinate_sets
+from .releases.releases import TakenBack, coordinate_sets
 from .releases.words import (
+    Release,
     coordinates_in_words,
     outcome_as_given,
     released,
@@ -142,52 +147,75 @@ class Repair(Step):
     """Few statements that make a mechanism exactly constrained.
 
     Attributes:
-        declared: What declares insides and folds, and what declares motions of bodies.
-        told: What each statement does to parts, within a sentence.
+        told: What each statement does, within a sentence.
+        how: Statements of a deck, or calls, that do it.
+        note: What else does the same, as a sentence without its full stop.
+        effect: What is released and declared, also where limbs are left out.
     """
 
-    declared: tuple[Change, Change] = (Change(), Change())
     told: tuple[Pieces, ...] = ()
+    how: tuple[str, ...] = ()
     note: str = ""
-    """What else does the same, behind the statements."""
     effect: frozenset[Place] = frozenset()
-    """What is released and declared, also where limbs are left out."""
 
     def words(self) -> Pieces:
         """Such as "declare the inner stage along y and cut sheets 1 and 3 to a waist each"."""
-        outcome, (before, coordinates) = outcome_as_given(self.analysis), self.declared
-        items: list[Pieces] = []
-        if self.analysis.with_internal_declared is not None:
-            items.append(("declare what is inside the divided parts",))
-        if self.analysis.folds:
-            items.append(("declare the folds",))
-        if coordinates.coordinates:
-            items.append(("declare ", *coordinates_in_words(outcome, coordinates)))
-        releases = Change(self.change.deformations[len(before.deformations) :])
-        notes = [
-            statements_in_words(outcome, before, "DYNE") if self.analysis.folds else "",
-            statements_in_words(outcome, coordinates, "DYNX"),
-            statements_in_words(outcome, releases, "RLSE"),
-            _without(self.analysis, self.change.left_out),
+        how = ", ".join(filter(None, self.how))
+        note = f". {self.note}" if self.note else ""
+        return (*row_of(self.told), f" ({how})" if how else "", note)
+
+
+def _inside_in_words(result: Result) -> Iterator[tuple[Pieces, str]]:
+    """What declares insides and folds, and the statements or calls that do."""
+    is_deck, whole = result.given.source is not None, result
+    numbers = result.given.arrays.element_number
+    if result.with_internal_declared is not None:
+        whole = result.with_internal_declared
+        inside = [
+            " ".join(map(str, (int(numbers[element]), *mine)))
+            for element, mine in surplus_of(result.given)
         ]
-        how = ", ".join(filter(None, notes))
-        made = row_of([*items, *self.told])
-        return (*made, f" ({how})" if how else "", f". {self.note}" if self.note else "")
+        made = [f"DYNE {each} instead of RLSE {each}" for each in inside]
+        how = _written(made) if is_deck else "model.declare_internal_motions()"
+        yield ("declare what is inside the divided parts",), how
+    for way in on_motions(whole) if whole.folds else ():
+        if way.step is Way.DECLARE_FOLDS:
+            made = [f"DYNE {each.operands} instead of RLSE {each.operands}" for each in way.parts]
+            if not is_deck:
+                made = [call for part in way.parts for call in calls_of(whole, way, part)]
+            yield ("declare the folds",), _written(made)
+
+
+def _written(made: Sequence[str], before: str = "") -> str:
+    """Statements or calls; of many how many there are."""
+    if len(made) > _MOST_WRITTEN:
+        return f"{len(made)} more: apply() of the step, or --apply, does it"
+    return before + ", ".join(made) if made else ""
 
 
 def _without(result: Result, left_out: Sequence[int]) -> str:
-    """How elements are left out: of a deck without their lines, in Python by calls."""
+    """How elements are left out: of a deck without their statements, in Python by calls."""
     if not left_out:
         return ""
-    if result.given.source is not None:
-        return f"without element{'s' * (len(left_out) > 1)} {', '.join(map(str, left_out))}"
-    if len(left_out) > _MOST_WRITTEN:
-        return f"{len(left_out)} calls of delete: apply() of the step does it"
-    parts = dict.fromkeys(result.parts.of_element(result.given.element_index[n]) for n in left_out)
-    given = [part.name for part in result.parts.all]
-    names = {part: part.name for part in parts if part.is_named and given.count(part.name) == 1}
-    calls = (f'"{names[part]}"' if part in names else str(part.number) for part in parts)
-    return ", ".join(f"model.delete({each}, ends=True)" for each in calls)
+    given = result.given
+    if given.source is not None:
+        changed = Change(left_out=tuple(left_out)).apply(given).data
+        before, behind = (
+            [*dict(statements_of(each)).values(), *dynamics_of(each, DeckComments())]
+            for each in (given, changed)
+        )
+        gone = (words.split() for words in before if words not in set(behind))
+        return _written([" ".join(words[:2]) for words in gone], "without ")
+    parts = dict.fromkeys(result.parts.of_element(given.element_index[n]) for n in left_out)
+    names = [part.name for part in result.parts.all]
+    unique = {part: part.name for part in parts if part.is_named and names.count(part.name) == 1}
+    numbers = given.arrays.element_number
+    calls = [
+        each
+        for part in parts
+        for each in ([f'"{unique[part]}"'] if part in unique else numbers[list(part.elements)])
+    ]
+    return _written([f"model.delete({each}, ends=True)" for each in calls])
 
 
 #: Statements, and the inverse of the smallest singular value of their rows.
@@ -246,14 +274,25 @@ def _tried(
 ) -> Repair | None:
     """The repair that statements are; None where it does not leave it exactly constrained."""
     change = together((*declared, *(workshop.change_of(each) for each in plan)))
-    told = tuple(workshop.words_of(each) for each in workshop.merged(plan))
-    note = next(filter(None, map(workshop.note_on, plan)), "")
-    made = _if_exact(result, change, told, condition)
+    outcome, coordinates = outcome_as_given(result), declared[1]
+    inside = list(_inside_in_words(result))
+    told, how = [each for each, _ in inside], [each for _, each in inside]
+    if coordinates.coordinates:
+        told.append(("declare ", *coordinates_in_words(outcome, coordinates)))
+        how.append(statements_in_words(outcome, coordinates, "DYNX"))
+    told += [workshop.words_of(each) for each in workshop.merged(plan)]
+    released = together(replace(workshop.change_of(each), left_out=()) for each in plan)
+    how += [
+        statements_in_words(outcome_as_given(workshop.base), released, "RLSE"),
+        _without(result, change.left_out),
+    ]
+    made = _if_exact(result, change, tuple(told), tuple(how), condition)
     if not made:
         return None
-    released = together((*declared, *(workshop.released_by(each) for each in plan)))
-    effect = frozenset[Place]((*released.deformations, *released.coordinates))
-    return replace(made[0], purpose=purpose, declared=declared, effect=effect, note=note)
+    note = next(filter(None, map(workshop.note_on, plan)), "")
+    whole = together((*declared, *(workshop.released_by(each) for each in plan)))
+    effect = frozenset[Place]((*whole.deformations, *whole.coordinates))
+    return replace(made[0], purpose=purpose, effect=effect, note=note)
 
 
 def turned_alike(result: Result) -> tuple[Repair, ...]:
@@ -339,7 +378,11 @@ def _shared_name(names: Sequence[str]) -> str:
 
 
 def _if_exact(
-    result: Result, change: Change, told: tuple[Pieces, ...], condition: float = 1.0
+    result: Result,
+    change: Change,
+    told: tuple[Pieces, ...],
+    how: tuple[str, ...] = (),
+    condition: float = 1.0,
 ) -> tuple[Repair, ...]:
     """What a change is as a repair, if it makes the mechanism exactly constrained."""
     try:
@@ -349,14 +392,14 @@ def _if_exact(
     if then.verdict is not Verdict.EXACT:
         return ()
     effect = frozenset[Place]((*change.deformations, *change.coordinates))
-    how = result, Purpose.REPAIR, change, condition, after(then)
-    return (Repair(*how, told=told, effect=effect),)
+    step = result, Purpose.REPAIR, change, condition, after(then)
+    return (Repair(*step, told=told, how=how, effect=effect),)
 
 
 def best_together(
     result: Result,
-    taken_back: Sequence[Step],
-    sets: Callable[[], tuple[Sequence[Step], Sequence[Step]]],
+    taken_back: Sequence[TakenBack],
+    sets: Callable[[], tuple[Sequence[Release], Sequence[Release]]],
 ) -> tuple[Repair, ...]:
     """What takes self-stresses away and what declares motions, as one step, if that makes it exact.
 
@@ -370,8 +413,8 @@ def best_together(
     if len(both) < 2:
         return ()
     condition = max(each.condition for each in both)
-    told = tuple(each.words() for each in both)
-    return _if_exact(result, together(each.change for each in both), told, condition)
+    told, how = zip(*(each.in_short() for each in both), strict=True)
+    return _if_exact(result, together(each.change for each in both), told, how, condition)
 
 
 def _one_beam_each(result: Result) -> tuple[Result | None, Change]:
@@ -500,6 +543,8 @@ class _Workshop:
                 size = len(taken)
                 if action[0] is Hardware.OUT:
                     limbs = dict.fromkeys(self.flexures[k].limb for k in chosen)
+                    if len(limbs) < len(chosen):
+                        continue
                     size -= sum(limb.columns for limb in limbs)
                 if alike is Alike.REST and action[0] is not Hardware.OUT:
                     continue
@@ -520,14 +565,37 @@ class _Workshop:
         if hardware is Hardware.RELEASE:
             places = [(e, k) for e, k, _ in self.change_of(statement).deformations]
             return row_of([each.pieces for each in released(outcome_as_given(base), places)])
-        limbs = dict.fromkeys(one.limb for one in flexures)
-        parts = [limb.parts[0] for limb in limbs] if hardware is Hardware.OUT else []
-        named = together_in_words(
-            [named_element(base, part.number) for part in parts or [one.part for one in flexures]]
-        )
+        named = [named_element(base, one.part.number) for one in flexures]
+        if hardware is Hardware.OUT:
+            limbs = dict.fromkeys(one.limb for one in flexures)
+            named = [
+                Named(
+                    "element",
+                    limb.parts[0].number,
+                    _shared_name([part.name for part in limb.parts]),
+                )
+                for limb in limbs
+                if len(limb.parts) > 1
+            ] or named
         many = len(flexures) > 1
         before, behind = _WORDS[hardware]
-        return (before, *named, behind[many], *self._place(flexures, statement.end))
+        if statement.end < 0:
+            return (before, *together_in_words(named), behind[many])
+        at_ends = [
+            place_words(base.parts, one.positions[statement.end], one.part) for one in flexures
+        ]
+        by_place = grouped(zip(at_ends, named, strict=True))
+        if len(by_place) > _MOST_PLACES:
+            where = {one.carriers[statement.end] for one in flexures}
+            ends = f"the ends {('nearer to', 'farther from')[statement.end]} the ground"
+            at = _CLAMPS[1] if where == {None} else ends
+            return (before, *together_in_words(named), behind[many], f" at {at}")
+        items: list[Pieces] = []
+        for place, mine in by_place.items():
+            at = place.replace(*_CLAMPS) if len(mine) > 1 else place
+            verb = behind[len(mine) > 1] if not items else ""
+            items.append((*together_in_words(mine), f"{verb} at {at}"))
+        return (before, *row_of(items))
 
     def note_on(self, statement: Statement) -> str:
         """What may stand for the one sheet of an orbit that is not left out."""
@@ -538,35 +606,22 @@ class _Workshop:
             return ""
         if kept[0].part.kind is not PartKind.SHEET or len(kept[0].held) != 3:
             return ""
-        name = begun((part_words(kept[0].part),))
-        words = f"{plain(name)} holds what three wires in its plane do"
-        parts = self.base.parts
-        ends = [
-            [parts.data.arrays.node_value[:3, p] for p in one.positions]
-            for one in (self.flexures[k] for k in same)
-        ]
-        if _meet(np.array(ends)):
-            return f"{words}; wires along the lines of all would meet in one point"
-        return f"{words} that neither meet in one point nor are parallel"
-
-    def _place(self, flexures: Sequence[Flexure], end: int) -> Pieces:
-        """At which of their ends something is done."""
-        if end < 0:
-            return ()
-        parts, many = self.base.parts, len(flexures) > 1
-        words = dict.fromkeys(place_words(parts, one.positions[end], one.part) for one in flexures)
-        are_numbered = any(map(str.isdigit, "".join(words)))
-        if len(words) == 1 or (len(words) == 2 and not are_numbered):
-            return (
-                f" at {' and '.join(words)}".replace(*_CLAMPS)
-                if many
-                else f" at {words.popitem()[0]}",
-            )
-        if {one.carriers[end] for one in flexures} == {None}:
-            return (f" at {_CLAMPS[1]}",)
-        return (f" at the ends {('nearer to', 'farther from')[end]} the ground",)
+        words = f"Three wires in the plane of {part_words(kept[0].part)} do as well"
+        places = self.base.parts.data.arrays.node_value[:3]
+        ends = [places[:, self.flexures[k].positions].T for k in same]
+        if not _meet(np.array(ends)):
+            return f"{words} where they neither meet in one point nor are parallel"
+        carrier = kept[0].carriers[1]
+        body = "what they hold"
+        if carrier is not None and carrier[0] == "body":
+            body = part_words(self.base.parts.of_body(carrier[1]))
+        return (
+            f"{words}, but not along all these lines: they meet in one point, and {body} can turn"
+        )
 
 
+#: So many places are named one by one.
+_MOST_PLACES = 2
 _CLAMPS = "its clamp", "their clamps"
 #: Words before and behind the names of what is changed, of one and of several.
 _WORDS = {
@@ -700,7 +755,9 @@ def _sides(flexures: Sequence[Flexure]) -> list[int]:
     """Of each flexure a number of its side: what hangs together without ground and main body."""
     away = _distances([one.carriers for one in flexures])
     ends = [carrier for one in flexures for carrier in one.carriers if carrier is not None]
-    main = max(ends, key=lambda carrier: (away.get(carrier, math.inf), ends.count(carrier)))
+    main = max(
+        ends, key=lambda carrier: (away.get(carrier, math.inf), ends.count(carrier)), default=None
+    )
     at = grouped((c, k) for k, one in enumerate(flexures) for c in one.carriers)
     pairs = ((mine[0], k) for c, mine in at.items() if c not in (None, main) for k in mine)
     made: list[int] = groups_of(len(flexures), pairs).tolist()

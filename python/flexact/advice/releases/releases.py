@@ -303,10 +303,10 @@ def releases_of(result: Result, with_bodies: bool = False) -> Sets:
 
     A set of s deformations works exactly when the s x s block of their rows in the left null
     space of D(c) is regular; where that is asked for, they are counted on the deck as it stands,
-    where each beam of a divided sheet is one of its own. What is listed are deformations of whole sheets, at their
-    ends, as a designer would release them. `condition` of a set is the inverse of the
-    smallest singular value of its block in an orthonormal basis, with moments compared by the
-    characteristic length: by so much the largest self-stress can exceed what the released
+    where each beam of a divided sheet is one of its own. What is listed are deformations of whole
+    sheets, at their ends, as a designer would release them. `condition` of a set is the inverse
+    of the smallest singular value of its block in an orthonormal basis, with moments compared by
+    the characteristic length: by so much the largest self-stress can exceed what the released
     deformations carry of it.
 
     Where the stiffness of what is stressed is known, sets come first that cost little of it
@@ -419,18 +419,25 @@ def coordinate_sets(source: Result) -> tuple[Reach, list[Candidate]]:
     tiers = _tiers_of_nodes(source, reach)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
     # Coordinates that are called after a body come before those of its other points.
-    firsts = source.condensed.nodes[nodes], source.parts.first_points
-    late = tiers + 0.5 * ((tiers < BODY) & (turns == 0.0) & ~np.isin(*firsts))
+    given = source.condensed.nodes[nodes]
+    is_first = (turns > 0.0) | np.isin(given, source.parts.first_points)
+    late = tiers + 0.5 * ((tiers < BODY) & ~is_first)
 
     def ranking(sets: Places, condition: FloatArray) -> FloatArray:
         of_sets = np.sort(late[sets], axis=1)[:, ::-1]
         turning = turns[sets].sum(axis=1)[:, None]
         return np.concatenate([decades(condition), of_sets, turning], axis=1)
 
-    # Of sets that differ in what is inside of sheets and wires alone the best.
-    first: dict[tuple[int, ...], Candidate] = {}
+    # Of sets that are called the same, and of those that differ in what is inside of sheets and
+    # wires alone, the best.
+    axes = (source.raw.column_label[1, reach.index] - 1).tolist()
+    called = [
+        (source.parts.body_at.get(node, -1 - node), bool(turns[k]), axes[k])
+        for k, node in enumerate(given.tolist())
+    ]
+    first: dict[tuple[object, ...], Candidate] = {}
     for one in candidates(reach, ranking, tiers):
-        first.setdefault(tuple(i for i in one.members if tiers[i] < LINK), one)
+        first.setdefault(tuple(sorted(called[i] for i in one.members if tiers[i] < LINK)), one)
     return reach, list(first.values())
 
 
@@ -465,6 +472,11 @@ class TakenBack(Step):
 
     def words(self) -> Pieces:
         """Such as "take back the declaration of sheet 1: ... (RLSE 1 5 instead of DYNE 1 5)"."""
+        told, note = self.in_short()
+        return (*told, f" ({note})" if note else "")
+
+    def in_short(self) -> tuple[Pieces, str]:
+        """What is done, and the statements or calls that do it."""
         outcome, change = outcome_as_given(self.analysis), self.change
         what: list[Pieces] = [
             (
@@ -486,12 +498,12 @@ class TakenBack(Step):
             ]
             notes = list(chain.from_iterable(made)) if all(made) else []
         is_one = len(what) == 1
-        return (
+        told = (
             f"take back the declaration{'' if is_one else 's'} of ",
             *joined(what),
             ", which is driven against a constraint" if is_one else "",
-            f" ({', '.join(notes)})" if notes else "",
         )
+        return told, ", ".join(notes)
 
 
 def undeclarations_of(result: Result) -> tuple[TakenBack, ...]:

@@ -280,6 +280,15 @@ class Release(Step):
         phrases, *others = (
             _phrases(outcome, purpose, each) for each in (self.change, *self.alternatives)
         )
+        told, note = self.in_short()
+        return (*told, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
+
+    def in_short(self) -> tuple[Pieces, str]:
+        """What is done, and the statements or calls that do it."""
+        outcome, purpose = outcome_as_given(self.analysis), self.purpose
+        if purpose is Purpose.DECLARE and not self.change.deformations:
+            words = ("declare ", *coordinates_in_words(outcome, self.change))
+            return words, statements_in_words(outcome, self.change, "DYNX")
         if purpose is not Purpose.HOLD:
             is_freed = not self.change.deformations
             note = "" if is_freed else statements_in_words(outcome, self.change, "RLSE")
@@ -287,8 +296,7 @@ class Release(Step):
             note = statements_in_words(outcome, self.change, "RLSE", "without ")
         else:
             note = statements_in_words(outcome, self.change, HOLD)
-        told = _told(phrases)
-        return (*told, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
+        return _told(_phrases(outcome, purpose, self.change)), note
 
     def _declared(self, outcome: Decomposition) -> Pieces:
         """What is declared or held."""
