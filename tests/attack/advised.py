@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations
 from typing import NamedTuple
 
@@ -27,9 +28,10 @@ from flexact.advice.causes.cause import CauseKind, Relation
 from flexact.advice.causes.gradients import generic_rank
 from flexact.advice.causes.trials import Trials
 from flexact.advice.releases.words import outcome_as_given, released
+from flexact.advice.repairs import Repair
 from flexact.advice.step import Purpose
 from flexact.analysis.result import Result
-from flexact.core.elements import Role, role_table
+from flexact.core.elements import Class, Role, role_table
 from flexact.model.parts.parts import Part, PartKind
 
 Floats = NDArray[np.float64]
@@ -96,24 +98,34 @@ def _counts(model: Model) -> tuple[int, int]:
 
 # Hardware ------------------------------------------------------------------------
 
+#: Words of what is released where a sheet is replaced by a folded one.
+_FOLD = {"let  slide along its length", "cut  to a waist"}
+
 
 def hardware(step: Step) -> Model | None:
     """The mechanism with the hardware that the words of a release name; None where they name none.
 
-    Waists are notches about the normal of a sheet, at its end; what is taken out is not there.
+    Waists are notches about the normal of a sheet, at its end; what is taken out is not there; a
+    folded sheet has its fold a little beside the end that is named.
     """
-    change = step.change
-    if step.purpose is not Purpose.RELEASE or change.coordinates or not change.deformations:
+    change, is_repair = step.change, isinstance(step, Repair)
+    if step.purpose not in (Purpose.RELEASE, Purpose.REPAIR) or change.places:
+        return None
+    releases = [each for each in change.deformations if each[2] is Class.DEPENDENT]
+    if not releases or (change.coordinates and not is_repair):
         return None
     outcome = outcome_as_given(step.analysis)
-    made = Model.from_data(outcome.given)
+    rest = [each for each in change.deformations if each[2] is not Class.DEPENDENT]
+    made = replace(change, deformations=tuple(rest)).apply(outcome.given)
     by_element: dict[int, list[int]] = {}
-    for element, number, _ in change.deformations:
+    for element, number, _ in releases:
         by_element.setdefault(element, []).append(number)
     for element, numbers in by_element.items():
         part = outcome.parts.of_element(outcome.given.element_index[element])
         phrases = released(outcome, [(element, number) for number in numbers])
         words = {f"{phrase.before}{phrase.what}".strip() for phrase in phrases}
+        if words == _FOLD and "folded sheet" in step.statement:
+            words = {"fold"}
         if len(part.elements) > 1 or len(words) > 1 or not _build(made, step, part, numbers, words):
             return None
     return made
@@ -142,6 +154,16 @@ def _build(made: Model, step: Step, part: Part, numbers: Sequence[int], words: s
     if word == "replace  by a wire" and part.kind is PartKind.SHEET and not planar:
         made.delete(element)
         made.wire(*ends)
+        return True
+    if word == "fold" and part.kind is PartKind.SHEET and not planar:
+        _, place = next(_BENDINGS[Role(role)] for role in roles if Role(role) in _BENDINGS)
+        wide = int(step.analysis.parts.wide[index])
+        first, last = (arrays.node_value[:3, nodes[k] - 1] for k in (2 * place, 2 - 2 * place))
+        beside = 0.1 * (last - first) + 0.2 * np.linalg.norm(last - first) * axes[:, 3 - wide]
+        made.delete(element)
+        made.folded_sheet(
+            ends[place], (first + beside).tolist(), ends[1 - place], axes[:, wide].tolist()
+        )
         return True
     if word in ("cut  to a waist", "give  a notch") and len(roles) == 1:
         about, place = _BENDINGS[Role(roles[0])]

@@ -14,7 +14,6 @@ from ..analysis.mode_words import (
     largest_first,
     motion_in_parts,
     parts_in_words,
-    pressing_in_words,
     stress_in_parts,
 )
 from ..analysis.naming import (
@@ -38,18 +37,13 @@ from .causes.words import cause_of_motion_in_words, cause_of_stress_in_words
 
 #: How many deformations of a large model are told.
 _MOST_TOLD = 4
-#: How many names stand in a row; they may hold commas.
-_MOST_NAMES = 8
 
 
 def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
     """Which parts fight over what; where that cannot be said in short, what they carry."""
     conflict = conflict_in_words(stress)
     if conflict:
-        names = pressing_in_words(stress)
-        rest = (f"{len(names) - _MOST_NAMES} more",) if len(names) > _MOST_NAMES else ()
-        row = "; ".join((*names[:_MOST_NAMES], *rest))
-        return ended((*begun(conflict), *((f": {row}",) if names else ())))
+        return ended(begun(conflict))
     if not result.is_told_by_parts:
         told = stress_in_parts(stress, _MOST_TOLD)[:_MOST_TOLD]
         return ended(("Most stressed are ", *joined(told)))

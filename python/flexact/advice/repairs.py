@@ -22,7 +22,7 @@ import numpy as np
 
 from ..analysis.calls import calls_of
 from ..analysis.change import Change
-from ..analysis.naming import Named, Pieces, named_element, row_of
+from ..analysis.naming import Named, Pieces, named_element, row_of, together_in_words
 from ..analysis.places import axis_words, part_words, place_words
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
@@ -48,7 +48,6 @@ from .releases.words import (
     outcome_as_given,
     released,
     statements_in_words,
-    together_in_words,
 )
 from .step import Purpose, Step, after, analysed, together
 
@@ -60,6 +59,8 @@ MOST_STATEMENTS = 4
 _MOST_REPAIRS, _MOST_TRIED, _MOST_ALIKE = 3, 8, 3
 #: Singular values below this of rows of an orthonormal basis are none.
 _LEAST = 1.0e-6
+#: Nor are those of many limbs below this, so that their block is a good one.
+_CLEARLY = 1.0e-2
 #: How many sets of statements are looked at, operations of all, and sets that are enough.
 _MOST_SETS, _MOST_OPERATIONS, _ENOUGH = 6_000, 6.0e8, 24
 #: Of an orbit of more parts the outermost are changed one by one.
@@ -554,9 +555,30 @@ class _Workshop:
                 known = made.get(tuple(sorted(taken)))
                 if known is None and _singular(self.rows[list(taken)], size) > _LEAST:
                     made[tuple(sorted(taken))] = one
+        for one in self._but_few():
+            made.setdefault(tuple(sorted(one.rows)), one)
         return sorted(
             made.values(), key=lambda one: (one.alike, one.hardware, one.end, one.flexures)
         )
+
+    def _but_few(self) -> Iterator[Statement]:
+        """Of limbs of one kind as many left out as can be, the first ones being kept."""
+        by_kind = grouped((one.part.kind, k) for k, one in enumerate(self.flexures))
+        for some in by_kind.values():
+            chosen, rows, size = list[int](), list[int](), 0
+            spanned = np.zeros((self.rows.shape[1], 0))
+            limbs = {self.flexures[k].limb: k for k in reversed(some)}
+            for limb, k in sorted(limbs.items(), key=lambda each: -each[1]):
+                off = self.rows[list(limb.rows)].T
+                off = off - spanned @ (spanned.T @ off)
+                left, values, _ = np.linalg.svd(off, full_matrices=False)
+                new = int(np.count_nonzero(values > _CLEARLY))
+                if new != len(limb.rows) - limb.columns:
+                    continue
+                spanned = np.concatenate([spanned, left[:, :new]], axis=1)
+                chosen, rows, size = [k, *chosen], [*rows, *limb.rows], size + new
+            if len(chosen) > 1:
+                yield Statement(Hardware.OUT, "", -1, Alike.REST, tuple(chosen), tuple(rows), size)
 
     def words_of(self, statement: Statement) -> Pieces:
         """What a statement does, within a sentence."""
@@ -675,12 +697,14 @@ def _actions(flexure: Flexure) -> _Actions:
     held, made = flexure.held, _Actions()
     length = held.get(("length", -1))
     plane = [held[place] for end in (0, 1) if (place := ("in-plane bending", end)) in held]
+    # A sheet that holds its twist, too, is more than a wire or a folded sheet stands for.
+    is_plain = len(held) == 3 == len(plane) + (length is not None)
     for (what, end), row in held.items() if len(held) > 1 else ():
         hardware = _HARDWARE.get(what, Hardware.RELEASE)
         made[hardware, what if hardware is Hardware.RELEASE else "", end] = (row,)
-        if hardware is Hardware.WAIST and len(plane) == 2 and length is not None:
+        if hardware is Hardware.WAIST and is_plain and length is not None:
             made[Hardware.FOLD, "", end] = (length, row)
-    if len(plane) == 2 and length is not None:
+    if is_plain:
         made[Hardware.WIRE, "", -1] = tuple(plane)
     made[Hardware.OUT, "", -1] = flexure.limb.rows
     return made

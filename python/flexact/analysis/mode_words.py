@@ -13,16 +13,27 @@ from .body_motions import BodyMotion
 from .decomposition import Decomposition
 from .limits import SAME_PLACE, TOLD
 from .naming import (
+    Named,
     Pieces,
     coordinate_in_words,
     deformation_in_words,
     named_element,
     named_node,
+    row_of,
+    together_in_words,
     unit_of,
     unit_of_coordinate,
 )
-from .part_stresses import QUANTITIES, Conflict, PartStress, shared_resultants
-from .places import axis_words, direction_words, joint_node, listed, part_words, place_words
+from .part_stresses import QUANTITIES, Conflict, PartStress, Side, shared_resultants
+from .places import (
+    axis_words,
+    direction_words,
+    joint_node,
+    listed,
+    part_words,
+    place_words,
+    with_article,
+)
 from .result import Motion, Result, SelfStress
 from .screws import Screw, ScrewKind, WrenchKind
 
@@ -136,8 +147,8 @@ def joined(names: Sequence[Pieces]) -> Pieces:
     return tuple(piece for pieces in made for piece in pieces)
 
 
-#: How many parts that fight are named.
-_MODE_WORDS_MOST_NAMES = 3
+#: How many sides that fight are named, and how many that press.
+_MODE_WORDS_MOST_NAMES, _MOST_SIDES = 3, 8
 _MOMENTS = ("in-plane moment", "out-of-plane moment")
 
 
@@ -166,38 +177,56 @@ def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
 
 
 def conflict_in_words(stress: SelfStress) -> Pieces:
-    """Which parts fight over what; nothing where that cannot be said in short."""
+    """Which sides fight over what; nothing where that cannot be said in short."""
     outcome = stress.analysis
     if not outcome.is_told_by_parts:
         return ()
-    chosen = _clearest(stress)
-    if chosen is None:
-        return ()
-    names = [part_words(load.part) for load in chosen.loads if load.part is not None]
-    arrays, over = outcome.given.arrays, chosen.over
-    if isinstance(chosen.on, Joint):
-        on = named_node(outcome, int(arrays.node_number[joint_node(outcome.parts, chosen.on)]))
+    rivalry, names = stress.rivalry, list[Pieces]()
+    if rivalry is not None:
+        on, over = rivalry.on, rivalry.over
+        names = [side_in_words(outcome, side) for side in rivalry.sides]
     else:
-        on = named_element(outcome, int(arrays.element_number[chosen.on.elements[0]]))
+        chosen = _clearest(stress)
+        if chosen is None:
+            return ()
+        on, over = chosen.on, chosen.over
+        parts = [load.part for load in chosen.loads if load.part is not None]
+        names = [(named_element(outcome, part.number),) for part in parts]
+    arrays = outcome.given.arrays
+    if isinstance(on, Joint):
+        where = named_node(outcome, int(arrays.node_number[joint_node(outcome.parts, on)]))
+    else:
+        where = named_element(outcome, int(arrays.element_number[on.elements[0]]))
     if over is None or len(names) > _MODE_WORDS_MOST_NAMES:
-        return (f"{len(names)} parts press on ", on, ", in balance")
+        if isinstance(on, Joint) and len(names) > _MODE_WORDS_MOST_NAMES:
+            return ()
+        single = [each[0] for each in names if isinstance(each[0], Named) and len(each) == 1]
+        all_of = (
+            together_in_words(single) if len(single) == len(names) else row_of(names, _MOST_SIDES)
+        )
+        return (*all_of, " press on ", where, ", in balance")
     both = "both" if len(names) == 2 else "all"
-    # What of a body several parts hold: a rotation, or a displacement along a line.
+    # What of a body several sides hold: a rotation, or a displacement along a line.
     if over.kind is WrenchKind.COUPLE:
         held, against = f" against rotation about {axis_words(over.direction)}", "moments"
     else:
         held = f" along {line_words(outcome, over.point, over.direction)}"
         against = "forces" if over.kind is WrenchKind.FORCE else "forces and moments"
-    return (f"{listed(names)} {both} hold ", on, f"{held}, with opposite {against}")
+    return (*row_of(names), f" {both} hold ", where, f"{held}, with opposite {against}")
 
 
-def pressing_in_words(stress: SelfStress) -> tuple[str, ...]:
-    """Names of the parts that press on a body, where they are so many that they are counted."""
-    chosen = _clearest(stress) if stress.analysis.is_told_by_parts else None
-    if chosen is None:
-        return ()
-    names = tuple(part_words(load.part) for load in chosen.loads if load.part is not None)
-    return names if chosen.over is None or len(names) > _MODE_WORDS_MOST_NAMES else ()
+def side_in_words(outcome: Decomposition, side: Side) -> Pieces:
+    """A side of a loop: its part, what its parts are called together, or its bodies and parts."""
+    named = [named_element(outcome, part.number) for part in side.parts]
+    if len(named) == 1:
+        return (named[0],)
+    heads = {part.name.partition(",")[0].strip() for part in (*side.parts, *side.through)}
+    if len(heads) == 1:
+        return (named[0]._replace(words=with_article(heads.pop())),)
+    if not side.through:
+        return together_in_words(named)
+    bodies = together_in_words([named_element(outcome, body.number) for body in side.through])
+    return ("the side of ", *bodies, " (", *together_in_words(named), ")")
 
 
 def _clearest(stress: SelfStress) -> Conflict | None:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ..core.elements import Dual, dual_table
+from ..util.groups import grouped
 from ..util.text import TIE, USUAL, wrapped
 from .decomposition import Decomposition
 from .freedoms import Freedom
@@ -14,6 +15,13 @@ from .places import deformation_words, node_words, part_words
 from .ways import Coordinate, Part
 
 _INDENT = "     "
+#: How many names and runs of names stand together.
+_MOST_TOGETHER = 11
+#: Nouns that stand in the plural where names of parts are put together.
+_NOUNS = frozenset(
+    "sheet wire bar beam hinge joint strut arm leg link guide blade vee contact limb notch rod "
+    "flexure spring spoke crank ring clamp stage".split()
+)
 
 
 class Named(NamedTuple):
@@ -107,6 +115,34 @@ def row_of(items: Sequence[Pieces], most: int | None = None) -> Pieces:
         made += [""] if not k else [" and "] if k == len(shown) - 1 else [", "]
         made += item
     return tuple(piece for piece in made if piece)
+
+
+def together_in_words(parts: Sequence[Named]) -> Pieces:
+    """Names, such as "sheets 2, 4 and 6" or "left arms 2 to 6"; of many without a number the first.
+
+    Numbers of names that begin alike are put together.
+    """
+    heads = grouped((part.words.rpartition(" ")[::2], part) for part in parts)
+    by_head = grouped((head, (number, mine[0])) for (head, number), mine in heads.items())
+    items: list[Pieces] = []
+    for head, numbered in by_head.items():
+        numbers = [int(n) if n.isascii() and n.isdigit() else -1 for n, _ in numbered]
+        if len(numbers) == 1 or min(numbers) < 0 or not _plural(head):
+            items += [(part,) for _, part in numbered]
+            continue
+        runs = grouped((n - k, k) for k, n in enumerate(numbers))
+        ends: list[Pieces] = []
+        for run in runs.values():
+            short = [numbered[k][1]._replace(words=numbered[k][0]) for k in run]
+            ends += [(short[0], " to ", short[-1])] if len(run) > 2 else [(each,) for each in short]
+        items.append((f"{_plural(head)} ", *row_of(ends)))
+    return row_of(items, _MOST_TOGETHER)
+
+
+def _plural(head: str) -> str:
+    """Of a name that ends with what parts are called; empty of others, such as "lower"."""
+    noun = head.rpartition(" ")[2]
+    return head + ("es" if noun.endswith("ch") else "s") if noun in _NOUNS else ""
 
 
 def _tied(words: str, width: int) -> str:

@@ -20,7 +20,7 @@ from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Joint, Part, PartKind, natural
-from ..util.groups import grouped
+from ..util.groups import grouped, groups_of
 from ..util.records import Frozen, cached_property
 from .decomposition import Decomposition, row_weights
 from .limits import EXACT_COSINE, NO_RESULTANT, ROUNDING, SAME_WRENCH, TOLD
@@ -225,12 +225,7 @@ class Conflict(NamedTuple):
     @property
     def over(self) -> Wrench | None:
         """What they fight over: of the first part, if that of each is a multiple of it."""
-        first = self.loads[0].wrench
-        vectors = [load.wrench.at(first.about).vector for load in self.loads]
-        unit = vectors[0] / np.linalg.norm(vectors[0])
-        off = max(float(np.linalg.norm(v - (v @ unit) * unit)) for v in vectors)
-        largest = max(float(np.linalg.norm(v)) for v in vectors)
-        return first if off <= SAME_WRENCH * largest else None
+        return _common([load.wrench for load in self.loads])
 
     @property
     def shares(self) -> tuple[float, ...] | None:
@@ -246,6 +241,43 @@ class Conflict(NamedTuple):
     def __str__(self) -> str:
         """In words."""
         return f"{self.on}: {'; '.join(map(str, self.loads))}"
+
+
+class Side(NamedTuple):
+    """Parts in a row, and the bodies between them, that press on a body from one side."""
+
+    parts: tuple[Part, ...]
+    """The flexible parts, by name."""
+    through: tuple[Part, ...]
+    """The bodies between them, by name."""
+    wrench: Wrench
+    """What they exert."""
+
+
+class Rivalry(NamedTuple):
+    """A body, or a point, on which several sides of a loop press: in balance."""
+
+    on: Part | Joint
+    sides: tuple[Side, ...]
+
+    @property
+    def over(self) -> Wrench | None:
+        """What the sides fight over: of the first, if that of each is a multiple of it."""
+        return _common([side.wrench for side in self.sides])
+
+
+def _common(wrenches: list[Wrench]) -> Wrench | None:
+    """The first of several wrenches, if each is a multiple of it."""
+    first = wrenches[0]
+    vectors = [each.at(first.about).vector for each in wrenches]
+    unit = vectors[0] / np.linalg.norm(vectors[0])
+    off = max(float(np.linalg.norm(v - (v @ unit) * unit)) for v in vectors)
+    largest = max(float(np.linalg.norm(v)) for v in vectors)
+    return first if off <= SAME_WRENCH * largest else None
+
+
+#: A body or joint by its first node; -1 is the ground.
+_Place = int
 
 
 class Presses:
@@ -328,6 +360,73 @@ class Presses:
         bodies = sorted(self.analysis.carriers.bodies, key=self._key)
         made = (Conflict(body, self.on(body)) for body in bodies)
         return tuple(one for one in made if any(load.part for load in one.loads))
+
+    @cached_property
+    def rivalry(self) -> Rivalry | None:
+        """The sides of a loop that press on the body farthest from the ground, or from each other.
+
+        What lies in a row is of one side. None where there are no two sides, or where a support
+        or a drive presses on that body, too.
+        """
+        loops = [one for one in self.parts if len(one.ends) == 2]
+        between = [tuple(self._place_at(end) for end in one.ends) for one in loops]
+        at = grouped((place, k) for k, both in enumerate(between) for place in both)
+        away = self.analysis.carriers.away
+
+        def rank(place: _Place) -> tuple[int, int, int]:
+            return (-1 if place < 0 else int(away[place]), len(at[place]), -place)
+
+        inner = [place for place in at if place >= 0 and len(at[place]) > 1]
+        if len(loops) < len(self.parts) or not inner:
+            return None
+        main = max(inner, key=rank)
+        start = min((place for place in at if place != main), key=rank, default=main)
+        pairs = (
+            (mine[0], k) for place, mine in at.items() if place not in (main, start) for k in mine
+        )
+        side_of = groups_of(len(loops), pairs).tolist()
+        where = next(
+            end.on for k in at[main] for end in loops[k].ends if self._place_at(end) == main
+        )
+        assert where is not None
+        pressed = self._loads(where.nodes, None) if isinstance(where, Joint) else self.on(where)
+        loads = {load.part: load.wrench for load in pressed}
+        if None in loads:
+            return None
+        sides = []
+        for mine in grouped(zip(side_of, range(len(loops)), strict=True)).values():
+            parts = [loops[k].part for k in mine]
+            pressing = [loads[part] for part in parts if part in loads]
+            bodies = {end.on for k in mine for end in loops[k].ends} - {where}
+            if not pressing:
+                continue
+            first = pressing[0]
+            force = np.sum([each.force for each in pressing], axis=0)
+            moment = np.sum([each.moment for each in pressing], axis=0)
+            wrench = self._wrench(np.stack((force, moment)), first.about)
+            through = [
+                body
+                for body in bodies
+                if isinstance(body, Part)
+                and body.kind is PartKind.BODY
+                and self._place_of_carrier(body) not in (main, start)
+            ]
+            if wrench:
+                one, other = (tuple(sorted(each, key=self._key)) for each in (parts, through))
+                sides.append(Side(one, other, wrench))
+        sides.sort(key=lambda side: self._key(side.parts[0]))
+        return Rivalry(where, tuple(sides)) if len(sides) > 1 else None
+
+    def _place_at(self, end: EndLoad) -> _Place:
+        return -1 if end.on is None else self._place_of_carrier(end.on)
+
+    def _place_of_carrier(self, carrier: Part | Joint) -> _Place:
+        """The first node of a body or joint; -1 of a body that is held."""
+        if isinstance(carrier, Joint):
+            return carrier.nodes[0]
+        body = self.analysis.parts.bodies[self.analysis.carriers.bodies.index(carrier)]
+        nodes = (*body.positions, *body.orientations)
+        return -1 if all(map(self.analysis.parts.is_held, nodes)) else nodes[0]
 
     # What it is made of -----------------------------------------------------
 

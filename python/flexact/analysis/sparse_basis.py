@@ -228,8 +228,11 @@ _NEW = 1.0e-2
 _ALL_BUT = 1.0e-6
 #: Subspaces that are cut to find all flats of one component.
 _MOST_CUTS = 1_500
-#: Components of more dimensions than this are left as they are.
-MOST_DIMENSIONS = 24
+#: Of components of more dimensions than this circuits are given; of still more they are left as
+#: they are.
+MOST_DIMENSIONS, _MOST_CIRCUITS = 24, 400
+#: A row of which less than this is new makes no circuit.
+_CLEARLY_NEW = 1.0e-3
 #: Of flats of more dimensions only what is not spanned yet is refined.
 _MOST_REFINED = 8
 #: Steps of the descent, and groups from which one starts.
@@ -403,6 +406,9 @@ class _Search:
         if not d:
             return
         blocks = [_reduced(self.blocks[i] @ within) for i in members]
+        if MOST_DIMENSIONS < d <= _MOST_CIRCUITS:
+            yield from self._circuits(members, blocks, within)
+            return
         spanned = np.zeros((d, 0))
         for support, new in self._cheapest_first(members, blocks, d):
             if not np.linalg.norm(_off(new, spanned)) > _NEW:
@@ -418,6 +424,35 @@ class _Search:
                 return
         left = within @ complement(spanned)
         yield Piece(self._cost(members), tuple(members), self.space @ left)
+
+    def _circuits(
+        self, members: list[int], blocks: list[FloatArray], within: FloatArray
+    ) -> Iterator[Piece]:
+        """Of so many vectors those in which one row each of d rows is not zero.
+
+        The rows are those of the last groups, so that what they share are the first ones.
+        """
+        rows = np.concatenate(blocks)
+        owner = np.repeat(np.arange(len(blocks)), [len(block) for block in blocks])
+        chosen, spanned = list[int](), np.zeros((rows.shape[1], 0))
+        for k in reversed(range(len(rows))):
+            off = _off(rows[k][:, None], spanned)
+            size = float(np.linalg.norm(off))
+            if size > _CLEARLY_NEW * np.linalg.norm(rows[k]):
+                spanned = np.concatenate([spanned, off / size], axis=1)
+                chosen.append(k)
+        if len(chosen) < rows.shape[1]:
+            yield Piece(self._cost(members), tuple(members), self.space @ within)
+            return
+        vectors = np.linalg.inv(rows[chosen])
+        vectors /= np.abs(rows @ vectors).max(axis=0)
+        there = np.abs(rows @ vectors) > 1.0e3 * ROUNDING
+        supports = [tuple(members[i] for i in np.unique(owner[mine]).tolist()) for mine in there.T]
+        made = [
+            Piece(self._cost(support), support, self.refine(within @ vectors[:, same]))
+            for support, same in grouped((each, k) for k, each in enumerate(supports)).items()
+        ]
+        yield from sorted(made, key=lambda piece: piece[:2])
 
     def _cheapest_first(
         self, members: list[int], blocks: list[FloatArray], d: int

@@ -21,6 +21,7 @@ from ...analysis.naming import (
     named_node,
     plain,
     row_of,
+    together_in_words,
 )
 from ...analysis.places import (
     bending_of,
@@ -432,32 +433,6 @@ def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
         made += ["; or " if k else "", *each]
     more = len(sets) - _MOST_SETS
     return (*(piece for piece in made if piece), *((f"; or {more} more",) if more > 0 else ()))
-
-
-def together_in_words(parts: Sequence[Named]) -> Pieces:
-    """Names, such as "sheets 2, 4 and 6" or "left arms 2 to 6"; of many without a number the first.
-
-    Numbers of names that begin alike are put together.
-    """
-    heads = grouped((part.words.rpartition(" ")[::2], part) for part in parts)
-    by_head = grouped((head, (number, mine[0])) for (head, number), mine in heads.items())
-    items: list[Pieces] = []
-    for head, numbered in by_head.items():
-        numbers = [int(n) if n.isascii() and n.isdigit() else -1 for n, _ in numbered]
-        if len(numbers) == 1 or min(numbers) < 0 or not head[-1:].isalpha():
-            items += [(part,) for _, part in numbered]
-            continue
-        runs = grouped((n - k, k) for k, n in enumerate(numbers))
-        ends: list[Pieces] = []
-        for run in runs.values():
-            short = [numbered[k][1]._replace(words=numbered[k][0]) for k in run]
-            ends += [(short[0], " to ", short[-1])] if len(run) > 2 else [(each,) for each in short]
-        items.append((f"{_plural(head)} ", *row_of(ends)))
-    return row_of(items, _MOST_NAMED)
-
-
-def _plural(head: str) -> str:
-    return head + ("es" if head.endswith(("s", "x", "ch", "sh")) else "s")
 
 
 def statements_in_words(

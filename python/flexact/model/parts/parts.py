@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
 from dataclasses import replace
 from itertools import groupby
 from typing import NamedTuple
@@ -500,6 +500,43 @@ class Carriers:
                 continue
             if self.parts.is_held(place) or any(other != part for other in self.parts.at(place)):
                 made.append((node, part))
+        return made
+
+    @cached_property
+    def away(self) -> IntArray:
+        """(nodes,) how many flexible elements lie between a node and the ground, at least.
+
+        Of what does not hang on the ground one more than of anything else.
+        """
+        slots = self.data.arrays.element_node - 1
+        rigid = np.isin(
+            np.arange(slots.shape[1]), [i for b in self.parts.bodies for i in b.elements]
+        )
+        beside: list[list[tuple[int, bool]]] = [
+            [] for _ in range(self.data.arrays.node_number.size)
+        ]
+        for nodes, is_rigid in zip(slots.T.tolist(), rigid.tolist(), strict=True):
+            p, op, q, oq = nodes
+            near, far = [n for n in (p, op) if n >= 0], [n for n in (q, oq) if n >= 0]
+            # Of what is rigid all nodes are as far; of the rest those of one end are.
+            groups = [(near + far, False)] if is_rigid else [(near, False), (far, False)]
+            pairs = [(a, b, step) for group, step in groups for a in group for b in group]
+            pairs += [] if is_rigid else [(a, b, True) for a in near for b in far]
+            for a, b, step in pairs:
+                beside[a].append((b, step))
+                beside[b].append((a, step))
+        made = np.full(len(beside), -1, np.int32)
+        front = deque((n, 0) for n in range(len(beside)) if self.parts.is_held(n))
+        while front:
+            node, far_away = front.popleft()
+            if made[node] >= 0:
+                continue
+            made[node] = far_away
+            for other, step in beside[node]:
+                if made[other] < 0:
+                    # What is as far comes first, so that all are met in their order.
+                    (front.append if step else front.appendleft)((other, far_away + step))
+        made[made < 0] = made.max(initial=0) + 1
         return made
 
     def place_of(self, joint: Joint) -> FloatArray | None:
