@@ -11,7 +11,7 @@ PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist workstea
 # What make check asks of the package: see CONTRIBUTING.md.
 QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
          derivatives certainty accuracy json advice advice_on_declarations modes broken_decks no_cascades \
-         diagnostics_rendering reading regress engine cli outputs wording docs docs_elements version package_files parts screws \
+         diagnostics_rendering reading regress engine cli outputs wording docs docs_elements version help package_files parts screws \
          builder_words builder_bodies builder_edits gallery sweep crossings notebooks elastic_core \
          stiffness_cases
 

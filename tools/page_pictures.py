@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import shlex
@@ -12,10 +13,18 @@ import sys
 import tempfile
 import textwrap
 from pathlib import Path
+from typing import Any
 
-from PIL import Image
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
 
+from flexact import analyse
 from flexact.apps.cli.main import main as flexact
+from flexact.show.drawing import drawing_of
+from flexact.show.drawing.view import view_of
+from flexact.show.picture.figure import compose
+from flexact.show.picture.files import load_matplotlib, still_bytes
+from flexact.show.picture.subject import Chosen, subjects_of
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "python"))
@@ -64,7 +73,36 @@ def draw_wrong_and_mended() -> None:
         os.chdir(ROOT)
 
 
+def draw_one_body() -> None:
+    """Draw each body of a page on its wires, with its freedom space, and put all side by side."""
+    page = (DOCS / "one_body_and_its_wires.md").read_text(encoding="utf-8")
+    names: dict[str, Any] = {}
+    exec(re.findall(r"```python\n(.*?)```", page, re.DOTALL)[0], names)
+    rows = re.findall(r"^\| (\d+) \| (\dR \dT) \| `(.*?)`", page, re.MULTILINE)
+    passing = re.findall(r'print\(free\(body_on\("(.*?)"', page)[-1]
+    across, size, seen = 6, 230, (np.full(2, -0.125), np.full(2, 0.125))
+    sheet = Image.new("RGB", (across * size, -(-(len(rows) + 1) // across) * size), "white")
+    words = ImageFont.load_default(size=14)
+    load_matplotlib()
+    for place, (number, cell, wires) in enumerate([*rows, ("", "passing", passing)]):
+        result = analyse(names["body_on"](wires))
+        spaces = result.advice(body="body").spaces
+        drawing = drawing_of(result.given)
+        chosen = Chosen(None, None, None, None, spaces, False)
+        freedom = subjects_of(result, drawing, chosen)[:1]
+        view = view_of("-50,22", drawing)
+        shown = {"size": (size, size), "plain": True, "box": seen}
+        figure = compose(result, drawing, freedom, view, **shown)
+        picture = Image.open(io.BytesIO(still_bytes(figure, ".png", cell, wires)))
+        corner = place % across * size, place // across * size
+        sheet.paste(picture.convert("RGB"), corner)
+        told = f"{number}  {cell}".strip()
+        ImageDraw.Draw(sheet).text((corner[0] + 8, corner[1] + 6), told, "#444444", words)
+    sheet.quantize(96).save(DOCS / "one_body_and_its_wires.png", optimize=True)
+
+
 if __name__ == "__main__":
     draw_wrong_and_mended()
+    draw_one_body()
     for each in PICTURES:
         draw(each)

@@ -1,13 +1,70 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Flexact: exact-constraint analysis of compliant mechanisms.
 
-Read a deck or make a `Model`, and `analyse` it: the `Analysis` says whether the
-mechanism is exactly, under- or over-constrained, with which motions and self-stresses.
+Begin with a `Model` or with a deck that is read, analyse it, ask for advice, and look at it:
 
-The names are loaded when they are first used, so that a command which needs few of them
-starts quickly.
+    import flexact
+
+    model = flexact.Model()  # or flexact.read("guide.dat")
+    guide = model.parallel_guide((0, 0, 0), (0.1, 0, 0), offset=(0, 0.05, 0))
+    model.fix(*guide.ground)
+    model.independent("stage", "y")
+    analysis = flexact.analyse(model)
+    print(analysis.advice().describe())  # what is wrong, why, and steps that mend it
+    analysis.show()  # the mechanism with its motions and self-stresses, in the browser
+
+help(flexact.Model), help(flexact.analyse) and so on tell of each name:
+
+Mechanisms
+    Model: build a mechanism of sheets, wires, bodies, bars, hinges
+    read, read_text: a model from a deck, a file or its text
+    Node, Element: a point and an element of a model
+    Sheet, Wire, FoldedSheet, Notch, Body, Assembly: parts that a model has made
+    Material: what sheets and wires are made of
+    Configuration: where all nodes of a model are
+
+Whether it is exactly constrained
+    analyse: the analysis of a model or deck
+    Analysis: its result, with words, files and pictures
+    Verdict, Counts, ClassCounts: exactly, under- or over-constrained, and by how much
+    Motion: a motion that nothing holds
+    SelfStress: parts that press on each other without any load
+    Certainty, Gap, Proof: how sure the rank is
+    Alternative, Margin: other counts that may be meant; how near another verdict is
+    ExactBases: motions and self-stresses in fractions
+    deformations, jacobian, Jacobian: the equations that the verdict rests on
+
+What to do about it
+    Advice, Step: what is wrong and why; one way to mend it
+
+With stiffness and mass
+    elastic, Elastic: a model with its stiffness and mass
+    State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
+    shape, Shape: the shape in which it vibrates or buckles
+    cost, Cost: what over-constraint costs, and what each release gains
+
+Many variants, and paths
+    sweep, grid, Table: variants of a design in one table
+    Crossing, Crossings: the singular variants between its rows
+    tolerances, Tolerances: misaligned at random, many times
+    trace, Trace: the path of a motion
+
+In notebooks
+    Results: analyses side by side, with pictures
+    viewer: the live viewer, brought back
+
+What went wrong
+    FlexactError: any error that Flexact raises on purpose; all errors below are such
+    DeckError, ModelError: a deck or a model that cannot be analysed
+    AnalysisError: a sound model that could not be analysed
+    ElasticError, StrokeError: a stiffness or a stroke that has no answer
+    UnknownError: a node, element or coordinate that is not there
+    Diagnostic, Severity, Place: a problem of a deck or model, how grave it is, and where
 """
 
+# The names are loaded when they are first used, so that a command which needs few starts quickly.
+
+import sys as _sys
 import typing as _typing
 
 from .util.loading import VERSION as _VERSION
@@ -231,5 +288,10 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    """The public names."""
+    """The public names; none for `help`, which has the text above and would print each in full."""
+    caller = _sys._getframe(1)
+    while caller.f_back and caller.f_globals["__name__"] == "inspect":
+        caller = caller.f_back
+    if caller.f_code.co_name == "docmodule":  # of pydoc, which lists members by inspect
+        return []
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -98,7 +98,7 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Files) -> str
         return (
             (HERE / "front.md").read_text("utf-8")
             + "\n"
-            + markdown.replace("# Pages", "## All pages", 1)
+            + markdown.replace("# Pages", "## Where to begin", 1)
         )
     stem = Path(source).stem
     if folder == "gallery" and (ROOT / "results" / "live" / f"{stem}.html").exists():
