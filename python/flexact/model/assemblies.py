@@ -15,11 +15,11 @@ from .arguments import (
     at_place,
     call,
     checked_name,
+    coordinates,
     count,
     listed,
     named_part,
     numbers_of_size,
-    place,
     point,
     require_own,
     several,
@@ -197,14 +197,14 @@ def add_parallel_guide(
     """Equal sheets side by side, and the stage that they carry."""
     with call("parallel_guide", name):
         number = count(sheets, 2, _MOST_SHEETS, "sheets")
-        x, y, z = place(draft, offset)[:3]
+        x, y, z = coordinates(draft, offset)
         p, q = (point(draft, each) for each in ends)
         if width is None and not draft.planar:
             width = width_across(span(draft, p, q), (x, y, z), "the offset is along the sheets")
         size = 2 if draft.planar else 3
         rows = []
         for end in (p, q):
-            here = draft.node_value[end.position][:size]
+            here = draft.seen(end.position)[:size]
             further = (
                 at_place(draft, [a + k * b for a, b in zip(here, (x, y, z), strict=False)])
                 for k in range(1, number)

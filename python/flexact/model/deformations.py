@@ -10,10 +10,11 @@ from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.text import in_short
 from .arguments import existing, indices_of, part, whole
-from .draft import NO_VECTOR, Draft
+from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Part, Sheet
 from .names import is_coordinate, nearest
 from .parts.forms import PLANAR, XY, XZ
+from .transform import NO_VECTOR
 
 #: Roles of what happens at p, and at q; what is not among them has no end.
 AT_P = frozenset((Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P))

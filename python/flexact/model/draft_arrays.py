@@ -13,7 +13,8 @@ from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
 from ..util.groups import groups_of
 from ..util.text import in_short
 from .data import NUMBERS, Appearance, Loads, ModelData, Properties, rows_of
-from .draft import Draft, Shape, Vector, classes_of
+from .draft import Draft, Shape, classes_of
+from .transform import Vector
 
 #: Nodes that one message names.
 _MOST_LISTED = 5

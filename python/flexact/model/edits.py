@@ -17,6 +17,7 @@ from ..core.elements import (
     is_position,
 )
 from ..deck.rendering import model_error
+from ..util.groups import grouped
 from ..util.quantities import Quantity
 from ..util.text import in_short
 from .arguments import (
@@ -31,7 +32,7 @@ from .arguments import (
     several,
     vector,
 )
-from .draft import Colour, Draft, Said, Vector
+from .draft import Colour, Draft, Said
 from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet, Wire
 from .names import is_coordinate, nearest, part_name
 from .sections import (
@@ -43,6 +44,7 @@ from .sections import (
     sheet_section,
     sheet_shape,
 )
+from .transform import Transform, Vector
 
 
 def fixed_targets(draft: Draft, given: Sequence[object]) -> tuple[list[object], list[object]]:
@@ -114,7 +116,29 @@ def _places(draft: Draft, numbers: Sequence[int], names: Sequence[object]) -> li
                 f"it has {', '.join(every)}",
             )
         found.append(every[name])
-    return found
+    return found if draft.frame is None else _of_frame(draft, found, draft.frame)
+
+
+def _of_frame(
+    draft: Draft, found: list[tuple[int, int]], frame: Transform
+) -> list[tuple[int, int]]:
+    """Coordinates of the model that are those of a frame.
+
+    Raises:
+        ModelError: they are none, as those along axes that lie askew.
+    """
+    made = []
+    for number, axes in grouped(found).items():
+        turned = frame.axes(set(axes))
+        if turned is None:
+            raise model_error(
+                "turned-class",
+                f"axes of this frame are askew: along them {draft.node_words(number)} "
+                "has no coordinate",
+                "name all three of a kind, or name coordinates of the model outside of the frame",
+            )
+        made += [(number, k) for k in sorted(turned)]
+    return made
 
 
 def node_with(draft: Draft, point: Point | int, wants_position: bool) -> int:
@@ -142,7 +166,7 @@ def load(
     what: str,
     unit: str,
 ) -> Vector:
-    """Three numbers; the last may be missing, and in a plane must be nothing."""
+    """Three numbers in the frame at hand; the last may be missing, in a plane must be nothing."""
     given: tuple[object, ...] = (x, y, 0.0 if z is None else z)
     if y is None and z is None:
         given = several(x, f"the components of a {what}") or given
@@ -151,7 +175,7 @@ def load(
     made = vector(given, what, unit)  # type: ignore[arg-type]
     if draft.planar and made[2]:
         raise model_error("bad-number", f"the {what} has a z component in a planar model")
-    return made
+    return draft.turned(made)
 
 
 def moment(

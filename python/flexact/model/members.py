@@ -18,20 +18,19 @@ from .arguments import (
     add_point,
     call,
     checked_name,
-    cross,
     direction,
     numbers_of_size,
     pivot,
     point,
     position,
     text,
-    unit,
     whole,
 )
 from .deformations import deformations, give_deformations
-from .draft import LARGEST, NO_VECTOR, Draft, Vector
+from .draft import LARGEST, Draft
 from .handles import Element, FoldedSheet, Node, Notch, Sheet, Wire
 from .sections import Make, MaterialLike, Section, made_of, round_section, shape_of, sheet_section
+from .transform import NO_VECTOR, Vector, cross, unit
 
 
 def kind(draft: Draft, keyword: str) -> ElementKind:
@@ -293,8 +292,8 @@ def _chain(
 
 
 def span(draft: Draft, p: Node, q: Node) -> Vector:
-    """The vector from p to q [m]."""
-    a, b = draft.node_value[p.position], draft.node_value[q.position]
+    """The vector from p to q in the frame at hand [m]."""
+    a, b = draft.seen(p.position), draft.seen(q.position)
     return b[0] - a[0], b[1] - a[1], b[2] - a[2]
 
 

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +42,7 @@ from .configuration import Configuration
 from .copies import Names, Parts
 from .data import ModelData
 from .deformations import give_deformations, means_part
-from .draft import NO_VECTOR, Draft
+from .draft import Draft
 from .draft_arrays import data_of, draft_of
 from .handles import (
     Assembly,
@@ -57,6 +58,7 @@ from .handles import (
 from .members import Sizes
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
+from .transform import NO_VECTOR
 from .variation import held_given, positions_given, with_held, with_positions
 from .writing import deck_of
 
@@ -215,6 +217,33 @@ class Model:
         """Another point at the position of `node`, with an orientation of its own."""
         draft = self._change()
         return pivot(draft, position_number(draft, node))
+
+    @contextmanager
+    def frame(
+        self, at: Point = NO_VECTOR, axis: Direction = "z", degrees: Quantity = 0.0
+    ) -> Iterator[None]:
+        """A frame of its own for what is said within `with model.frame(at, axis, degrees):`.
+
+        Places, widths, axes, planes, steps, loads and names of coordinates are those of the
+        frame. Points by name and handle are where they are, and `Node.place` and all results are
+        those of the model. Frames within frames add up.
+
+        Args:
+            at: Origin of the frame: a place [m], or a point.
+            axis: The axis about which it is turned, "x", "y", "z" or a vector.
+            degrees: The angle, right-handed [degrees].
+
+        Raises:
+            ModelError: a planar model is turned about another axis than z; or, within, a
+                coordinate is named that is not along x, y or z of the model.
+        """
+        draft = self._change()
+        before = draft.frame
+        draft.frame = copies.frame(draft, at, axis, degrees)
+        try:
+            yield
+        finally:
+            draft.frame = before
 
     def handle(self, position: int, orientation: int = 0) -> Node:
         """The point made of two nodes by their numbers, for a model from a deck.
