@@ -43,8 +43,19 @@ if _typing.TYPE_CHECKING:
         UnknownError,
         elastic,
     )
+    from .model.arguments import polar
     from .model.configuration import Configuration
-    from .model.handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Sheet, Wire
+    from .model.handles import (
+        Assembly,
+        Body,
+        Element,
+        FoldedSheet,
+        Node,
+        Notch,
+        ReinforcedSheet,
+        Sheet,
+        Wire,
+    )
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.model import Model
     from .model.reading import read, read_text
@@ -110,6 +121,7 @@ _HOMES = {
         "UnknownError",
         "elastic",
     ),
+    "model.arguments": ("polar",),
     "model.configuration": ("Configuration",),
     "model.handles": (
         "Assembly",
@@ -118,6 +130,7 @@ _HOMES = {
         "FoldedSheet",
         "Node",
         "Notch",
+        "ReinforcedSheet",
         "Sheet",
         "Wire",
     ),
@@ -189,6 +202,7 @@ __all__ = [
     "Notch",
     "Place",
     "Proof",
+    "ReinforcedSheet",
     "Results",
     "SelfStress",
     "Severity",
@@ -210,6 +224,7 @@ __all__ = [
     "elastic",
     "grid",
     "jacobian",
+    "polar",
     "read",
     "read_text",
     "shape",

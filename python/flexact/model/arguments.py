@@ -18,7 +18,7 @@ from ..util.text import in_short
 from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import COORDINATES, ambiguous, one_line, own_number, unknown
-from .transform import NO_VECTOR, Vector
+from .transform import NO_VECTOR, Vector, on_circle
 
 #: What gives three parts and still is no vector.
 UNORDERED = (str, bytes, bytearray, set, frozenset, dict)
@@ -177,6 +177,24 @@ def numbers(given: object, wanted: int, what: str, unit: str = "") -> tuple[floa
     if not all(map(math.isfinite, parts)):
         raise model_error("bad-number", f"{what}, and one of them is not finite")
     return parts
+
+
+def polar(radius: Quantity, degrees: Quantity, z: Quantity = 0.0) -> Vector:
+    """The place (x, y, z) [m] at a radius and an angle from x about z.
+
+    To the last bit where the angle is a multiple of 30 degrees.
+
+    Args:
+        radius: Distance from the z axis [m].
+        degrees: The angle, right-handed [degrees].
+        z: Height [m].
+
+    Raises:
+        ModelError: one of them is no finite number.
+    """
+    what = "a polar place is a radius, an angle and a height"
+    r, height = (numbers_of_size(each, (1,), what, "m")[0] for each in (radius, z))
+    return on_circle((0.0, 0.0, height), r, angle(degrees))
 
 
 @contextmanager

@@ -136,7 +136,8 @@ class Shape(NamedTuple):
     z: float
 
 
-#: What is said about drawing an element: shape, colour, edge_colour, opacity, drawn, each if given.
+#: What is said about drawing an element, each if given: shape, colour, edge_colour, opacity, drawn;
+#: solid and thickness of its body.
 Said = dict[str, Any]
 Numbers = tuple[float, ...]
 Slots = tuple[int, int, int, int]

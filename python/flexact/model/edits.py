@@ -33,7 +33,7 @@ from .arguments import (
     vector,
 )
 from .draft import Colour, Draft, Said
-from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet, Wire
+from .handles import Assembly, Element, FoldedSheet, Node, Part, ReinforcedSheet, Sheet, Wire
 from .names import is_coordinate, nearest, part_name
 from .sections import (
     MaterialLike,
@@ -252,6 +252,10 @@ def move_node(draft: Draft, number: int, value: tuple[float, float, float, float
 
 def rename_part(draft: Draft, target: object, name: str) -> None:
     """Give a part another name: every beam and link of it."""
+    if isinstance(target, ReinforcedSheet):
+        for word, piece in target.pieces.items():
+            rename_part(draft, piece, f"{name}, {word}")
+        return
     leaves = target.leaves if isinstance(target, FoldedSheet) else (target,)
     for k, leaf in enumerate(leaves, 1):
         own = name if len(leaves) == 1 else f"{name}, leaf {k}"
@@ -316,6 +320,8 @@ def _flexures(target: object) -> list[object]:
     """The flexures of an assembly or folded sheet, or the part itself."""
     if isinstance(target, FoldedSheet):
         return list(target.leaves)
+    if isinstance(target, ReinforcedSheet):
+        return [each for each in target.pieces.values() if isinstance(each, Sheet)]
     if isinstance(target, Assembly):
         return [each for made in target.parts.values() for each in _flexures(made)]
     is_other = isinstance(target, Part) and not isinstance(target, (Sheet, Wire))
