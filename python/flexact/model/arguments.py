@@ -140,6 +140,18 @@ def whole(given: object, what: str) -> int:
         raise model_error("bad-number", f"{what}, not {in_short(given)}") from None
 
 
+def one_of(given: object, known: Iterable[str], what: str) -> str:
+    """A word out of several.
+
+    Raises:
+        ModelError: it is none of them.
+    """
+    for word in known:
+        if isinstance(given, str) and given == word:
+            return word
+    raise model_error("no-such-word", f"{what} is {' or '.join(known)}, not {in_short(given)}")
+
+
 def numbers_of_size(
     given: object, sizes: tuple[int, ...], what: str, unit: str = ""
 ) -> tuple[float, ...]:

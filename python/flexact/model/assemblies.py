@@ -21,6 +21,7 @@ from .arguments import (
     listed,
     named_part,
     numbers_of_size,
+    one_of,
     point,
     require_own,
     text,
@@ -83,10 +84,7 @@ def _solid(shape: object, thickness: Quantity | None) -> Said:
         shape = shape or "hull"
     if shape is not None:
         known = {each.name.lower(): int(each) for each in Solid if each}
-        if shape not in known:
-            what = f"a body is drawn as {', '.join(known)}, not as {in_short(shape)}"
-            raise model_error("no-such-shape", what)
-        said["solid"] = known[str(shape)]
+        said["solid"] = known[one_of(shape, known, "the shape of a body")]
     return said
 
 

@@ -13,7 +13,6 @@ from dataclasses import replace
 from ..core.elements import Class
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
-from ..util.text import in_short
 from .arguments import (
     Direction,
     Point,
@@ -24,6 +23,7 @@ from .arguments import (
     direction,
     listed,
     numbers_of_size,
+    one_of,
     pivot,
     point,
     several,
@@ -225,12 +225,9 @@ def add_strut(draft: Draft, p: Point, q: Point, ends: Ends, name: str) -> Assemb
     with call("strut", name):
         name = text(name, "the name of a strut")
         words = (ends, ends) if isinstance(ends, str) else several(ends, "both ends")
-        if len(words) != 2 or not all(word in ENDS for word in words):
-            raise model_error(
-                "no-such-end",
-                f"the ends of a strut are {' or '.join(ENDS)}, not {in_short(ends)}",
-                'such as "spherical", or ("universal", "spherical")',
-            )
+        if len(words) != 2:
+            raise model_error("bad-number", f"a strut with {len(words)} ends", "give one or two")
+        words = tuple(one_of(word, ENDS, "an end of a strut") for word in words)
         nodes = point(draft, p), point(draft, q)
         draft.require_two_ends((nodes[0].position, 0, nodes[1].position, 0))
         along = unit(span(draft, *nodes))
@@ -387,11 +384,7 @@ def add_spider(
     """Flat arms in the xy plane from a circle to the hub that they hold."""
     with call("spider", name):
         name = text(name, "the name of a spider")
-        if layout not in LAYOUTS:
-            raise model_error(
-                "no-such-layout",
-                f"arms of a spider are {', '.join(LAYOUTS)}, not {in_short(layout)}",
-            )
+        layout = one_of(layout, LAYOUTS, "the layout of a spider")
         r, s = _radii(radii)
         beams, sizes = sizes_of(given)
         rows: tuple[list[Node], list[Node]] = [], []
