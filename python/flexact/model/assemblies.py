@@ -27,7 +27,7 @@ from .arguments import (
     text,
     vector,
 )
-from .data import Solid
+from .data import BodyShape
 from .draft import Draft, Said
 from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .members import Sizes, add_rigid, add_sheet, add_wire, span, width_across
@@ -49,13 +49,13 @@ def add_body(
     name: str,
     mass: Mass,
     section: Section | None = None,
-    solid: tuple[str | None, Quantity | None] = (None, None),
+    looks: tuple[str | None, Quantity | None] = (None, None),
 ) -> Body:
     """One rigid body through points: links from the first to those that it does not carry yet."""
     with call("body", name):
         name = text(name, "the name of a body")
         nodes, links, old_name = _members(draft, points)
-        make, looks = Make(shape_of(section)), _solid(*solid)
+        make, said = Make(shape_of(section)), _shape_said(*looks)
         masses = _masses(mass, draft.planar)
         components = draft.rigid_components()
         first = Node(*components.carrier(nodes[0].position, nodes[0].orientation), draft)
@@ -64,8 +64,14 @@ def add_body(
             carrier = Node(*components.carrier(node.position, node.orientation), draft)
             if not components.joined(first.orientation, carrier.orientation):
                 links.append(add_rigid(draft, first, carrier, "", make))
+        if said and not links:
+            raise model_error(
+                "not-an-element",
+                "a body without links of its own is not drawn",
+                "say it of the body that carries its points",
+            )
         _name_links(draft, links, name or old_name, nodes[0])
-        draft.say_looks((draft.index_of(link.number) for link in links), looks)
+        draft.say_looks((draft.index_of(link.number) for link in links), said)
         if not links and name:
             draft.name_node(nodes[0].position, checked_name(name))
     for number, values in zip((nodes[0].position, nodes[0].orientation), masses, strict=True):
@@ -74,17 +80,19 @@ def add_body(
     return Body(tuple(links), nodes)
 
 
-def _solid(shape: object, thickness: Quantity | None) -> Said:
+def _shape_said(shape: object, thickness: Quantity | None) -> Said:
     """As what a body is drawn, and how thick; nothing where neither is given."""
     said: Said = {}
     if thickness is not None:
-        (said["thickness"],) = numbers_of_size(thickness, (1,), "a thickness is one number", "m")
-        if said["thickness"] <= 0.0:
+        (said["body_thickness"],) = numbers_of_size(
+            thickness, (1,), "a thickness is one number", "m"
+        )
+        if said["body_thickness"] <= 0.0:
             raise model_error("bad-size", "a thickness is not positive", "give it in metres")
         shape = shape or "hull"
     if shape is not None:
-        known = {each.name.lower(): int(each) for each in Solid if each}
-        said["solid"] = known[one_of(shape, known, "the shape of a body")]
+        known = {each.name.lower(): int(each) for each in BodyShape if each}
+        said["body_shape"] = known[one_of(shape, known, "the shape of a body")]
     return said
 
 

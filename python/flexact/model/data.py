@@ -42,7 +42,7 @@ class CrossSection(IntEnum):
     LINE = 5
 
 
-class Solid(IntEnum):
+class BodyShape(IntEnum):
     """As what a rigid body is drawn, where its maker says it; no deck has a word for it."""
 
     NONE = 0
@@ -63,8 +63,9 @@ class Appearance(Frozen):
         edge_colour: (elements, 3) the same for edges.
         opacity: (elements,) from 0, invisible, to 1; NaN where not given.
         drawn: (elements,) whether an element is drawn.
-        solid: (elements,) `Solid` as which the body of a link is drawn; NONE where not given.
-        thickness: (elements,) of that solid [m]; NaN where not given.
+        body_shape: (elements,) `BodyShape` as which the body of a link is drawn; NONE where
+            not given.
+        body_thickness: (elements,) of that shape [m]; NaN where not given.
     """
 
     cross_section: IntArray
@@ -73,12 +74,15 @@ class Appearance(Frozen):
     edge_colour: FloatArray
     opacity: FloatArray
     drawn: BoolArray
-    solid: IntArray = field(default_factory=lambda: np.zeros(0, np.int32))
-    thickness: FloatArray = field(default_factory=lambda: np.zeros(0))
+    body_shape: IntArray = field(default_factory=lambda: np.zeros(0, np.int32))
+    body_thickness: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         """Make the arrays read-only; of no body anything is said where they are left out."""
-        for name, none in (("solid", np.int32(Solid.NONE)), ("thickness", np.float64(np.nan))):
+        for name, none in (
+            ("body_shape", np.int32(BodyShape.NONE)),
+            ("body_thickness", np.float64(np.nan)),
+        ):
             if not getattr(self, name).size:
                 object.__setattr__(self, name, np.broadcast_to(none, self.drawn.shape))
         super().__post_init__()

@@ -137,7 +137,7 @@ class Shape(NamedTuple):
 
 
 #: What is said about drawing an element, each if given: shape, colour, edge_colour, opacity, drawn;
-#: solid and thickness of its body.
+#: body_shape and body_thickness.
 Said = dict[str, Any]
 Numbers = tuple[float, ...]
 Slots = tuple[int, int, int, int]

@@ -23,7 +23,7 @@ _LOOKS: dict[str, tuple[int, ...]] = {
     "colour": (3,),
     "edge_colour": (3,),
     "opacity": (),
-    "thickness": (),
+    "body_thickness": (),
 }
 
 
@@ -83,8 +83,8 @@ def _say_looks(draft: Draft, appearance: Appearance) -> None:
         for i in np.flatnonzero(~np.isnan(rows)).tolist():
             draft.say_looks([i], {name: values[i].tolist()})
     draft.say_looks(np.flatnonzero(~appearance.drawn).tolist(), {"drawn": False})
-    for i in np.flatnonzero(appearance.solid).tolist():
-        draft.say_looks([i], {"solid": int(appearance.solid[i])})
+    for i in np.flatnonzero(appearance.body_shape).tolist():
+        draft.say_looks([i], {"body_shape": int(appearance.body_shape[i])})
 
 
 def data_of(draft: Draft, name: str) -> ModelData:
@@ -183,16 +183,16 @@ def _appearance(draft: Draft, elements: int) -> Appearance | None:
     if all(said == {"drawn": True} for said in draft.said.values()):
         return None
     shapes, drawn = np.zeros((elements, 3)), np.ones(elements, bool)
-    solid = np.zeros(elements, np.int32)
+    body_shape = np.zeros(elements, np.int32)
     numbers = {name: np.full((elements, *size), np.nan) for name, size in _LOOKS.items()}
     for i, said in draft.said.items():
         shapes[i] = said.get("shape", 0.0)
         drawn[i] = said.get("drawn", True)
-        solid[i] = said.get("solid", 0)
+        body_shape[i] = said.get("body_shape", 0)
         for name in said.keys() & _LOOKS.keys():
             numbers[name][i] = said[name]
     kinds = shapes[:, 0].astype(np.int32)
-    return Appearance(kinds, shapes[:, 1:].copy(), **numbers, drawn=drawn, solid=solid)
+    return Appearance(kinds, shapes[:, 1:].copy(), **numbers, drawn=drawn, body_shape=body_shape)
 
 
 def _properties(draft: Draft, elements: int, node_numbers: Sequence[int]) -> Properties | None:

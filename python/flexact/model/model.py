@@ -526,7 +526,7 @@ class Model:
             inertia: Moments of inertia there [kg m2]: Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy,
                 Jyz, Jzz; in a planar model one number.
             section: How the links are drawn, see `look`.
-            shape: As what it is drawn, "disc", "box" or "hull", see `Appearance.solid`. It is
+            shape: As what it is drawn, "disc", "box" or "hull", see `Appearance.body_shape`. It is
                 kept with the model and its copies; a deck has no word for it.
             thickness: Of that shape [m].
 

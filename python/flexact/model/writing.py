@@ -47,7 +47,7 @@ def deck_of(data: ModelData) -> str:
     title = one_line(data.name) if origin is None else ""
     appearance, numbers = data.given_appearance, data.arrays.element_number
     picture = [] if appearance is None else [*_picture(appearance, numbers)]
-    if appearance is not None and appearance.solid.any() and len(picture) == _HEAD:
+    if appearance is not None and appearance.body_shape.any() and len(picture) == _HEAD:
         # Decks have no word for as what bodies are drawn.
         picture = []
     dynamics = dynamics_of(data, comments)
