@@ -87,6 +87,15 @@ def test_a_cartwheel_turns_about_its_centre(given: dict[str, float]) -> None:
     assert model.point("hinge centre") == hinge["centre"]
 
 
+def test_a_planar_cartwheel_turns_about_its_centre() -> None:
+    """Each half sheet holds its elongation: four of the six motions of body and centre."""
+    model = Model(planar=True)
+    hinge = model.cartwheel([(-1, 0), (1, 0)], [(1, 2), (-1, 2)])
+    model.fix(*hinge.ground)
+    assert counts(model) == (1, 0)
+    assert hinge["centre"].place == pytest.approx((0, 1))  # type: ignore[union-attr]
+
+
 def test_an_infinity_hinge_is_held_once_in_all_but_its_axis() -> None:
     """Sheet: three. Fold and wire: forces along x at both sides of it, at half of its height."""
     model = Model()
@@ -362,6 +371,15 @@ def test_what_is_made_in_a_frame_is_what_is_made_and_then_moved(name: str) -> No
     if plain.data.loads is not None:
         assert framed.data.loads is not None
         assert np.allclose(framed.data.loads.force, plain.data.loads.force @ turned.T, atol=1e-14)
+
+
+@pytest.mark.parametrize("name", BUILDS)
+def test_its_deck_has_the_same_verdict(name: str) -> None:
+    model = Model()
+    BUILDS[name](model)
+    again = flexact.read_text(model.to_deck())
+    assert counts(again) == counts(model)
+    assert len(analyse(again).freedoms) == len(analyse(model).freedoms)
 
 
 def test_frames_by_hand() -> None:

@@ -375,11 +375,14 @@ def assembly_of(
                 draft.name_node(node.position, each)
     for word, node in inner.items():
         found[word] = node
-        if not node.name:
-            draft.name_node(
-                node.position, numbered_from(prefixed(name, word), draft.points_by_name)
-            )
+        name_point(draft, node, prefixed(name, word))
     return Assembly(name, Named({**parts, body_word: body}), Named(found), tuple(rows[0]), body)
+
+
+def name_point(draft: Draft, node: Node, name: str) -> None:
+    """Give a point a name where it has none, with a number where that is taken."""
+    if not node.name:
+        draft.name_node(node.position, numbered_from(name, draft.points_by_name))
 
 
 def numbered_from(name: str, taken: Container[str]) -> str:

@@ -7,11 +7,12 @@ What lies about an axis lies about z of the frame at hand.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ..core.elements import Class
 from ..deck.rendering import model_error
+from ..util.groups import grouped
 from ..util.quantities import Quantity
 from .arguments import (
     Direction,
@@ -29,7 +30,7 @@ from .arguments import (
     several,
     text,
 )
-from .assemblies import add_body, assembly_of, numbered, numbered_from, pairs, prefixed
+from .assemblies import add_body, assembly_of, name_point, numbered, numbered_from, pairs, prefixed
 from .deformations import give_deformations
 from .draft import Draft
 from .handles import Assembly, Element, FoldedSheet, Named, Node, Part
@@ -46,13 +47,75 @@ from .members import (
     span,
     width_across,
 )
-from .sections import MaterialLike, Section, sheet_section
+from .sections import sheet_section
 from .transform import IDENTITY, NO_VECTOR, Vector, cross, on_circle, sine, unit
 
 _MOST_ARMS = 1000
-#: Sheets of a cartwheel miss its centre by no more than this part of their length.
+#: Sheets of a cartwheel miss its centre by no more than this part of their length; axes of a
+#: universal joint whose sine is less are parallel.
 _MISS = 1.0e-6
 Parts = dict[str, Part | FoldedSheet | Element]
+#: A flexure to be made: the word for it, its points from the ground to the body, and the widths of
+#: its sheets, one, or two of a flat arm; without one it is a folded sheet, a wire or a contact.
+Wanted = tuple[str, Sequence[Point], Sequence[Direction]]
+_CONTACT = "contact"
+
+
+def _flexures(
+    draft: Draft, name: str, wanted: Iterable[Wanted], given: Flexure
+) -> tuple[Parts, tuple[list[Node], list[Node]]]:
+    """Flexures by their words and numbers, and their ends on the ground and on the body."""
+    beams, sizes = sizes_of(given)
+    plain = sizes._replace(reinforced=None)
+    every = [*wanted]
+    round_ = plain
+    if any(widths for _, _, widths in every):
+        shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
+        round_ = Sizes(None, shape.y if shape else None, sizes.material)
+    parts: Parts = {}
+    rows: tuple[list[Node], list[Node]] = [], []
+    for word, group in grouped((each[0], each[1:]) for each in every).items():
+        names = numbered(prefixed(name, word), len(group), draft.parts_by_name)
+        for k, (own, (points, widths)) in enumerate(zip(names, group, strict=True), 1):
+            nodes = [point(draft, each) for each in points]
+            made: Part | FoldedSheet | Element
+            if len(widths) == 2:
+                first, second = (
+                    add_sheet(draft, nodes[i], nodes[i + 1], widths[i], beams, leaf, plain)
+                    for i, leaf in enumerate((f"{own}, leaf 1", f"{own}, leaf 2"))
+                )
+                # How the corner leaves the plane moves nothing else.
+                declare_released(draft, beams)
+                made = FoldedSheet((first, second), (nodes[0], nodes[1], nodes[2]))
+            elif len(nodes) == 3:
+                made = add_folded_sheet(draft, nodes, None, beams, own, plain)
+            elif widths:
+                made = add_sheet(draft, nodes[0], nodes[1], widths[0], beams, own, sizes)
+            elif word == _CONTACT:
+                made = add_truss(draft, nodes[0], nodes[1], own, *plain[:3])
+            else:
+                made = add_wire(draft, nodes[0], nodes[1], None, own, beams, round_)
+            parts[f"{word} {k}"] = made
+            rows[0].append(nodes[0])
+            rows[1].append(nodes[-1])
+    return parts, rows
+
+
+def _held(
+    draft: Draft,
+    method: str,
+    name: str,
+    wanted: Iterable[Wanted],
+    body: str,
+    carries: Iterable[Point],
+    given: Flexure,
+) -> Assembly:
+    """Flexures from the ground to a body, and the body."""
+    with call(method, name):
+        name = text(name, "the name of an assembly")
+        parts, rows = _flexures(draft, name, wanted, given)
+        further = listed(draft, carries, f"further points of the {body}")
+        return assembly_of(draft, name, parts, body, rows, further)
 
 
 def add_cartwheel(
@@ -66,18 +129,14 @@ def add_cartwheel(
     """Sheets that cross, each cut in two where they meet."""
     with call("cartwheel", name):
         near, far = pairs(draft, sides, "cartwheel")
-        name = text(name, "the name of a cartwheel")
+        name = text(name, "the name of an assembly")
         centre = at_place(draft, _crossing(draft, near, far))
         if width is None and not draft.planar:
             one, other = (span(draft, near[k], far[k]) for k in (0, 1))
             width = width_across(one, other, "the first two sheets are parallel")
-        beams, sizes = sizes_of(given)
-        parts: Parts = {}
-        halves = [(p, centre) for p in near], [(centre, q) for q in far]
-        for word, ends in zip(("near sheet", "far sheet"), halves, strict=True):
-            names = numbered(prefixed(name, word), len(ends), draft.parts_by_name)
-            for k, ((p, q), each) in enumerate(zip(ends, names, strict=True), 1):
-                parts[f"{word} {k}"] = add_sheet(draft, p, q, width, beams, each, sizes)
+        halves: list[Wanted] = [("near sheet", (p, centre), [width or "z"]) for p in near]
+        halves += [("far sheet", (centre, q), [width or "z"]) for q in far]
+        parts, _ = _flexures(draft, name, halves, given)
         first, bending = parts["near sheet 1"], ("out-of-plane bending",)
         with call("independent", first):
             give_deformations(draft, first, bending, Class.INDEPENDENT, "q")
@@ -90,14 +149,15 @@ def _crossing(draft: Draft, near: Sequence[Node], far: Sequence[Node]) -> Vector
     """Where the lines of sheets meet, in the frame at hand [m]."""
     ways = [span(draft, p, q) for p, q in zip(near, far, strict=True)]
     normal = cross(ways[0], ways[1])
-    size = _dot(normal, normal)
-    if math.sqrt(size) > _MISS * math.hypot(*ways[0]) * math.hypot(*ways[1]):
-        t = _dot(cross(span(draft, near[0], near[1]), ways[1]), normal) / size
+    size = math.hypot(*normal)
+    if size > _MISS * math.hypot(*ways[0]) * math.hypot(*ways[1]):
+        between = cross(span(draft, near[0], near[1]), ways[1])
+        t = sum(a * b for a, b in zip(between, normal, strict=True)) / size**2
         centre = _along(draft.seen(near[0].position), ways[0], t)
+        beside = (_along(centre, draft.seen(p.position), -1.0) for p in near)
         if all(
-            math.hypot(*cross(_less(centre, draft.seen(p.position)), unit(way)))
-            <= _MISS * math.hypot(*way)
-            for p, way in zip(near, ways, strict=True)
+            math.hypot(*cross(each, way)) <= _MISS * math.hypot(*way) ** 2
+            for each, way in zip(beside, ways, strict=True)
         ):
             return centre
     raise model_error(
@@ -115,34 +175,20 @@ def add_infinity_hinge(
     given: Flexure,
 ) -> Assembly:
     """A sheet, beside it a folded sheet against its twist and a wire against its going aside."""
-    with call("infinity_hinge", name):
+
+    def wanted() -> Iterator[Wanted]:
         p, q = (point(draft, each) for each in ends)
-        name = text(name, "the name of a hinge")
-        beams, sizes = sizes_of(given)
-        main = add_sheet(draft, p, q, width, beams, prefixed(name, "sheet"), sizes)
-        way, wide = span(draft, p, q), unit(direction(width, "width"))
+        low, way, wide = draft.seen(p.position), span(draft, p, q), unit(direction(width, "width"))
         length = math.hypot(*way)
         away = length if aside is None else _size(aside, "the distance beside the sheet")
-        low, high = draft.seen(p.position), draft.seen(q.position)
-        middle = _along(low, way, 0.5)
-        corners = (
-            at_place(draft, _along(low, wide, away)),
-            at_place(draft, _along(middle, wide, away + length / 4.0)),
-            at_place(draft, _along(high, wide, away)),
-        )
-        word = "folded sheet"
-        plain = sizes._replace(reinforced=None)
-        folded = add_folded_sheet(draft, corners, None, beams, prefixed(name, word), plain)
-        end = at_place(draft, _along(middle, wide, -away))
-        across = unit(cross(wide, way))
-        foot = at_place(draft, _along(draft.seen(end.position), across, length / 2.0))
-        shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
-        thin = Sizes(None, shape.y if shape else None, sizes.material)
-        wire = add_wire(draft, foot, end, None, prefixed(name, "wire"), beams, thin)
-        parts: Parts = {"sheet": main, word: folded, "wire": wire}
-        further = listed(draft, carries, "further points of the body")
-        near, far = (p, corners[0], foot), (q, corners[2], end)
-        return assembly_of(draft, name, parts, "body", (near, far), further)
+        yield "sheet", (p, q), [width]
+        middle, beside = _along(low, way, 0.5), _along(low, wide, away)
+        fold = _along(middle, wide, away + length / 4.0)
+        yield "folded sheet", (beside, fold, _along(beside, way, 1.0)), ()
+        end = _along(middle, wide, -away)
+        yield "wire", (_along(end, unit(cross(wide, way)), length / 2.0), end), ()
+
+    return _held(draft, "infinity_hinge", name, wanted(), "body", carries, given)
 
 
 def add_folded_hinge(
@@ -156,34 +202,20 @@ def add_folded_hinge(
     given: Flexure,
 ) -> Assembly:
     """Folded sheets whose fold lines meet at the origin, tilted out of the xy plane."""
-    with call("folded_hinge", name):
-        name = text(name, "the name of a hinge")
+
+    def wanted() -> Iterator[Wanted]:
         r, slope = _size(radius, "the radius of the folds"), angle(tilt)
         if not 0.0 < slope < 90.0:
-            raise model_error(
-                "out-of-range",
-                f"fold lines that are tilted by {slope:g} degrees do not hold a point",
-                "give a tilt between 0 and 90 degrees",
-            )
+            what = f"fold lines that are tilted by {slope:g} degrees do not hold a point"
+            raise model_error("out-of-range", what, "give a tilt between 0 and 90 degrees")
         leaf = r / 2.0 if arm is None else _size(arm, "the length of a leaf")
-        beams, sizes = sizes_of(given)
-        n = count(sheets, 3, _MOST_ARMS, "sheets")
-        parts: Parts = {}
-        rows: tuple[list[Node], list[Node]] = [], []
-        names = numbered(prefixed(name, "folded sheet"), n, draft.parts_by_name)
-        for k, each in enumerate(names):
-            x, y, _ = on_circle(NO_VECTOR, sine(slope + 90.0), 360.0 * k / n)
-            line = x, y, sine(slope)
-            aside = on_circle(NO_VECTOR, 1.0, 360.0 * k / n + 90.0)
+        for radial, aside in _around(sheets, 3, "sheets"):
+            line = _along((0.0, 0.0, sine(slope)), radial, sine(slope + 90.0))
             fold = _along(NO_VECTOR, line, r)
-            places = _along(fold, aside, leaf), fold, _along(fold, cross(line, aside), leaf)
-            corners = [at_place(draft, place) for place in places]
-            made = add_folded_sheet(draft, corners, line, beams, each, sizes)
-            parts[f"folded sheet {k + 1}"] = made
-            rows[0].append(made.nodes[0])
-            rows[1].append(made.nodes[2])
-        further = listed(draft, carries, "further points of the body")
-        return assembly_of(draft, name, parts, "body", rows, further)
+            ends = _along(fold, aside, leaf), _along(fold, cross(line, aside), leaf)
+            yield "folded sheet", (ends[0], fold, ends[1]), ()
+
+    return _held(draft, "folded_hinge", name, wanted(), "body", carries, given)
 
 
 #: What the notches at an end of a strut are.
@@ -296,6 +328,25 @@ def add_bipod(
         return assembly_of(draft, name, parts, "body", (near, far), [top, *further])
 
 
+def _contacts(
+    ball: Vector, groove: Vector, up: Vector, size: float, opening: float
+) -> Iterator[Wanted]:
+    """The bars of a ball in a groove, along the normals of its flanks."""
+    along = unit(groove)
+    side = unit(cross(up, along))
+    if side == NO_VECTOR:
+        raise model_error(
+            "parallel-vector", "the groove is along its upward direction", "give another up"
+        )
+    if not 0.0 < opening < 180.0:
+        what = f"a groove cannot open by {opening:g} degrees"
+        raise model_error("out-of-range", what, "such as 90")
+    rise = _along(NO_VECTOR, cross(along, side), sine(opening / 2.0))
+    for sign in (-1.0, 1.0):
+        normal = _along(rise, side, sign * sine(90.0 + opening / 2.0))
+        yield _CONTACT, (_along(ball, normal, -size), ball), ()
+
+
 def add_vee(
     draft: Draft,
     at: Point,
@@ -304,39 +355,18 @@ def add_vee(
     length: Quantity,
     opening: Quantity,
     name: str,
-    sizes: tuple[Section | None, Quantity | None, MaterialLike | None],
+    given: Flexure,
 ) -> Assembly:
-    """A ball in a groove: two bars along the normals of its flanks."""
+    """A ball in a groove: two bars."""
     with call("vee", name):
-        name = text(name, "the name of a vee")
+        name = text(name, "the name of an assembly")
         ball, size = point(draft, at), _size(length, "the length of the bars of a vee")
-        flanks = angle(opening)
-        if not 0.0 < flanks < 180.0:
-            raise model_error(
-                "out-of-range",
-                f"a groove cannot open by {flanks:g} degrees",
-                "such as 90",
-            )
-        along = unit(direction(groove, "groove"))
-        side = unit(cross(direction(up, "upward direction"), along))
-        if side == NO_VECTOR:
-            raise model_error(
-                "parallel-vector", "the groove is along its upward direction", "give another up"
-            )
-        rise, run = cross(along, side), sine(90.0 + flanks / 2.0)
-        parts: Parts = {}
-        feet = []
-        names = numbered(prefixed(name, "contact"), 2, draft.parts_by_name)
-        for k, (sign, each) in enumerate(zip((-1.0, 1.0), names, strict=True), 1):
-            normal = _along(_along(NO_VECTOR, rise, sine(flanks / 2.0)), side, sign * run)
-            foot = at_place(draft, _along(draft.seen(ball.position), normal, -size))
-            parts[f"contact {k}"] = add_truss(draft, foot, ball, each, *sizes)
-            feet.append(foot)
+        place, upward = draft.seen(ball.position), direction(up, "upward direction")
+        wanted = _contacts(place, direction(groove, "groove"), upward, size, angle(opening))
+        parts, (feet, _) = _flexures(draft, name, wanted, given)
         points = {"ground 1": feet[0], "ground 2": feet[1], "ball": ball}
         for word, node in points.items():
-            if not node.name:
-                own = numbered_from(prefixed(name, word), draft.points_by_name)
-                draft.name_node(node.position, own)
+            name_point(draft, node, prefixed(name, word))
         return Assembly(name, Named(parts), Named(points), tuple(feet))
 
 
@@ -348,24 +378,18 @@ def add_kinematic_mount(
     opening: Quantity,
     name: str,
     carries: Iterable[Point],
-    sizes: tuple[Section | None, Quantity | None, MaterialLike | None],
+    given: Flexure,
 ) -> Assembly:
     """Three vees about z, and the plate whose balls lie in them."""
-    with call("kinematic_mount", name):
-        name = text(name, "the name of a mount")
-        r, turn = _size(radius, "the radius of the balls"), angle(turned)
-        parts: Parts = {}
-        rows: tuple[list[Node], list[Node]] = [], []
+
+    def wanted() -> Iterator[Wanted]:
+        r, size = _size(radius, "the radius of the balls"), _size(length, "the length of the bars")
         for k in range(3):
-            ball = at_place(draft, on_circle(NO_VECTOR, r, 120.0 * k))
-            groove = on_circle(NO_VECTOR, 1.0, 120.0 * k + turn)
-            own = prefixed(name, f"vee {k + 1}")
-            made = add_vee(draft, ball, groove, "z", length, opening, own, sizes)
-            parts.update({f"vee {k + 1} {word}": part for word, part in made.parts.items()})
-            rows[0].extend(made.ground)
-            rows[1].append(ball)
-        further = listed(draft, carries, "further points of the plate")
-        return assembly_of(draft, name, parts, "plate", rows, further)
+            ball = on_circle(NO_VECTOR, r, 120.0 * k)
+            groove = on_circle(NO_VECTOR, 1.0, 120.0 * k + angle(turned))
+            yield from _contacts(ball, groove, IDENTITY[2], size, angle(opening))
+
+    return _held(draft, "kinematic_mount", name, wanted(), "plate", carries, given)
 
 
 #: How the arms of a spider lie.
@@ -382,52 +406,23 @@ def add_spider(
     given: Flexure,
 ) -> Assembly:
     """Flat arms in the xy plane from a circle to the hub that they hold."""
-    with call("spider", name):
-        name = text(name, "the name of a spider")
-        layout = one_of(layout, LAYOUTS, "the layout of a spider")
+
+    def wanted() -> Iterator[Wanted]:
+        kind = one_of(layout, LAYOUTS, "the layout of a spider")
         r, s = _radii(radii)
-        beams, sizes = sizes_of(given)
-        rows: tuple[list[Node], list[Node]] = [], []
-        parts: Parts = {}
-        n = count(arms, 2, _MOST_ARMS, "arms")
-        #: How far from the centre a folded arm turns aside: there its two leaves are equal.
+        # How far from the centre a folded arm turns aside: there its leaves are equal.
         corner = (s + math.sqrt(2.0 * r * r - s * s)) / 2.0
-        for k, own in enumerate(numbered(prefixed(name, "arm"), n, draft.parts_by_name), 1):
-            degrees = 360.0 * (k - 1) / n
-            radial, aside = (on_circle(NO_VECTOR, 1.0, degrees + more) for more in (0.0, 90.0))
-            end = at_place(draft, on_circle(NO_VECTOR, s, degrees))
-            shift = {"radial": 0.0, "tangential": s, "folded": corner}[layout] / r
-            turn = math.degrees(math.acos(shift)) if shift else 0.0
-            start = at_place(draft, on_circle(NO_VECTOR, r, degrees + turn))
-            arm: Part | FoldedSheet
-            if layout == "folded":
-                bend = at_place(draft, on_circle(NO_VECTOR, corner, degrees))
-                arm = _flat_arm(draft, (start, bend, end), (radial, aside), own, beams, sizes)
+        for radial, aside in _around(arms, 2, "arms"):
+            hub = _along(NO_VECTOR, radial, s)
+            if kind == "radial":
+                yield "arm", (_along(NO_VECTOR, radial, r), hub), [aside]
+            elif kind == "tangential":
+                yield "arm", (_along(hub, aside, math.sqrt(r * r - s * s)), hub), [radial]
             else:
-                width = aside if layout == "radial" else radial
-                arm = add_sheet(draft, start, end, width, beams, own, sizes)
-            parts[f"arm {k}"] = arm
-            rows[0].append(start)
-            rows[1].append(end)
-        further = listed(draft, carries, "further points of the hub")
-        return assembly_of(draft, name, parts, "hub", rows, further)
+                bend = _along(NO_VECTOR, radial, corner)
+                yield "arm", (_along(bend, aside, corner - s), bend, hub), (radial, aside)
 
-
-def _flat_arm(
-    draft: Draft,
-    corners: tuple[Node, Node, Node],
-    widths: tuple[Vector, Vector],
-    name: str,
-    beams: int,
-    sizes: Sizes,
-) -> FoldedSheet:
-    """Two sheets in one plane, at right angles; how their corner leaves it is declared."""
-    leaves = [
-        add_sheet(draft, p, q, width, beams, f"{name}, leaf {k}", sizes._replace(reinforced=None))
-        for k, (p, q, width) in enumerate(zip(corners, corners[1:], widths, strict=False), 1)
-    ]
-    declare_released(draft, beams)
-    return FoldedSheet((leaves[0], leaves[1]), corners)
+    return _held(draft, "spider", name, wanted(), "hub", carries, given)
 
 
 def add_diaphragm(
@@ -440,30 +435,27 @@ def add_diaphragm(
     given: Flexure,
 ) -> Assembly:
     """A membrane as radial sheets or wires in the xy plane, with its ring and its hub."""
-    with call("diaphragm", name):
-        name = text(name, "the name of a diaphragm")
+
+    def wanted() -> Iterator[Wanted]:
         r, s = _radii(radii)
-        beams, sizes = sizes_of(given)
-        n = count(sheets, 3, _MOST_ARMS, "sheets")
-        word = "wire" if wires else "sheet"
-        rows: tuple[list[Node], list[Node]] = [], []
-        parts: Parts = {}
-        for k, own in enumerate(numbered(prefixed(name, word), n, draft.parts_by_name), 1):
-            degrees = 360.0 * (k - 1) / n
-            p, q = (at_place(draft, on_circle(NO_VECTOR, size, degrees)) for size in (r, s))
-            width = on_circle(NO_VECTOR, 1.0, degrees + 90.0)
-            parts[f"{word} {k}"] = (
-                add_wire(draft, p, q, None, own, beams, sizes)
-                if wires
-                else add_sheet(draft, p, q, width, beams, own, sizes)
-            )
-            rows[0].append(p)
-            rows[1].append(q)
-        ring = numbered_from(prefixed(name, "ring"), draft.parts_by_name)
-        parts["ring"] = add_body(draft, rows[0], ring, (None, None))
-        further = listed(draft, carries, "further points of the hub")
-        made = assembly_of(draft, name, parts, "hub", rows, further)
-        return replace(made, ground=made.ground[:1])
+        for radial, aside in _around(sheets, 3, "sheets"):
+            ends = _along(NO_VECTOR, radial, r), _along(NO_VECTOR, radial, s)
+            yield ("wire", ends, ()) if wires else ("sheet", ends, [aside])
+
+    made = _held(draft, "diaphragm", name, wanted(), "hub", carries, given)
+    own = numbered_from(prefixed(made.name, "ring"), draft.parts_by_name)
+    ring = add_body(draft, made.ground, own, (None, None))
+    return replace(made, parts=Named({**made.parts, "ring": ring}), ground=made.ground[:1])
+
+
+def _around(n: int, least: int, what: str) -> Iterator[tuple[Vector, Vector]]:
+    """So many radial directions about z, each with that at right angles to it."""
+    size = count(n, least, _MOST_ARMS, what)
+    for k in range(size):
+        yield (
+            on_circle(NO_VECTOR, 1.0, 360.0 * k / size),
+            on_circle(NO_VECTOR, 1.0, 360.0 * k / size + 90.0),
+        )
 
 
 def _radii(given: tuple[Quantity, Quantity]) -> tuple[float, float]:
@@ -488,11 +480,3 @@ def _size(given: Quantity, what: str) -> float:
 def _along(start: Vector, way: Vector, t: float) -> Vector:
     """A part of the way from a place."""
     return start[0] + t * way[0], start[1] + t * way[1], start[2] + t * way[2]
-
-
-def _less(a: Vector, b: Vector) -> Vector:
-    return _along(a, b, -1.0)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -749,8 +749,8 @@ class Model:
             p: The near end of the sheet: a point, its name, or its place [m].
             q: Its end on the body.
             width: Direction of its width, which is that of the axis.
-            name: What it is called: its parts are "name sheet", "name folded sheet", "name wire",
-                "name body".
+            name: What it is called: its parts are "name sheet 1", "name folded sheet 1", "name
+                wire 1", "name body".
             aside: How far along the axis the folded sheet is from the sheet, and on the other
                 side the wire [m]; by default the length of the sheet.
             carries: Further points of the body.
@@ -861,8 +861,7 @@ class Model:
         *,
         up: Direction = "z",
         opening: Quantity = 90.0,
-        thickness: Quantity | None = None,
-        material: MaterialLike | None = None,
+        **flexures: Unpack[Flexure],
     ) -> Assembly:
         """A ball in a groove: two bars along the normals of its flanks, which meet in the ball.
 
@@ -873,14 +872,12 @@ class Model:
             name: What it is called: its parts are "name contact 1" and "name contact 2".
             up: Direction in which the groove opens, made normal to it.
             opening: Angle between the flanks [degrees].
-            thickness: Diameter of the bars [m].
-            material: Gives them stiffness, see `wire`.
+            **flexures: `thickness`, the diameter of the bars [m], and `material`.
 
         Returns:
             The parts; points "ground 1", "ground 2" and "ball".
         """
-        sizes = None, thickness, material
-        return joints.add_vee(self._change(), at, groove, up, length, opening, name, sizes)
+        return joints.add_vee(self._change(), at, groove, up, length, opening, name, flexures)
 
     def kinematic_mount(
         self,
@@ -891,24 +888,21 @@ class Model:
         turned: Quantity = 0.0,
         opening: Quantity = 90.0,
         carries: Iterable[Point] = (),
-        thickness: Quantity | None = None,
-        material: MaterialLike | None = None,
+        **flexures: Unpack[Flexure],
     ) -> Assembly:
         """A plate whose three balls lie in grooves that point to the z axis: held once in all.
 
         Args:
             radius: Of the circle of the balls in the xy plane [m].
             length: Of the bars of each vee [m].
-            name: What it is called: its parts are "name vee 1 contact 1", ..., "name plate".
+            name: What it is called: its parts are "name contact 1", ..., "name plate".
             turned: Angle of each groove with the radius [degrees]; 90 is the wrong way.
             opening: Angle between the flanks [degrees].
             carries: Further points of the plate.
-            thickness: Diameter of the bars [m].
-            material: Gives them stiffness, see `wire`.
+            **flexures: `thickness`, the diameter of the bars [m], and `material`.
         """
-        draft, sizes = self._change(), (None, thickness, material)
         return joints.add_kinematic_mount(
-            draft, radius, length, turned, opening, name, carries, sizes
+            self._change(), radius, length, turned, opening, name, carries, flexures
         )
 
     def spider(
