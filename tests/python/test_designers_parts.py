@@ -506,6 +506,13 @@ WRONG: dict[str, tuple[str, str, Wrong]] = {
     "reach": ("out-of-range", "1.2 of the way", lambda m: m.bipod([X, Y], (0, 0, 0), reach=1.2)),
     "groove": ("parallel-vector", "upward", lambda m: m.vee((0, 0, 0), "z", 0.1)),
     "opening": ("out-of-range", "180 degrees", lambda m: m.vee((0, 0, 0), "x", 0.1, opening=180)),
+    "breadth": ("surplus-size", "breadth is", lambda m: m.vee((0, 0, 0), "x", 0.1, breadth=0.1)),
+    "wires": (
+        "surplus-size",
+        "for sheets",
+        lambda m: m.diaphragm(1, 0.1, wires=True, warping=True),
+    ),
+    "folds": ("surplus-size", "reinforced is", lambda m: m.folded_hinge(0.1, reinforced=0.5)),
     "radii": ("bad-size", "inner radius", lambda m: m.spider(0.02, 0.06)),
     "layout": ("no-such-word", "radial", lambda m: m.spider(0.06, 0.02, layout="spiral")),
     "ring": ("bad-size", "outer radius", lambda m: m.diaphragm(0.0, 0.02)),

@@ -68,10 +68,15 @@ def _flexures(
     beams, sizes = sizes_of(given)
     plain = sizes._replace(reinforced=None)
     every = [*wanted]
-    round_ = plain
-    if any(widths for _, _, widths in every):
+    round_, surplus = plain, given.keys() & {"breadth", "warping", "reinforced"}
+    if any(widths or len(points) == 3 for _, points, widths in every):
+        surplus &= {"reinforced"}
+    if any(len(widths) == 1 for _, _, widths in every):
+        surplus = set()
         shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
         round_ = Sizes(None, shape.y if shape else None, sizes.material)
+    if surplus:
+        raise model_error("surplus-size", f"{min(surplus)} is for sheets, which it has not")
     parts: Parts = {}
     rows: tuple[list[Node], list[Node]] = [], []
     for word, group in grouped((each[0], each[1:]) for each in every).items():
