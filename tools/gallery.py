@@ -15,8 +15,9 @@ import flexact
 GALLERY = Path(__file__).resolve().parents[1] / "docs" / "gallery"
 HEAD = """# Gallery
 
-Ten mechanisms as their designers would type them, each in at most twelve lines, and what Flexact
-says of them. `make gallery` writes these pages anew, and those that move to `results/gallery/`.
+Twenty-two mechanisms as their designers would type them, each in at most twelve lines, and what
+Flexact says of them. `make gallery` writes these pages anew, and those that move to
+`results/gallery/`.
 
 """
 TAIL = """

@@ -100,8 +100,19 @@ if _typing.TYPE_CHECKING:
         UnknownError,
         elastic,
     )
+    from .model.arguments import polar
     from .model.configuration import Configuration
-    from .model.handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Sheet, Wire
+    from .model.handles import (
+        Assembly,
+        Body,
+        Element,
+        FoldedSheet,
+        Node,
+        Notch,
+        ReinforcedSheet,
+        Sheet,
+        Wire,
+    )
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.model import Model
     from .model.reading import read, read_text
@@ -167,6 +178,7 @@ _HOMES = {
         "UnknownError",
         "elastic",
     ),
+    "model.arguments": ("polar",),
     "model.configuration": ("Configuration",),
     "model.handles": (
         "Assembly",
@@ -175,6 +187,7 @@ _HOMES = {
         "FoldedSheet",
         "Node",
         "Notch",
+        "ReinforcedSheet",
         "Sheet",
         "Wire",
     ),
@@ -246,6 +259,7 @@ __all__ = [
     "Notch",
     "Place",
     "Proof",
+    "ReinforcedSheet",
     "Results",
     "SelfStress",
     "Severity",
@@ -267,6 +281,7 @@ __all__ = [
     "elastic",
     "grid",
     "jacobian",
+    "polar",
     "read",
     "read_text",
     "shape",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from flexact import Material, Model, ModelError
+from flexact import Material, Model, ModelError, polar
 
 THINGS: tuple[Any, ...] = (
     *(None, 5, -1, 1.5, "x", "stage", "", b"a", (1, 2), (1, 2, 3), (1, 2, 3, 4), [], {}, {1: 2}),
@@ -82,7 +82,54 @@ CALLS: dict[str, Call] = {
     "rotate": lambda m, x: m.rotate(x, 90),
     "rotate, degrees": lambda m, x: m.rotate("z", x),
     "Material": lambda m, x: Material("a", x, 1),
+    "polar": lambda m, x: m.node(polar(x, 30)),
+    "polar, degrees": lambda m, x: m.node(polar(1, x)),
+    "frame": lambda m, x: within(m, x),
+    "frame, axis": lambda m, x: within(m, START, x),
+    "frame, degrees": lambda m, x: within(m, START, "z", x),
+    "reinforced": lambda m, x: m.sheet(START, END, "z", reinforced=x),
+    "shape": lambda m, x: m.body([START, FAR[0]], shape=x),
+    "thickness of a body": lambda m, x: m.body([START, FAR[0]], thickness=x),
+    "cartwheel": lambda m, x: m.cartwheel(x, FAR),
+    "cartwheel, width": lambda m, x: m.cartwheel([START, FAR[0]], [END, FAR[1]], x),
+    "infinity_hinge": lambda m, x: m.infinity_hinge(x, FAR[0], "z"),
+    "infinity_hinge, width": lambda m, x: m.infinity_hinge(START, FAR[0], x),
+    "infinity_hinge, aside": lambda m, x: m.infinity_hinge(START, FAR[0], "x", aside=x),
+    "infinity_hinge, section": lambda m, x: m.infinity_hinge(START, FAR[0], "x", section=x),
+    "folded_hinge": lambda m, x: m.folded_hinge(x),
+    "folded_hinge, sheets": lambda m, x: m.folded_hinge(1, sheets=x),
+    "folded_hinge, tilt": lambda m, x: m.folded_hinge(1, tilt=x),
+    "folded_hinge, arm": lambda m, x: m.folded_hinge(1, arm=x),
+    "universal_joint": lambda m, x: m.universal_joint(x),
+    "universal_joint, axes": lambda m, x: m.universal_joint(START, x),
+    "universal_joint, q": lambda m, x: m.universal_joint(START, q=x),
+    "strut": lambda m, x: m.strut(x, FAR[0]),
+    "strut, ends": lambda m, x: m.strut(START, FAR[0], x),
+    "strut, name": lambda m, x: m.strut(START, FAR[0], name=x),
+    "bipod": lambda m, x: m.bipod(x, FAR[0]),
+    "bipod, apex": lambda m, x: m.bipod([START, END], x),
+    "bipod, reach": lambda m, x: m.bipod([START, END], FAR[0], reach=x),
+    "vee": lambda m, x: m.vee(x, "x", 1),
+    "vee, groove": lambda m, x: m.vee(FAR[0], x, 1),
+    "vee, up": lambda m, x: m.vee(FAR[0], "x", 1, up=x),
+    "vee, length": lambda m, x: m.vee(FAR[0], "x", x),
+    "vee, opening": lambda m, x: m.vee(FAR[0], "x", 1, opening=x),
+    "kinematic_mount": lambda m, x: m.kinematic_mount(x, 1),
+    "kinematic_mount, turned": lambda m, x: m.kinematic_mount(1, 1, turned=x),
+    "spider": lambda m, x: m.spider(x, 0.1),
+    "spider, inner": lambda m, x: m.spider(5, x),
+    "spider, arms": lambda m, x: m.spider(5, 1, x),
+    "spider, layout": lambda m, x: m.spider(5, 1, layout=x),
+    "spider, beams": lambda m, x: m.spider(5, 1, beams=x),
+    "diaphragm": lambda m, x: m.diaphragm(x, 0.1),
+    "diaphragm, sheets": lambda m, x: m.diaphragm(5, 1, x),
+    "diaphragm, section": lambda m, x: m.diaphragm(5, 1, section=x),
 }
+
+
+def within(model: Model, *frame: Any) -> None:
+    with model.frame(*frame):
+        model.sheet(START, END, "z")
 
 
 def made() -> Model:

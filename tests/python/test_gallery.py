@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The gallery: ten mechanisms in at most twelve lines, each with its verdict from the literature.
+"""The gallery: mechanisms in at most twelve lines, each with its verdict from the literature.
 
 The counts are those of the reference cases of flexures and linkages and of the paper, section 4:
 sheets hold three motions each, wires and folded sheets one.
@@ -40,6 +40,29 @@ VERDICTS = {
     "butterfly_hinge": (0, 2),
     # A planar four-bar of ideal hinges in space.
     "notch_four_bar": (0, 3),
+    # Each arm holds x, y and rz: 18, of which three count; z is declared, rx and ry are left.
+    "spider_six_arms": (2, 15),
+    # Eight sheets hold 24, three bodies have 18 freedoms, two are declared.
+    "xy_stage": (0, 8),
+    # Each strut has two crossed notches and a neck, and holds its length alone.
+    "stewart_platform": (0, 0),
+    # Eight sheets hold 24, two bodies have 12 freedoms, both move along x.
+    "haberland_guide": (0, 14),
+    # Two sheets hold six, the coupler moves along x; legs are as sheets.
+    "roberts_linkage": (0, 1),
+    # Each sheet holds its tangent, z and the rotation about its radius: nine.
+    "lens_mount": (0, 3),
+    # Each pair of half sheets holds six, five count; body and centre turn.
+    "cartwheel_hinge": (0, 2),
+    # Eight sheets hold 24, three bodies have 18 freedoms, each moves along x.
+    "compound_guide": (0, 9),
+    # The lines of the wires meet in the centre, whose x, y and z they hold.
+    "remote_centre": (0, 0),
+    # Radii meet: rz is left, and of the three along x and y one is too many.
+    "kinematic_mount_turned": (1, 1),
+    # Each sheet holds y, z and rx where it is; of 18 and of 90 five count, x is declared.
+    "table_six_sheets": (0, 13),
+    "table_thirty_sheets": (0, 85),
 }
 
 

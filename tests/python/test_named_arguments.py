@@ -262,7 +262,7 @@ ARGUMENTS: dict[tuple[str, str], Asked] = {
 #: Of the builder what makes parts or is asked by handles: tests of the builder have them.
 _BUILDER = {
     *("Model.body", "Model.delete", "Model.handle", "Model.hexapod", "Model.look"),
-    *("Model.made_of", "Model.pivot", "Model.rename"),
+    *("Model.frame", "Model.made_of", "Model.pivot", "Model.rename", "Model.vee"),
 }
 
 

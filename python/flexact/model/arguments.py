@@ -15,9 +15,10 @@ from ..deck.diagnostics import Problems
 from ..deck.rendering import ModelError, model_error
 from ..util.quantities import Quantity, QuantityError, measured
 from ..util.text import in_short
-from .draft import NO_VECTOR, Draft, Vector
+from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import COORDINATES, ambiguous, one_line, own_number, unknown
+from .transform import NO_VECTOR, Vector, on_circle
 
 #: What gives three parts and still is no vector.
 UNORDERED = (str, bytes, bytearray, set, frozenset, dict)
@@ -139,23 +140,16 @@ def whole(given: object, what: str) -> int:
         raise model_error("bad-number", f"{what}, not {in_short(given)}") from None
 
 
-def unit(given: Vector) -> Vector:
-    """The vector of length one along this one; zero of zero."""
-    largest = max(map(abs, given))
-    if largest == 0.0:
-        return NO_VECTOR
-    x, y, z = (part / largest for part in given)
-    norm = math.hypot(x, y, z)
-    return x / norm, y / norm, z / norm
+def one_of(given: object, known: Iterable[str], what: str) -> str:
+    """A word out of several.
 
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """The vector product a x b."""
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
+    Raises:
+        ModelError: it is none of them.
+    """
+    for word in known:
+        if isinstance(given, str) and given == word:
+            return word
+    raise model_error("no-such-word", f"{what} is {' or '.join(known)}, not {in_short(given)}")
 
 
 def numbers_of_size(
@@ -195,6 +189,24 @@ def numbers(given: object, wanted: int, what: str, unit: str = "") -> tuple[floa
     if not all(map(math.isfinite, parts)):
         raise model_error("bad-number", f"{what}, and one of them is not finite")
     return parts
+
+
+def polar(radius: Quantity, degrees: Quantity, z: Quantity = 0.0) -> Vector:
+    """The place (x, y, z) [m] at a radius and an angle from x about z.
+
+    To the last bit where the angle is a multiple of 30 degrees.
+
+    Args:
+        radius: Distance from the z axis [m].
+        degrees: The angle, right-handed [degrees].
+        z: Height [m].
+
+    Raises:
+        ModelError: one of them is no finite number.
+    """
+    what = "a polar place is a radius, an angle and a height"
+    r, height = (numbers_of_size(each, (1,), what, "m")[0] for each in (radius, z))
+    return on_circle((0.0, 0.0, height), r, angle(degrees))
 
 
 @contextmanager
@@ -306,10 +318,20 @@ def at_place(draft: Draft, given: Iterable[Quantity]) -> Node:
 
 
 def place(draft: Draft, given: Iterable[Quantity]) -> tuple[float, float, float, float]:
-    """The values of a position node at a place of three numbers, or of two where z is zero.
+    """The values of a position node at a place of the frame at hand.
 
     Raises:
-        ModelError: they are none.
+        ModelError: it is none.
+    """
+    made = coordinates(draft, given)
+    return (*(draft.frame.place(made) if draft.frame else made), 0.0)
+
+
+def coordinates(draft: Draft, given: Iterable[Quantity]) -> Vector:
+    """Three numbers [m], or two where z is zero.
+
+    Raises:
+        ModelError: they are none, or z is not zero in a planar model.
     """
     parts = given
     if not isinstance(given, UNORDERED) and isinstance(given, Iterable):
@@ -322,7 +344,7 @@ def place(draft: Draft, given: Iterable[Quantity]) -> tuple[float, float, float,
     x, y, z = vector(parts, "position", "m")  # type: ignore[arg-type]
     if draft.planar and z != 0.0:
         raise model_error("no-coordinate", "a planar model has no coordinate z")
-    return x, y, z, 0.0
+    return x, y, z
 
 
 def existing(draft: Draft, given: object) -> Node:

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
@@ -15,19 +16,20 @@ from .arguments import (
     at_place,
     call,
     checked_name,
+    coordinates,
     count,
     listed,
     named_part,
     numbers_of_size,
-    place,
+    one_of,
     point,
     require_own,
-    several,
     text,
     vector,
 )
-from .draft import Draft
-from .handles import Assembly, Body, Element, Named, Node, Part
+from .data import BodyShape
+from .draft import Draft, Said
+from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .members import Sizes, add_rigid, add_sheet, add_wire, span, width_across
 from .names import part_name
 from .sections import Make, Section, shape_of
@@ -47,12 +49,13 @@ def add_body(
     name: str,
     mass: Mass,
     section: Section | None = None,
+    looks: tuple[str | None, Quantity | None] = (None, None),
 ) -> Body:
     """One rigid body through points: links from the first to those that it does not carry yet."""
     with call("body", name):
         name = text(name, "the name of a body")
         nodes, links, old_name = _members(draft, points)
-        make = Make(shape_of(section))
+        make, said = Make(shape_of(section)), _shape_said(*looks)
         masses = _masses(mass, draft.planar)
         components = draft.rigid_components()
         first = Node(*components.carrier(nodes[0].position, nodes[0].orientation), draft)
@@ -61,13 +64,36 @@ def add_body(
             carrier = Node(*components.carrier(node.position, node.orientation), draft)
             if not components.joined(first.orientation, carrier.orientation):
                 links.append(add_rigid(draft, first, carrier, "", make))
+        if said and not links:
+            raise model_error(
+                "not-an-element",
+                "a body without links of its own is not drawn",
+                "say it of the body that carries its points",
+            )
         _name_links(draft, links, name or old_name, nodes[0])
+        draft.say_looks((draft.index_of(link.number) for link in links), said)
         if not links and name:
             draft.name_node(nodes[0].position, checked_name(name))
     for number, values in zip((nodes[0].position, nodes[0].orientation), masses, strict=True):
         if values:
             draft.give_node_mass(number, values)
     return Body(tuple(links), nodes)
+
+
+def _shape_said(shape: object, thickness: Quantity | None) -> Said:
+    """As what a body is drawn, and how thick; nothing where neither is given."""
+    said: Said = {}
+    if thickness is not None:
+        (said["body_thickness"],) = numbers_of_size(
+            thickness, (1,), "a thickness is one number", "m"
+        )
+        if said["body_thickness"] <= 0.0:
+            raise model_error("bad-size", "a thickness is not positive", "give it in metres")
+        shape = shape or "hull"
+    if shape is not None:
+        known = {each.name.lower(): int(each) for each in BodyShape if each}
+        said["body_shape"] = known[one_of(shape, known, "the shape of a body")]
+    return said
 
 
 def _members(draft: Draft, given: Iterable[Point]) -> tuple[tuple[Node, ...], list[Element], str]:
@@ -166,20 +192,34 @@ def add_cross_hinge(
 ) -> Assembly:
     """Sheets from points of the ground to points of a body, which cross."""
     with call("cross_hinge", name):
-        near = [point(draft, p) for p in several(sides[0], "points of the ground")]
-        far = listed(draft, sides[1], "points of the body")
-        if len(near) != len(far) or len(near) < 2:
-            raise model_error(
-                "bad-number",
-                f"a cross hinge with {len(near)} points on the ground and {len(far)} on the body",
-                "give as many points of the one as of the other, at least two",
-            )
+        near, far = pairs(draft, sides, "cross hinge")
         if width is None and not draft.planar:
             one, other = (span(draft, near[k], far[k]) for k in (0, 1))
             width = width_across(one, other, "the first two sheets are parallel")
         return _sheets_and_body(
             draft, (near, far), width, name, "body", carries, beams, sizes, mass
         )
+
+
+def pairs(
+    draft: Draft, sides: tuple[Iterable[Point], Iterable[Point]], what: str
+) -> tuple[list[Node], list[Node]]:
+    """Points of the ground and of the body, as many of the one as of the other.
+
+    Raises:
+        ModelError: they are not, or there is a single pair.
+    """
+    near, far = (
+        listed(draft, each, f"points of the {side}")
+        for side, each in zip(("ground", "body"), sides, strict=True)
+    )
+    if len(near) != len(far) or len(near) < 2:
+        raise model_error(
+            "bad-number",
+            f"a {what} with {len(near)} points on the ground and {len(far)} on the body",
+            "give as many points of the one as of the other, at least two",
+        )
+    return near, far
 
 
 def add_parallel_guide(
@@ -197,14 +237,14 @@ def add_parallel_guide(
     """Equal sheets side by side, and the stage that they carry."""
     with call("parallel_guide", name):
         number = count(sheets, 2, _MOST_SHEETS, "sheets")
-        x, y, z = place(draft, offset)[:3]
+        x, y, z = coordinates(draft, offset)
         p, q = (point(draft, each) for each in ends)
         if width is None and not draft.planar:
             width = width_across(span(draft, p, q), (x, y, z), "the offset is along the sheets")
         size = 2 if draft.planar else 3
         rows = []
         for end in (p, q):
-            here = draft.node_value[end.position][:size]
+            here = draft.seen(end.position)[:size]
             further = (
                 at_place(draft, [a + k * b for a, b in zip(here, (x, y, z), strict=False)])
                 for k in range(1, number)
@@ -228,13 +268,14 @@ def _sheets_and_body(
 ) -> Assembly:
     """Sheets between two rows of points, and the body that carries the far ones."""
     name = text(name, "the name of an assembly")
-    names = _numbered(_prefixed(name, "sheet"), len(ends[0]), draft.parts_by_name)
+    names = numbered(prefixed(name, "sheet"), len(ends[0]), draft.parts_by_name)
     made = [
         add_sheet(draft, p, q, width, beams, sheet, sizes)
         for p, q, sheet in zip(*ends, names, strict=True)
     ]
     further = listed(draft, carries, "further points of the body")
-    return _assembly(draft, name, "sheet", made, body_word, ends, further, mass)
+    parts = {f"sheet {k}": each for k, each in enumerate(made, 1)}
+    return assembly_of(draft, name, parts, body_word, ends, further, mass)
 
 
 def add_hexapod(
@@ -260,13 +301,14 @@ def add_hexapod(
         else:
             near, far = _zigzag(*sides, height, spread, at)
         ends = [point(draft, each) for each in near], [point(draft, each) for each in far]
-        names = _numbered(_prefixed(name, "wire"), 6, draft.parts_by_name)
+        names = numbered(prefixed(name, "wire"), 6, draft.parts_by_name)
         wires = [
             add_wire(draft, p, q, None, wire, beams, sizes)
             for p, q, wire in zip(*ends, names, strict=True)
         ]
         further = listed(draft, carries, "further points of the platform")
-        return _assembly(draft, name, "wire", wires, "platform", ends, further, mass)
+        parts = {f"wire {k}": each for k, each in enumerate(wires, 1)}
+        return assembly_of(draft, name, parts, "platform", ends, further, mass)
 
 
 def _six(draft: Draft, given: object, start: int) -> list[Point]:
@@ -305,44 +347,56 @@ def _zigzag(
     return near, far
 
 
-def _assembly(
+def assembly_of(
     draft: Draft,
     name: str,
-    word: str,
-    flexures: Sequence[Part],
+    parts: Mapping[str, Part | FoldedSheet | Element],
     body_word: str,
-    ends: tuple[list[Node], list[Node]],
-    further: list[Node],
-    mass: Mass,
+    ends: tuple[Sequence[Node], Sequence[Node]],
+    further: Sequence[Node] = (),
+    mass: Mass = (None, None),
+    inner: Mapping[str, Node] = MappingProxyType({}),
 ) -> Assembly:
     """The body at the far ends of flexures, and the handle of all; points get names.
 
     Parts are called as their words are, with the name of the assembly before them, and "2" or
     the like behind where a part of the model has this name.
     """
-    own = _prefixed(name, body_word)
-    free = itertools.chain([own], (f"{own} {k}" for k in itertools.count(2)))
-    body_name = next(each for each in free if each not in draft.parts_by_name)
+    own = prefixed(name, body_word)
+    body_name = numbered_from(own, draft.parts_by_name)
     body = add_body(draft, [*ends[1], *further], body_name, mass)
-    parts: dict[str, Part] = {f"{word} {k}": each for k, each in enumerate(flexures, 1)}
-    parts[body_word] = body
     found: dict[str, Node] = {}
     rows = [list(dict.fromkeys(nodes)) for nodes in ends]
     for side, row in zip(("ground", body_word), rows, strict=True):
-        names = _numbered(_prefixed(name, side), len(row), draft.points_by_name)
+        names = numbered(prefixed(name, side), len(row), draft.points_by_name)
         for k, (node, each) in enumerate(zip(row, names, strict=True), 1):
             found[f"{side} {k}"] = node
             if not node.name:
                 draft.name_node(node.position, each)
-    return Assembly(name, Named(parts), Named(found), tuple(rows[0]), body)
+    for word, node in inner.items():
+        found[word] = node
+        name_point(draft, node, prefixed(name, word))
+    return Assembly(name, Named({**parts, body_word: body}), Named(found), tuple(rows[0]), body)
 
 
-def _prefixed(name: str, word: str) -> str:
+def name_point(draft: Draft, node: Node, name: str) -> None:
+    """Give a point a name where it has none, with a number where that is taken."""
+    if not node.name:
+        draft.name_node(node.position, numbered_from(name, draft.points_by_name))
+
+
+def numbered_from(name: str, taken: Container[str]) -> str:
+    """The name, or where it is taken the name with the first number from 2 that is free."""
+    free = itertools.chain([name], (f"{name} {k}" for k in itertools.count(2)))
+    return next(each for each in free if each not in taken)
+
+
+def prefixed(name: str, word: str) -> str:
     """A word after the name of an assembly, which may be empty."""
     return f"{name} {word}" if name else word
 
 
-def _numbered(word: str, size: int, taken: dict[str, list[int]]) -> list[str]:
+def numbered(word: str, size: int, taken: dict[str, list[int]]) -> list[str]:
     """So many names with numbers, which go on after those in use."""
     start = 1
     while any(f"{word} {start + k}" in taken for k in range(size)):

@@ -20,8 +20,8 @@ from .arguments import (
     PartLike,
     Point,
     angle,
+    coordinates,
     count,
-    cross,
     direction,
     drawn_elements,
     existing,
@@ -31,13 +31,21 @@ from .arguments import (
     place,
     several,
     text,
-    unit,
     whole_point,
 )
-from .draft import NO_VECTOR, ROUNDING, Draft, Places, Slots, Vector
+from .draft import ROUNDING, Draft, Places, Slots
 from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .names import part_name
-from .transform import IDENTITY, Transform, reflection, rotation
+from .transform import (
+    IDENTITY,
+    NO_VECTOR,
+    Transform,
+    Vector,
+    cross,
+    reflection,
+    rotation,
+    unit,
+)
 
 #: How names of copies are made: "upper {}" or "{} {}", with the number of the copy as the second;
 #: words that are replaced; or a function.
@@ -48,6 +56,15 @@ Parts = Iterable[PartLike | FoldedSheet | Assembly]
 Copy = tuple[dict[int, int], dict[int, int]]
 
 _MOST_COPIES = 100_000
+_PLANES = {"xy": "z", "yx": "z", "yz": "x", "zy": "x", "zx": "y", "xz": "y"}
+
+
+def frame(draft: Draft, at: Point, axis: Direction, degrees: Quantity) -> Transform:
+    """A frame, given in the one at hand by its origin and an axis about which it is turned."""
+    turned = rotation(_axis(draft, axis), angle(degrees), NO_VECTOR)
+    if draft.frame is not None:
+        turned = turned.after(draft.frame)
+    return turned._replace(shift=_place(draft, at))
 
 
 def insert(
@@ -62,8 +79,7 @@ def insert(
     """Put a copy of another model into this one, turned about its origin and then moved."""
     if source.planar != target.planar:
         raise model_error("two-kinds-of-model", "one of the models is planar and the other is not")
-    turned = rotation(_axis(target, axis), angle(degrees), NO_VECTOR)
-    move = turned._replace(shift=_place(target, at))
+    move = frame(target, at, axis, degrees)
     (made,) = _copies(source, _chosen(source, None), target, [move], names, join)
     return _assembly(source, target, made)
 
@@ -92,7 +108,7 @@ def pattern(
         about = _axis(draft, axis)
         moves = [rotation(about, k * turned, centre) for k in range(1, size)]
     else:
-        x, y, z = _place(draft, step)
+        x, y, z = draft.turned(coordinates(draft, step))
         moves = [Transform(IDENTITY, (k * x, k * y, k * z)) for k in range(1, size)]
     originals = {n: n for n in draft.node_kind}, {i: i for i in chosen[0]}
     nodes = _nodes_of(draft, *chosen)
@@ -112,7 +128,7 @@ def mirror(
     join: bool | Quantity,
 ) -> Assembly:
     """Add the mirror image of parts in a plane."""
-    move = reflection(plane, _place(draft, at))
+    move = reflection(_normal(draft, plane), _place(draft, at))
     if draft.planar and move.matrix[2] != (0.0, 0.0, 1.0):
         raise model_error("no-coordinate", "a planar model is mirrored in a plane along z")
     (made,) = _copies(draft, _chosen(draft, parts), draft, [move], names, join)
@@ -152,14 +168,32 @@ def _axis(draft: Draft, axis: Direction) -> Vector:
     made = direction(axis, "axis")
     if draft.planar and any(made[:2]):
         raise model_error("no-coordinate", "a planar model turns about z")
-    return made
+    return draft.turned(made)
+
+
+def _normal(draft: Draft, plane: Direction) -> Vector:
+    """The normal of a plane: "xy", "yz", "zx", or its normal as a vector.
+
+    Raises:
+        ModelError: it is no plane.
+    """
+    if isinstance(plane, str):
+        name = plane.strip().lower()
+        if name not in _PLANES:
+            raise model_error(
+                "bad-number",
+                f"a plane is xy, yz or zx, or its normal as a vector, not {in_short(plane)}",
+            )
+        plane = _PLANES[name]
+    return draft.turned(direction(plane, "normal of the plane"))
 
 
 def _place(draft: Draft, given: Point | Sequence[Quantity]) -> Vector:
-    """Three numbers [m], or two in a plane; or where a point is."""
+    """Where a point is, or three numbers [m] in the frame at hand, or two in a plane."""
     if isinstance(given, (Node, Body, str)):
-        given = draft.node_value[existing(draft, given).position][:3]
-    x, y, z = place(draft, given)[:3]
+        x, y, z = draft.node_value[existing(draft, given).position][:3]
+    else:
+        x, y, z = place(draft, given)[:3]
     return x, y, z
 
 

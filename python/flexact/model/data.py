@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any
 
@@ -42,6 +42,15 @@ class CrossSection(IntEnum):
     LINE = 5
 
 
+class BodyShape(IntEnum):
+    """As what a rigid body is drawn, where its maker says it; no deck has a word for it."""
+
+    NONE = 0
+    HULL = 1
+    BOX = 2
+    DISC = 3
+
+
 @dataclass(frozen=True, eq=False)
 class Appearance(Frozen):
     """What was said about drawing the elements; the analysis does not use it.
@@ -54,6 +63,9 @@ class Appearance(Frozen):
         edge_colour: (elements, 3) the same for edges.
         opacity: (elements,) from 0, invisible, to 1; NaN where not given.
         drawn: (elements,) whether an element is drawn.
+        body_shape: (elements,) `BodyShape` as which the body of a link is drawn; NONE where
+            not given.
+        body_thickness: (elements,) of that shape [m]; NaN where not given.
     """
 
     cross_section: IntArray
@@ -62,6 +74,18 @@ class Appearance(Frozen):
     edge_colour: FloatArray
     opacity: FloatArray
     drawn: BoolArray
+    body_shape: IntArray = field(default_factory=lambda: np.zeros(0, np.int32))
+    body_thickness: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only; of no body anything is said where they are left out."""
+        for name, none in (
+            ("body_shape", np.int32(BodyShape.NONE)),
+            ("body_thickness", np.float64(np.nan)),
+        ):
+            if not getattr(self, name).size:
+                object.__setattr__(self, name, np.broadcast_to(none, self.drawn.shape))
+        super().__post_init__()
 
     @classmethod
     def plain(cls, elements: int) -> Appearance:

@@ -10,10 +10,11 @@ from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.text import in_short
 from .arguments import existing, indices_of, part, whole
-from .draft import NO_VECTOR, Draft
-from .handles import Assembly, Body, Element, FoldedSheet, Node, Part, Sheet
+from .draft import Draft
+from .handles import Assembly, Body, Element, FoldedSheet, Node, Part, ReinforcedSheet, Sheet
 from .names import is_coordinate, nearest
 from .parts.forms import PLANAR, XY, XZ
+from .transform import NO_VECTOR
 
 #: Roles of what happens at p, and at q; what is not among them has no end.
 AT_P = frozenset((Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P))
@@ -263,6 +264,9 @@ def find_deformations(
             f"the body {what} has {len(indices)} rigid links",
             f"say which of them: {names}",
         )
+    if isinstance(made, ReinforcedSheet):
+        # Its leaves are a divided sheet; the middle has nothing to change.
+        indices.pop(len(indices) // 2)
     kind = element_kinds()[draft.kinds[indices[0]] - 1]
     last = draft.deformations_of(indices[0])
     end = _end(draft, what, indices, at)

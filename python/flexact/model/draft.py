@@ -18,6 +18,7 @@ from ..util.records import cached_property
 from ..util.text import in_short
 from .data import NUMBERS
 from .names import one_line, part_name
+from .transform import NO_VECTOR, Transform, Vector
 
 #: Of the size of a model: points nearer than this are at one place.
 ROUNDING = 1.0e-9
@@ -116,10 +117,6 @@ class RigidComponents:
 
 
 Colour = tuple[float, float, float]
-Vector = tuple[float, float, float]
-
-#: What the vector of an element is where none is given.
-NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 
 #: Of the numbers of nodes and elements.
 LARGEST = 2**31 - 1
@@ -139,7 +136,8 @@ class Shape(NamedTuple):
     z: float
 
 
-#: What is said about drawing an element: shape, colour, edge_colour, opacity, drawn, each if given.
+#: What is said about drawing an element, each if given: shape, colour, edge_colour, opacity, drawn;
+#: body_shape and body_thickness.
 Said = dict[str, Any]
 Numbers = tuple[float, ...]
 Slots = tuple[int, int, int, int]
@@ -151,6 +149,8 @@ class Draft:
     def __init__(self, planar: bool) -> None:
         """Start without nodes or elements."""
         self.planar = planar
+        #: In which places and directions are given; None: in the model's own.
+        self.frame: Transform | None = None
         self.node_kind: dict[int, int] = {}
         self.node_value: dict[int, Numbers] = {}
         #: Names of points, by the numbers of their position nodes.
@@ -209,6 +209,15 @@ class Draft:
                 self._places[1].add(number)
         return number
 
+    def turned(self, given: Vector) -> Vector:
+        """A direction in the model that is given in the frame at hand."""
+        return self.frame.turned(given) if self.frame else given
+
+    def seen(self, number: int) -> Vector:
+        """The place of a position node as the frame at hand has it [m]."""
+        x, y, z = self.node_value[number][:3]
+        return self.frame.inverse.place((x, y, z)) if self.frame else (x, y, z)
+
     def join(self, position: int, orientation: int) -> None:
         """Say that an orientation is one of the point at a position node."""
         self.orientation_at.setdefault(position, orientation)
@@ -231,13 +240,15 @@ class Draft:
     ) -> int:
         """Add an element and return its number; `released` are part of what it is.
 
+        Its vector is given in the frame at hand.
+
         Raises:
             ModelError: both ends are one point, or at one place.
         """
         self.require_two_ends(slots)
         index = len(self.kinds)
         classes = classes_of(kind.deformations, released)
-        number = self.append_element(kind.number, slots, vector, classes)
+        number = self.append_element(kind.number, slots, self.turned(vector), classes)
         if name:
             self.name_element(index, name)
         if shape is not None:

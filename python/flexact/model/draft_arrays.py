@@ -13,12 +13,18 @@ from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
 from ..util.groups import groups_of
 from ..util.text import in_short
 from .data import NUMBERS, Appearance, Loads, ModelData, Properties, rows_of
-from .draft import Draft, Shape, Vector, classes_of
+from .draft import Draft, Shape, classes_of
+from .transform import Vector
 
 #: Nodes that one message names.
 _MOST_LISTED = 5
 #: What is given in numbers about drawing an element, and how many they are.
-_LOOKS: dict[str, tuple[int, ...]] = {"colour": (3,), "edge_colour": (3,), "opacity": ()}
+_LOOKS: dict[str, tuple[int, ...]] = {
+    "colour": (3,),
+    "edge_colour": (3,),
+    "opacity": (),
+    "body_thickness": (),
+}
 
 
 def draft_of(data: ModelData) -> Draft:
@@ -77,6 +83,8 @@ def _say_looks(draft: Draft, appearance: Appearance) -> None:
         for i in np.flatnonzero(~np.isnan(rows)).tolist():
             draft.say_looks([i], {name: values[i].tolist()})
     draft.say_looks(np.flatnonzero(~appearance.drawn).tolist(), {"drawn": False})
+    for i in np.flatnonzero(appearance.body_shape).tolist():
+        draft.say_looks([i], {"body_shape": int(appearance.body_shape[i])})
 
 
 def data_of(draft: Draft, name: str) -> ModelData:
@@ -175,14 +183,16 @@ def _appearance(draft: Draft, elements: int) -> Appearance | None:
     if all(said == {"drawn": True} for said in draft.said.values()):
         return None
     shapes, drawn = np.zeros((elements, 3)), np.ones(elements, bool)
+    body_shape = np.zeros(elements, np.int32)
     numbers = {name: np.full((elements, *size), np.nan) for name, size in _LOOKS.items()}
     for i, said in draft.said.items():
         shapes[i] = said.get("shape", 0.0)
         drawn[i] = said.get("drawn", True)
+        body_shape[i] = said.get("body_shape", 0)
         for name in said.keys() & _LOOKS.keys():
             numbers[name][i] = said[name]
     kinds = shapes[:, 0].astype(np.int32)
-    return Appearance(kinds, shapes[:, 1:].copy(), **numbers, drawn=drawn)
+    return Appearance(kinds, shapes[:, 1:].copy(), **numbers, drawn=drawn, body_shape=body_shape)
 
 
 def _properties(draft: Draft, elements: int, node_numbers: Sequence[int]) -> Properties | None:

@@ -17,6 +17,7 @@ from ..core.elements import (
     is_position,
 )
 from ..deck.rendering import model_error
+from ..util.groups import grouped
 from ..util.quantities import Quantity
 from ..util.text import in_short
 from .arguments import (
@@ -31,8 +32,8 @@ from .arguments import (
     several,
     vector,
 )
-from .draft import Colour, Draft, Said, Vector
-from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet, Wire
+from .draft import Colour, Draft, Said
+from .handles import Assembly, Element, FoldedSheet, Node, Part, ReinforcedSheet, Sheet, Wire
 from .names import is_coordinate, nearest, part_name
 from .sections import (
     MaterialLike,
@@ -43,6 +44,7 @@ from .sections import (
     sheet_section,
     sheet_shape,
 )
+from .transform import Transform, Vector
 
 
 def fixed_targets(draft: Draft, given: Sequence[object]) -> tuple[list[object], list[object]]:
@@ -114,7 +116,29 @@ def _places(draft: Draft, numbers: Sequence[int], names: Sequence[object]) -> li
                 f"it has {', '.join(every)}",
             )
         found.append(every[name])
-    return found
+    return found if draft.frame is None else _of_frame(draft, found, draft.frame)
+
+
+def _of_frame(
+    draft: Draft, found: list[tuple[int, int]], frame: Transform
+) -> list[tuple[int, int]]:
+    """Coordinates of the model that are those of a frame.
+
+    Raises:
+        ModelError: they are none, as those along axes that lie askew.
+    """
+    made = []
+    for number, axes in grouped(found).items():
+        turned = frame.axes(set(axes))
+        if turned is None:
+            raise model_error(
+                "turned-class",
+                f"axes of this frame are askew: along them {draft.node_words(number)} "
+                "has no coordinate",
+                "name all three of a kind, or name coordinates of the model outside of the frame",
+            )
+        made += [(number, k) for k in sorted(turned)]
+    return made
 
 
 def node_with(draft: Draft, point: Point | int, wants_position: bool) -> int:
@@ -142,7 +166,7 @@ def load(
     what: str,
     unit: str,
 ) -> Vector:
-    """Three numbers; the last may be missing, and in a plane must be nothing."""
+    """Three numbers in the frame at hand; the last may be missing, in a plane must be nothing."""
     given: tuple[object, ...] = (x, y, 0.0 if z is None else z)
     if y is None and z is None:
         given = several(x, f"the components of a {what}") or given
@@ -151,7 +175,7 @@ def load(
     made = vector(given, what, unit)  # type: ignore[arg-type]
     if draft.planar and made[2]:
         raise model_error("bad-number", f"the {what} has a z component in a planar model")
-    return made
+    return draft.turned(made)
 
 
 def moment(
@@ -232,6 +256,10 @@ def move_node(draft: Draft, number: int, value: tuple[float, float, float, float
 
 def rename_part(draft: Draft, target: object, name: str) -> None:
     """Give a part another name: every beam and link of it."""
+    if isinstance(target, ReinforcedSheet):
+        for word, piece in target.pieces.items():
+            rename_part(draft, piece, f"{name}, {word}")
+        return
     leaves = target.leaves if isinstance(target, FoldedSheet) else (target,)
     for k, leaf in enumerate(leaves, 1):
         own = name if len(leaves) == 1 else f"{name}, leaf {k}"
@@ -296,6 +324,8 @@ def _flexures(target: object) -> list[object]:
     """The flexures of an assembly or folded sheet, or the part itself."""
     if isinstance(target, FoldedSheet):
         return list(target.leaves)
+    if isinstance(target, ReinforcedSheet):
+        return [each for each in target.pieces.values() if isinstance(each, Sheet)]
     if isinstance(target, Assembly):
         return [each for made in target.parts.values() for each in _flexures(made)]
     is_other = isinstance(target, Part) and not isinstance(target, (Sheet, Wire))

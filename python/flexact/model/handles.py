@@ -113,6 +113,27 @@ class Sheet(Part):
     __slots__ = ()
 
 
+class ReinforcedSheet(Sheet):
+    """A sheet whose middle is thick: two sheets in one plane, and a rigid body between them."""
+
+    __slots__ = ()
+
+    @property
+    def pieces(self) -> dict[str, Part]:
+        """Its "leaf 1", "middle" and "leaf 2", as they stand in their names."""
+        n = len(self.elements) // 2
+        return {
+            "leaf 1": Sheet(self.elements[:n], self.nodes[: n + 1]),
+            "middle": Body(self.elements[n : n + 1], self.nodes[n : n + 2]),
+            "leaf 2": Sheet(self.elements[n + 1 :], self.nodes[n + 1 :]),
+        }
+
+    @property
+    def name(self) -> str:
+        """What the sheet is called, empty without a name."""
+        return part_name(self.elements[0].name).removesuffix(", leaf 1")
+
+
 class Wire(Part):
     """A wire flexure of one or several beams."""
 

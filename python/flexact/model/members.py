@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypedDict
 
 from ..core.elements import Class, kind_of
 from ..core.raw import ElementKind
@@ -18,20 +18,19 @@ from .arguments import (
     add_point,
     call,
     checked_name,
-    cross,
     direction,
     numbers_of_size,
     pivot,
     point,
     position,
     text,
-    unit,
     whole,
 )
 from .deformations import deformations, give_deformations
-from .draft import LARGEST, NO_VECTOR, Draft, Vector
-from .handles import Element, FoldedSheet, Node, Notch, Sheet, Wire
+from .draft import LARGEST, Draft
+from .handles import Element, FoldedSheet, Node, Notch, ReinforcedSheet, Sheet, Wire
 from .sections import Make, MaterialLike, Section, made_of, round_section, shape_of, sheet_section
+from .transform import NO_VECTOR, Vector, cross, unit
 
 
 def kind(draft: Draft, keyword: str) -> ElementKind:
@@ -158,6 +157,8 @@ def _hinge_stiffness(stiffness: Quantity | Sequence[Quantity], planar: bool) -> 
     return made
 
 
+#: The thickness with which the middle of a reinforced sheet is drawn, in that of the sheet.
+_THICKER = 4.0
 #: As the core's check of a y vector.
 _PARALLEL = 1.0e-6
 
@@ -171,6 +172,30 @@ class Sizes(NamedTuple):
     breadth: Quantity | None = None
     """Of a sheet, as is what follows."""
     warping: bool | float = False
+    reinforced: float | None = None
+
+
+class Flexure(TypedDict, total=False):
+    """What the flexures of a part are made of, by the words of `Model.wire` and `Model.sheet`."""
+
+    beams: int
+    section: Section | None
+    thickness: Quantity | None
+    material: MaterialLike | None
+    breadth: Quantity | None
+    warping: bool | float
+    reinforced: float | None
+
+
+def sizes_of(given: Flexure) -> tuple[int, Sizes]:
+    """Into how many beams flexures are divided, and what they are made of.
+
+    Raises:
+        TypeError: a word is none of `Flexure`.
+    """
+    made = {"section": None, "thickness": None, "material": None, **given}
+    beams = made.pop("beams", 1)
+    return beams, Sizes(**made)  # type: ignore[arg-type, return-value]
 
 
 def add_wire(
@@ -201,7 +226,56 @@ def add_sheet(
 ) -> Sheet:
     """A sheet flexure."""
     with call("sheet", name):
-        return _sheet(draft, p, q, width, beams, name, _sheet_make(draft, sizes), sizes.warping)
+        make = _sheet_make(draft, sizes)
+        if sizes.reinforced is None:
+            return _sheet(draft, p, q, width, beams, name, make, sizes.warping)
+        return _reinforced(draft, p, q, width, beams, name, make, sizes)
+
+
+def _reinforced(
+    draft: Draft,
+    p: Point,
+    q: Point,
+    width: Direction | None,
+    beams: int,
+    name: str,
+    make: Make,
+    sizes: Sizes,
+) -> ReinforcedSheet:
+    """Two sheets with a rigid middle, which moves as the ends of the whole say.
+
+    What the second of them releases is declared, as of the beams of a divided sheet.
+    """
+    what = "the reinforced part of a sheet is a share of its length"
+    (share,) = numbers_of_size(sizes.reinforced, (1,), what)
+    if not 0.0 < share < 1.0:
+        raise model_error("out-of-range", f"{what}, not {share:g}", "give one such as 0.7")
+    ends = point(draft, p), point(draft, q)
+    draft.require_two_ends((ends[0].position, 0, ends[1].position, 0))
+    start, end = (draft.node_value[each.position][:3] for each in ends)
+    inner = []
+    for t in ((1.0 - share) / 2.0, (1.0 + share) / 2.0):
+        x, y, z = (a * (1.0 - t) + b * t for a, b in zip(start, end, strict=True))
+        inner.append(add_point(draft, (x, y, z, 0.0)))
+    near, far = inner
+    names = [f"{name}, {word}" if name else "" for word in ("leaf 1", "middle", "leaf 2")]
+    first = _sheet(draft, ends[0], near, width, beams, names[0], make, sizes.warping)
+    shape = make.shape and make.shape._replace(y=_THICKER * make.shape.y)
+    normal = _sheet_normal(draft, near, far, width)
+    middle = add_beam(draft, near, far, normal, (), names[1], Make(shape))
+    draft.rigid.add(len(draft.kinds) - 1)
+    second = _sheet(draft, far, ends[1], width, beams, names[2], make, sizes.warping)
+    declare_released(draft, beams)
+    elements = *first.elements, middle, *second.elements
+    return ReinforcedSheet(elements, first.nodes + second.nodes)
+
+
+def declare_released(draft: Draft, beams: int) -> None:
+    """Declare what the last beams release, so that they move only as what is in series says."""
+    for index in range(len(draft.kinds) - beams, len(draft.kinds)):
+        for number, value in enumerate(draft.classes[index], 1):
+            if value == Class.DEPENDENT:
+                draft.set_deformation(index, number, Class.INDEPENDENT)
 
 
 def add_folded_sheet(
@@ -293,8 +367,8 @@ def _chain(
 
 
 def span(draft: Draft, p: Node, q: Node) -> Vector:
-    """The vector from p to q [m]."""
-    a, b = draft.node_value[p.position], draft.node_value[q.position]
+    """The vector from p to q in the frame at hand [m]."""
+    a, b = draft.seen(p.position), draft.seen(q.position)
     return b[0] - a[0], b[1] - a[1], b[2] - a[2]
 
 

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +21,7 @@ from ..util.loading import feature
 from ..util.quantities import Quantity
 from ..util.records import read_only
 from ..util.text import in_short
-from . import assemblies, copies, edits, members
+from . import assemblies, copies, edits, joints, members
 from .arguments import (
     Direction,
     PartLike,
@@ -41,7 +43,7 @@ from .configuration import Configuration
 from .copies import Names, Parts
 from .data import ModelData
 from .deformations import give_deformations, means_part
-from .draft import NO_VECTOR, Draft
+from .draft import Draft
 from .draft_arrays import data_of, draft_of
 from .handles import (
     Assembly,
@@ -54,11 +56,15 @@ from .handles import (
     Sheet,
     Wire,
 )
-from .members import Sizes
+from .members import Flexure, Sizes
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
+from .transform import NO_VECTOR
 from .variation import held_given, positions_given, with_held, with_positions
 from .writing import deck_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Model:
@@ -215,6 +221,33 @@ class Model:
         """Another point at the position of `node`, with an orientation of its own."""
         draft = self._change()
         return pivot(draft, position_number(draft, node))
+
+    @contextmanager
+    def frame(
+        self, at: Point = NO_VECTOR, axis: Direction = "z", degrees: Quantity = 0.0
+    ) -> Iterator[None]:
+        """A frame of its own for what is said within `with model.frame(at, axis, degrees):`.
+
+        Places, widths, axes, planes, steps, loads and names of coordinates are those of the
+        frame. Points by name and handle are where they are, and `Node.place` and all results are
+        those of the model. Frames within frames add up.
+
+        Args:
+            at: Origin of the frame: a place [m], or a point.
+            axis: The axis about which it is turned, "x", "y", "z" or a vector.
+            degrees: The angle, right-handed [degrees].
+
+        Raises:
+            ModelError: a planar model is turned about another axis than z; or, within, a
+                coordinate is named that is not along x, y or z of the model.
+        """
+        draft = self._change()
+        before = draft.frame
+        draft.frame = copies.frame(draft, at, axis, degrees)
+        try:
+            yield
+        finally:
+            draft.frame = before
 
     def handle(self, position: int, orientation: int = 0) -> Node:
         """The point made of two nodes by their numbers, for a model from a deck.
@@ -396,6 +429,7 @@ class Model:
         breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
+        reinforced: float | None = None,
     ) -> Sheet:
         """A sheet flexure: elongation and in-plane bending are held, the rest released.
 
@@ -416,11 +450,16 @@ class Model:
             material: Gives stiffness and mass, see `wire`.
             warping: False: the ends are free to warp. True: they are clamped and cannot, which
                 raises G It by `flexact.model.sections.warping_factor`; a number is the factor.
+            reinforced: The share of its length that is thick in the middle, such as 0.7: a
+                rigid body between two sheets, called "name, leaf 1", "name, middle" and "name,
+                leaf 2". The handle is a `ReinforcedSheet`. How the middle moves while both
+                ends stand still is declared, so that the verdict is that of one sheet;
+                thickness and material are those of the leaves.
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the sheet.
         """
-        sizes = Sizes(section, thickness, material, breadth, warping)
+        sizes = Sizes(section, thickness, material, breadth, warping, reinforced)
         return members.add_sheet(self._change(), p, q, width, beams, name, sizes)
 
     def folded_sheet(
@@ -471,6 +510,8 @@ class Model:
         mass: Quantity | None = None,
         inertia: Quantity | Sequence[Quantity] | None = None,
         section: Section | None = None,
+        shape: str | None = None,
+        thickness: Quantity | None = None,
     ) -> Body:
         """One rigid body through any points.
 
@@ -485,11 +526,15 @@ class Model:
             inertia: Moments of inertia there [kg m2]: Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy,
                 Jyz, Jzz; in a planar model one number.
             section: How the links are drawn, see `look`.
+            shape: As what it is drawn, "disc", "box" or "hull", see `Appearance.body_shape`. It is
+                kept with the model and its copies; a deck has no word for it.
+            thickness: Of that shape [m].
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the body.
         """
-        return assemblies.add_body(self._change(), points, name, (mass, inertia), section)
+        looks = shape, thickness
+        return assemblies.add_body(self._change(), points, name, (mass, inertia), section, looks)
 
     def cross_hinge(
         self,
@@ -643,6 +688,279 @@ class Model:
         return assemblies.add_hexapod(
             self._change(), ends, height, name, spread, at, carries, (mass, inertia), beams, wires
         )
+
+    # Hinges, struts and mounts ----------------------------------------------
+    # `flexures` are those of `sheet`: beams, section, thickness, breadth, material, warping,
+    # reinforced. Nothing is clamped, and masses are given with `body([hinge.body], mass=...)`.
+
+    def cartwheel(
+        self,
+        ground: Iterable[Point],
+        moving: Iterable[Point],
+        width: Direction | None = None,
+        name: str = "",
+        *,
+        carries: Iterable[Point] = (),
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A cartwheel hinge: sheets that cross as in `cross_hinge`, joined where they meet.
+
+        Each sheet is two half sheets in series, with a small body between them at the centre.
+        That this turns while both ends stand still is declared, as a bending at the centre.
+
+        Args:
+            ground: Points on the near side, one a sheet.
+            moving: Points on the body, one a sheet; the lines between them meet in one point.
+            width: Direction of the width, which is that of the axis; by default normal to the
+                first two sheets.
+            name: What it is called: its parts are "name near sheet 1", ..., "name body".
+            carries: Further points of the body.
+            **flexures: What the half sheets are made of, see `sheet`.
+
+        Returns:
+            Parts "near sheet 1", ..., "far sheet 1", ..., "body"; points "ground 1", ...,
+            "body 1", ..., "centre".
+
+        Raises:
+            ModelError: the sheets do not cross in one line.
+        """
+        sides = ground, moving
+        return joints.add_cartwheel(self._change(), sides, width, name, carries, flexures)
+
+    def infinity_hinge(
+        self,
+        p: Point,
+        q: Point,
+        width: Direction,
+        name: str = "",
+        *,
+        aside: Quantity | None = None,
+        carries: Iterable[Point] = (),
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A hinge of a sheet, a folded sheet that stiffens its twist, and a wire across.
+
+        One stage of the infinity hinge (Wiersma, Boer, Aarts and Brouwer 2014), as
+        dspe.nl/knowledge describes it: the sheet bends about its width, the folded sheet beside it
+        holds its twist, the wire its going aside. Two stages in series bend half as much each.
+        The body turns about the middle of the sheet, and is held once in all else.
+
+        Args:
+            p: The near end of the sheet: a point, its name, or its place [m].
+            q: Its end on the body.
+            width: Direction of its width, which is that of the axis.
+            name: What it is called: its parts are "name sheet 1", "name folded sheet 1", "name
+                wire 1", "name body".
+            aside: How far along the axis the folded sheet is from the sheet, and on the other
+                side the wire [m]; by default the length of the sheet.
+            carries: Further points of the body.
+            **flexures: What the flexures are made of, see `sheet`; the wire is as thick.
+        """
+        draft, ends = self._change(), (p, q)
+        return joints.add_infinity_hinge(draft, ends, width, aside, name, carries, flexures)
+
+    def folded_hinge(
+        self,
+        radius: Quantity,
+        name: str = "",
+        *,
+        sheets: int = 3,
+        tilt: Quantity = 45.0,
+        arm: Quantity | None = None,
+        carries: Iterable[Point] = (),
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A ball joint of folded sheets about z, whose fold lines meet in the origin.
+
+        Each folded sheet takes the translation along its fold line; three hold the point in which
+        the lines meet, about which the body turns. M. P. Koster, Constructieprincipes, has it with
+        four. With `frame` it stands elsewhere.
+
+        Args:
+            radius: Distance of the folds from the centre [m].
+            name: What it is called: its parts are "name folded sheet 1", ..., "name body".
+            sheets: How many folded sheets there are, three or more.
+            tilt: Angle of the fold lines with the xy plane, between 0 and 90 [degrees].
+            arm: Length of each leaf [m]; by default half of the radius.
+            carries: Further points of the body.
+            **flexures: What the folded sheets are made of, see `folded_sheet`.
+        """
+        draft = self._change()
+        return joints.add_folded_hinge(draft, radius, tilt, arm, sheets, name, carries, flexures)
+
+    def universal_joint(
+        self,
+        p: Point,
+        axes: Sequence[Direction] = ("x", "y"),
+        q: Point | None = None,
+        name: str = "",
+    ) -> Assembly:
+        """A universal joint: two notches in series whose axes cross.
+
+        What is fastened to p and to `joint["q"]` turns about both axes against each other.
+
+        Args:
+            p: The point on the near side, where the first notch is.
+            axes: Directions of the axes of the first and the second notch.
+            q: The point on the far side, where the second notch is, with a rigid body between
+                the two; by default both are at p.
+            name: What it is called: its parts are "name notch 1", "name notch 2" and "name
+                intermediate body".
+
+        Returns:
+            The parts; points "p" and "q".
+        """
+        return joints.add_universal_joint(self._change(), p, axes, q, name)
+
+    def strut(
+        self, p: Point, q: Point, ends: str | Sequence[str] = "spherical", name: str = ""
+    ) -> Assembly:
+        """A strut: a rigid bar between two points, with notches at both ends.
+
+        "spherical" is a neck, round and thin, that bends and twists; "universal" are two crossed
+        notches. With one end of each, or two necks, the strut holds the distance of the points;
+        with two universal ends also the rotation about itself. The rotation of a strut between
+        two necks about itself is declared.
+
+        Args:
+            p: One end: a point, its name, or its place [m].
+            q: The other end.
+            ends: "spherical" or "universal", or that of each end.
+            name: What it is called: its parts are "name notch 1", ..., "name bar".
+        """
+        return joints.add_strut(self._change(), p, q, ends, name)
+
+    def bipod(
+        self,
+        feet: Iterable[Point],
+        apex: Point,
+        name: str = "",
+        *,
+        reach: float = 1.0,
+        ends: str | Sequence[str] = "spherical",
+        carries: Iterable[Point] = (),
+    ) -> Assembly:
+        """A bipod: two struts towards one point of a body, which they hold along their lines.
+
+        Args:
+            feet: Two points on the ground.
+            apex: The point of the body where their lines meet.
+            name: What it is called: its parts are "name strut 1 bar", ..., "name body".
+            reach: The share of the way to the apex that the struts go.
+            ends: Notches at the ends of the struts, see `strut`.
+            carries: Further points of the body.
+        """
+        return joints.add_bipod(self._change(), feet, apex, reach, ends, name, carries)
+
+    def vee(
+        self,
+        at: Point,
+        groove: Direction,
+        length: Quantity,
+        name: str = "",
+        *,
+        up: Direction = "z",
+        opening: Quantity = 90.0,
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A ball in a groove: two bars along the normals of its flanks, which meet in the ball.
+
+        Args:
+            at: Centre of the ball: a point, its name, or its place [m].
+            groove: Direction of the groove, along which the ball is free.
+            length: Of the bars, from the ground to the ball [m].
+            name: What it is called: its parts are "name contact 1" and "name contact 2".
+            up: Direction in which the groove opens, made normal to it.
+            opening: Angle between the flanks [degrees].
+            **flexures: `thickness`, the diameter of the bars [m], and `material`.
+
+        Returns:
+            The parts; points "ground 1", "ground 2" and "ball".
+        """
+        return joints.add_vee(self._change(), at, groove, up, length, opening, name, flexures)
+
+    def kinematic_mount(
+        self,
+        radius: Quantity,
+        length: Quantity,
+        name: str = "",
+        *,
+        turned: Quantity = 0.0,
+        opening: Quantity = 90.0,
+        carries: Iterable[Point] = (),
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A plate whose three balls lie in grooves that point to the z axis: held once in all.
+
+        Args:
+            radius: Of the circle of the balls in the xy plane [m].
+            length: Of the bars of each vee [m].
+            name: What it is called: its parts are "name contact 1", ..., "name plate".
+            turned: Angle of each groove with the radius [degrees]; 90 is the wrong way.
+            opening: Angle between the flanks [degrees].
+            carries: Further points of the plate.
+            **flexures: `thickness`, the diameter of the bars [m], and `material`.
+        """
+        return joints.add_kinematic_mount(
+            self._change(), radius, length, turned, opening, name, carries, flexures
+        )
+
+    def spider(
+        self,
+        outer: Quantity,
+        inner: Quantity,
+        arms: int = 3,
+        layout: str = "radial",
+        name: str = "",
+        *,
+        carries: Iterable[Point] = (),
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A hub on flat arms about z: each holds it in the xy plane, three motions.
+
+        Args:
+            outer: Radius of the clamps [m].
+            inner: Radius of the hub [m].
+            arms: How many there are, two or more.
+            layout: How they lie in the plane: "radial", "tangential" to the hub, or "folded": from
+                the hub outwards and then, at right angles, to the clamp. How the corner of a
+                folded arm leaves the plane is declared.
+            name: What it is called: its parts are "name arm 1", ..., "name hub".
+            carries: Further points of the hub.
+            **flexures: What the arms are made of, see `sheet`.
+        """
+        radii = outer, inner
+        return joints.add_spider(self._change(), radii, arms, layout, name, carries, flexures)
+
+    def diaphragm(
+        self,
+        outer: Quantity,
+        inner: Quantity,
+        sheets: int = 12,
+        name: str = "",
+        *,
+        wires: bool = False,
+        carries: Iterable[Point] = (),
+        **flexures: Unpack[Flexure],
+    ) -> Assembly:
+        """A membrane about z, as flat radial sheets between its ring and its hub.
+
+        As a membrane does, they hold x, y and the rotation about z.
+
+        Args:
+            outer: Radius of the ring [m].
+            inner: Radius of the hub [m].
+            sheets: How many there are, three or more.
+            name: What it is called: its parts are "name sheet 1", ..., "name ring", "name hub".
+            wires: Whether they are wires, which hold x and y alone.
+            carries: Further points of the hub.
+            **flexures: What they are made of, see `sheet` and `wire`.
+
+        Returns:
+            The parts and points; `ground` is one point of the ring, so that `fix` clamps it once.
+        """
+        radii = outer, inner
+        return joints.add_diaphragm(self._change(), radii, sheets, wires, name, carries, flexures)
 
     # What is said of them ---------------------------------------------------
 

@@ -1,23 +1,39 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rigid movements and reflections of what a draft holds: places, directions, frames, inertia."""
+"""Vectors; rigid movements and reflections of places, directions, frames, inertia."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
-from ..deck.rendering import model_error
-from ..util.text import in_short
-from .arguments import Direction, direction, unit
-from .draft import NO_VECTOR, Vector
-
+Vector = tuple[float, float, float]
+#: What the vector of an element is where none is given.
+NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 Matrix = tuple[Vector, Vector, Vector]
 IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-_PLANES = {"xy": "z", "yx": "z", "yz": "x", "zy": "x", "zx": "y", "xz": "y"}
 #: Where the sine is known to the last bit, in steps of 30 degrees.
 _SINES = (0.0, 0.5, math.sqrt(0.75), 1.0)
 #: An entry of an image is no whole number beyond this.
 _ROUNDING = 1.0e-9
+
+
+def unit(given: Vector) -> Vector:
+    """The vector of length one along this one; zero of zero."""
+    largest = max(map(abs, given))
+    if largest == 0.0:
+        return NO_VECTOR
+    x, y, z = (part / largest for part in given)
+    norm = math.hypot(x, y, z)
+    return x / norm, y / norm, z / norm
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """The vector product a x b."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
 
 
 class Transform(NamedTuple):
@@ -45,6 +61,20 @@ class Transform(NamedTuple):
         """The image of a rotation or a moment, which a mirror image reverses."""
         a, b, c = self.turned(v)
         return (-a, -b, -c) if self.is_mirror else (a, b, c)
+
+    def after(self, first: Transform) -> Transform:
+        """That which does `first`, then this."""
+        columns = [self.turned((c[0], c[1], c[2])) for c in zip(*first.matrix, strict=True)]
+        x, y, z = ((row[0], row[1], row[2]) for row in zip(*columns, strict=True))
+        return Transform((x, y, z), self.place(first.shift))
+
+    @property
+    def inverse(self) -> Transform:
+        """That which takes it back."""
+        x, y, z = ((c[0], c[1], c[2]) for c in zip(*self.matrix, strict=True))
+        back = Transform((x, y, z), NO_VECTOR)
+        a, b, c = back.turned(self.shift)
+        return back._replace(shift=(-a, -b, -c))
 
     @property
     def is_mirror(self) -> bool:
@@ -78,15 +108,15 @@ class Transform(NamedTuple):
         return found
 
 
-def rotation(axis: Direction, degrees: float, at: Vector) -> Transform:
+def rotation(axis: Vector, degrees: float, at: Vector) -> Transform:
     """The rotation about an axis through a point; exact for multiples of 30 degrees about x, y, z.
 
     Args:
-        axis: "x", "y", "z" or a vector.
+        axis: A vector along it.
         degrees: The angle, right-handed [degrees].
         at: A point of the axis [m].
     """
-    n = unit(direction(axis, "axis"))
+    n = unit(axis)
     s, c = sine(degrees), sine(degrees + 90.0)
     skew = ((0.0, -n[2], n[1]), (n[2], 0.0, -n[0]), (-n[1], n[0], 0.0))
     x, y, z = (
@@ -96,25 +126,9 @@ def rotation(axis: Direction, degrees: float, at: Vector) -> Transform:
     return _about(((x[0], x[1], x[2]), (y[0], y[1], y[2]), (z[0], z[1], z[2])), at)
 
 
-def reflection(plane: Direction, at: Vector) -> Transform:
-    """The mirror image in a plane through a point.
-
-    Args:
-        plane: "xy", "yz" or "zx", or its normal as a vector.
-        at: A point of the plane [m].
-
-    Raises:
-        ModelError: it is no plane.
-    """
-    if isinstance(plane, str):
-        name = plane.strip().lower()
-        if name not in _PLANES:
-            raise model_error(
-                "bad-number",
-                f"a plane is xy, yz or zx, or its normal as a vector, not {in_short(plane)}",
-            )
-        plane = _PLANES[name]
-    n = unit(direction(plane, "normal of the plane"))
+def reflection(normal: Vector, at: Vector) -> Transform:
+    """The mirror image in a plane through a point [m]."""
+    n = unit(normal)
     x, y, z = ([one - 2.0 * n[i] * n[j] for j, one in enumerate(IDENTITY[i])] for i in range(3))
     return _about(((x[0], x[1], x[2]), (y[0], y[1], y[2]), (z[0], z[1], z[2])), at)
 

@@ -46,15 +46,19 @@ def deck_of(data: ModelData) -> str:
     # What a file is called does not stand in it.
     title = one_line(data.name) if origin is None else ""
     appearance, numbers = data.given_appearance, data.arrays.element_number
+    picture = [] if appearance is None else [*_picture(appearance, numbers)]
+    if appearance is not None and appearance.body_shape.any() and len(picture) == _HEAD:
+        # Decks have no word for as what bodies are drawn.
+        picture = []
     dynamics = dynamics_of(data, comments)
     blocks = (
         [f"% {title}"] if title else comments.top,
         *(beside(*each) for each in _kinematics(data, comments)),
         comments.end,
         ["END"],
-        comments.rest if not dynamics and appearance is None else [],
-        ["HALT", *dynamics, *comments.rest, "END"] if dynamics or appearance is not None else [],
-        [] if appearance is None else _picture(appearance, numbers),
+        [] if dynamics or picture else comments.rest,
+        ["HALT", *dynamics, *comments.rest, "END"] if dynamics or picture else [],
+        picture,
     )
     return "\n".join(line for block in blocks for line in block) + "\n"
 
@@ -172,6 +176,8 @@ def _loads(data: ModelData, table: FloatArray) -> Iterator[tuple[int, tuple[floa
 
 #: How many numbers of elements stand in a line of the picture block.
 _NUMBERS_A_LINE = 16
+#: Lines of a picture block in which nothing is said.
+_HEAD = 2
 
 
 def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:

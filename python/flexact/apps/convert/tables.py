@@ -27,10 +27,11 @@ from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
 from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic
 from ...model.data import ModelData
-from ...model.draft import NO_VECTOR, Draft
+from ...model.draft import Draft
 from ...model.draft_arrays import data_of as data_of_draft
 from ...model.model import Model
 from ...model.names import one_line
+from ...model.transform import NO_VECTOR
 from ...util.errors import require_kind
 from .model_tables import tables_with_remarks
 from .table_input import (
