@@ -20,6 +20,8 @@ Mechanisms
     read, read_text: a model from a deck, a file or its text
     Node, Element: a point and an element of a model
     Sheet, Wire, FoldedSheet, Notch, Body, Assembly: parts that a model has made
+    ReinforcedSheet: a sheet with a rigid middle
+    polar: a place at a radius and an angle
     Material: what sheets and wires are made of
     Configuration: where all nodes of a model are
 

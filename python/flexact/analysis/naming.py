@@ -19,8 +19,11 @@ _INDENT = "     "
 _MOST_TOGETHER = 11
 #: Nouns that stand in the plural where names of parts are put together.
 _NOUNS = frozenset(
-    "sheet wire bar beam hinge joint strut arm leg link guide blade vee contact limb notch rod "
-    "flexure spring spoke crank ring clamp stage".split()
+    (
+        *("sheet", "wire", "bar", "beam", "hinge", "joint", "strut", "arm", "leg", "link", "guide"),
+        *("blade", "vee", "contact", "limb", "notch", "rod", "flexure", "spring", "spoke"),
+        *("crank", "ring", "clamp", "stage"),
+    )
 )
 
 
