@@ -195,15 +195,17 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
     """Bodies that are solids: corners in the frame of the member with which each moves."""
     drawing, members = frame.drawing, frame.drawing.members
     solids = drawing.solids
-    corners, triangles, owner, edges = [np.zeros((0, 3))], [], [], []
+    corners, normals = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    triangles, owner, edges = [], [], []
     behind = 0
     for number, solid in enumerate(solids):
         row = solid.rows[0]
         arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
         corners.append(arm @ members.frame[row] / frame.size)
+        normals.append(solid.normals @ members.frame[row])
         triangles.append(behind + solid.hull.triangles)
         owner.append(np.full(len(solid.hull.triangles), number))
-        edges.append(behind + solid.hull.edges)
+        edges.append(behind + solid.hull.edges[solid.hull.drawn])
         behind += len(arm)
     own = np.array([solid.colour for solid in solids]).reshape(-1, 3).clip(0.0, 1.0)
     edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
@@ -212,6 +214,7 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
         "names": [parts.of_element(i).name for i in elements],
         "rows": [solid.rows.tolist() for solid in solids],
         "corner": floats(np.concatenate(corners)),
+        "normal": floats(np.concatenate(normals)),
         "count": integers([len(solid.corners) for solid in solids]),
         "triangles": integers(np.concatenate([np.zeros((0, 3)), *triangles])),
         "owner": integers(np.concatenate([np.zeros(0), *owner])),

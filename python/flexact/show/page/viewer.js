@@ -47,6 +47,8 @@ const Viewer = (() => {
       for (const part of [this.members, this.bodies, this.hinges, this.supports, this.joints,
         this.freedoms, this.displacements, this.diagram, this.spaces]) stage.scene.add(part.group);
       stage.scene.add(this.nodeMark.mesh);
+      Shadow.Shadow.cast(...this.members.solids, ...this.bodies.solids, this.hinges.group,
+        this.supports.group, this.joints.group);
       stage.before.push((time) => this.player.step(time));
       stage.before.push(() => this.diagram.isPassed(stage.towards) && this.drawDiagram());
       stage.after.push(() => this.overlay.draw());

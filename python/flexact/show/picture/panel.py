@@ -59,8 +59,9 @@ def _add_bodies(canvas: Canvas, drawing: Drawing, pose: Pose, *, pale: bool = Fa
         quads = each.quads(corners, chosen)
         colours = np.repeat(shaded, 3, axis=0)
         canvas.polygons(quads, colours, opacity=each.opacity, layer=layer)
-        seen = each.hull.edges[front[each.hull.beside].any(axis=1)]
-        canvas.lines(corners[seen], line, OUTLINE_WIDTH, layer=layer)
+        beside = front[each.hull.beside]
+        seen = (each.hull.drawn & beside.any(axis=1)) | (beside[:, 0] != beside[:, 1])
+        canvas.lines(corners[each.hull.edges[seen]], line, OUTLINE_WIDTH, layer=layer)
 
 
 #: Up to so many members, a bent one has so many segments and a round section so many corners.
