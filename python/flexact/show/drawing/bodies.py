@@ -59,7 +59,8 @@ def polygon_round(points: FloatArray) -> np.ndarray:
     extent = float(np.ptp(points, axis=0).max())
     if not extent > 0.0:
         return np.arange(1)
-    order = np.lexsort(points.T[::-1]).tolist()
+    # What rounding tells apart is equal, else points on an upright side stand in no order.
+    order = np.lexsort(np.round(points.T[::-1] / (_FLAT * extent))).tolist()
     halves = [_half(points, part, _FLAT * extent**2) for part in (order, order[::-1])]
     return np.array(list(dict.fromkeys(halves[0][:-1] + halves[1][:-1])))
 
@@ -195,18 +196,21 @@ def solid_of(
         thickness: Of a plate, a disc or a box [m]; 0: as thick as the points need.
         least: How thick it is at least; half of it is round the points [m]; 0: a part of their
             extent.
-        axes: (k, 3) unit vectors along which it may be thick besides the normal of the points.
+        axes: (k, 3) unit vectors along which it may be thick where the points are no plane; by
+            default the principal axes of the points.
     """
     least = least or _THICK * float(np.linalg.norm(np.ptp(points, axis=0)))
     apart = points - points.mean(axis=0)
     if not least > 0.0:
         return None
-    own = np.linalg.svd(np.concatenate((apart, np.zeros((3, 3)))), full_matrices=False)[2]
-    frame, outline, volume = _plate_frame(
-        points, np.concatenate((axes, own)) if axes is not None else own, least
-    )
-    hull = hull_round(points) if shape in ("", "hull") else None
-    if hull is not None and (shape == "hull" or _volume(points, hull) < _FULL * volume):
+    size, own = np.linalg.svd(np.concatenate((apart, np.zeros((3, 3)))), full_matrices=False)[1:]
+    hull = hull_round(points)
+    if hull is None and size[1] > _IN_PLANE * size[0]:
+        axes = own[2:]
+    frame, outline, volume = _plate_frame(points, own if axes is None else axes, least)
+    if hull is not None and (
+        shape == "hull" or (not shape and _volume(points, hull) < _FULL * volume)
+    ):
         return _rounded_hull(points, hull, least / 2)
     flat = points @ frame[:, :2]
     height = points @ frame[:, 2]
@@ -396,9 +400,9 @@ def solids_of(data: ModelData, members: Members, size: float, position: FloatArr
     made = []
     for body in bodies_of(data.arrays):
         rows = [row_of[i] for i in body.elements if i in row_of]
-        # Where a plate swallows others the hull may not.
-        for shape in ("", "hull"):
-            solid = _solid(data, members, body, rows, size, shape)
+        # Where a plate swallows others an upright one or the hull may not.
+        for shape, upright in (("", False), ("", True), ("hull", False)):
+            solid = _solid(data, members, body, rows, size, shape, upright)
             if solid is not None and not _swallows(members, solid, position, size):
                 made.append(solid)
                 break
@@ -406,7 +410,13 @@ def solids_of(data: ModelData, members: Members, size: float, position: FloatArr
 
 
 def _solid(
-    data: ModelData, members: Members, body: Body, rows: list[int], size: float, shape: str
+    data: ModelData,
+    members: Members,
+    body: Body,
+    rows: list[int],
+    size: float,
+    shape: str,
+    upright: bool,
 ) -> Solid | None:
     given, elements = data.appearance, list(body.elements)
     if len(rows) < len(elements):
@@ -431,7 +441,7 @@ def _solid(
         outline = np.arange(len(ring))
         hull = _polygon_hull(ring, outline)
         return None if hull is None else Solid(np.array(rows), ring, normal, hull, outline, *look)
-    axes = np.concatenate([frame.T for frame in frames])
+    axes = np.eye(3)[::-1] if upright else np.concatenate([frame.T for frame in frames])
     made = solid_of(points, shape, least=thick, axes=axes)
     if made is None:
         return None
