@@ -115,6 +115,8 @@ GHOST_FACE = (0.8936, 0.9012, 0.9126)
 #: Displacements of a motion, and declared degrees of freedom.
 ARROW = (0.80, 0.37, 0.06)
 FREEDOM = (0.0, 0.62, 0.40)
+#: What parts press on bodies in a self-stress.
+PRESS = (0.29, 0.02, 0.44)
 #: What is pointed at.
 MARK = (1.0, 0.92, 0.0)
 #: Freedom and constraint spaces, red and blue as in the literature on them; wires to add.

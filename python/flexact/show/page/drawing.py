@@ -33,6 +33,7 @@ from ..drawing import (
 from ..drawing import members as colours
 from ..drawing.diagrams import GAP, HEIGHT, SHOWN
 from ..drawing.members import turned_at
+from ..drawing.presses import way_out
 from ..drawing.view import ISO, view_of
 from .assets import MOST_MEMBERS, flags, floats, image, integers, json_for_script, text
 from .controls import KEYS, PLANAR_KEYS
@@ -102,6 +103,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
             "support": colours.SUPPORT,
             "arrow": colours.ARROW,
             "freedom": colours.FREEDOM,
+            "press": colours.PRESS,
             "mark": colours.MARK,
             "freedom space": colours.FREEDOM_SPACE,
             "constraint space": colours.CONSTRAINT_SPACE,
@@ -274,6 +276,12 @@ def _arrows(frame: Frame) -> dict[str, Any]:
     return {
         "node": integers(frame.new[node[rows]]),
         "direction": floats(direction[rows]),
+        "start": floats(
+            [
+                way_out(frame.drawing, int(n), way) / frame.size
+                for n, way in zip(node[rows], direction[rows], strict=True)
+            ]
+        ),
         "turning": flags(turning[rows]),
     }
 

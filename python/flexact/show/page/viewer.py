@@ -37,6 +37,7 @@ from ..drawing import (
     stations,
     swing,
 )
+from ..drawing.presses import SECOND, Press, presses_in_words, presses_of
 from ..drawing.selection import way_of
 from ..spaces import SpaceShown, dashes, holds_shown, spaces_shown
 from .assets import (
@@ -230,6 +231,7 @@ def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[st
         made.append(
             {
                 "title": f"Self-stress {number}",
+                "presses": _presses(presses_of(frame.drawing, stress), frame, found.length),
                 "dominant": found.dominant,
                 "largest": {each: found.largest(each) for each in there},
                 "members": {each: floats(found[each][:MOST_MEMBERS]) for each in there},
@@ -237,6 +239,24 @@ def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[st
             }
         )
     return made
+
+
+def _presses(presses: Sequence[Press], frame: Frame, length: float) -> dict[str, Any]:
+    """Arrows by the nodes with which they move: where each begins beside it, and its way there.
+
+    A moment has two arrows, one of them shorter, of which the heads are seen.
+    """
+    rows = [(each, part) for each in presses for part in (1.0, SECOND)[: 1 + each.is_moment]]
+    rows = [(each, part) for each, part in rows if frame.new[each.node] >= 0]
+    place = frame.drawing.reference.position
+    offset = [each.start - place[each.node] for each, _ in rows]
+    way = [part * (each.end - each.start) for each, part in rows]
+    return {
+        "node": integers([frame.new[each.node] for each, _ in rows]),
+        "offset": floats(np.reshape(offset, (-1, 3)) / frame.size),
+        "way": floats(np.reshape(way, (-1, 3)) / frame.size),
+        "note": presses_in_words(length) if rows else "",
+    }
 
 
 #: Of more flexures what they hold is shown together alone.

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What parts press on bodies in a self-stress, as arrows on the surfaces of the bodies.
+
+Forces and moments are those of `analysis/part_stresses.py` at the end of each part. All arrows of
+a self-stress share one scale, on which a moment counts as the force that has it about the
+characteristic length.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...analysis.naming import length_in_words
+from ...analysis.part_stresses import EndLoad, PartStress
+from ...analysis.result import SelfStress
+from ...core.arrays import FloatArray
+from ...model.parts.parts import Part, PartKind
+from ...util.rotations import unit
+from .bodies import Solid
+from .drawing import Drawing
+
+#: Length of the longest arrow, a part of the drawing's size; shorter parts of it than this are
+#: left out, and all of them of drawings of more members.
+_LONGEST, _LEAST, _MOST_MEMBERS = 0.16, 0.06, 200
+#: Two arrows are along one line if this is the cosine of their angle; then a gap is between them.
+_SAME_LINE, _GAP = 0.95, 0.2
+#: Cosine between a force and the way into the body, along the part, from which on it presses.
+_PRESSES = 0.5
+#: Where the second head of a moment is, along its arrow.
+SECOND = 0.84
+
+
+class Press(NamedTuple):
+    """A force or a moment by which a part presses on a body."""
+
+    body: Part
+    part: Part
+    node: int
+    """Position node at which the part ends."""
+    vector: FloatArray
+    """(3,) force [N], or moment about that node [N m]."""
+    is_moment: bool
+    start: FloatArray
+    """(3,) of the arrow, on the surface of the body or outside [m]."""
+    end: FloatArray
+    """(3,) likewise."""
+
+
+def way_out(drawing: Drawing, node: int, direction: FloatArray) -> float:
+    """How far it is from a position node along a unit vector to the surface of its body [m].
+
+    Half the thickness of a link where the body is drawn as its links; 0 of a node that no body
+    carries.
+    """
+    solid = _solid_at(drawing, node)
+    members = drawing.members
+    if solid is None:
+        mine = np.any(members.nodes[:, [0, 2]] == node, axis=1) & members.stiff
+        return float(members.section[mine].max(initial=0.0)) / 2
+    rise = solid.hull.normal @ direction
+    depth = (solid.corners @ solid.hull.normal.T).max(axis=0)
+    depth = depth - solid.hull.normal @ drawing.reference.position[node]
+    return max(float((depth / np.where(rise > 1.0e-9, rise, np.nan))[rise > 1.0e-9].min()), 0.0)
+
+
+def _solid_at(drawing: Drawing, node: int) -> Solid | None:
+    nodes = drawing.members.nodes
+    return next((s for s in drawing.solids if np.any(nodes[s.rows][:, [0, 2]] == node)), None)
+
+
+def presses_of(drawing: Drawing, stress: SelfStress) -> tuple[Press, ...]:
+    """The arrows of a self-stress, part by part; none where a model has very many members."""
+    if len(drawing.members) > _MOST_MEMBERS:
+        return ()
+    there = [
+        (one, k, load)
+        for one in stress.parts
+        for k, load in enumerate(one.ends)
+        if isinstance(load.on, Part) and load.on.kind is PartKind.BODY and load.position is not None
+    ]
+    sizes = [load.wrench.length * np.linalg.norm(load.wrench.force) for _, _, load in there]
+    sizes += [np.linalg.norm(load.wrench.moment) for _, _, load in there]
+    largest = float(max(sizes, default=0.0))
+    scale = _LONGEST * drawing.size / largest if largest > 0.0 else 0.0
+    made: list[Press] = []
+    for one, k, load in there:
+        made += _at_end(drawing, one, k, load, scale)
+    return tuple(made)
+
+
+def _at_end(
+    drawing: Drawing, one: PartStress, which: int, load: EndLoad, scale: float
+) -> list[Press]:
+    """The arrows of a part at one of its ends; `scale` is the length for a moment of one [1/N]."""
+    made: list[Press] = []
+    body, node, wrench = load.on, load.position, load.wrench
+    assert isinstance(body, Part) and node is not None
+    # Into the body, along the part.
+    inwards = one.direction * (1.0 if which else -1.0)
+    for is_moment, vector in ((False, wrench.force), (True, wrench.moment)):
+        length = scale * (1.0 if is_moment else wrench.length) * float(np.linalg.norm(vector))
+        if length < _LEAST * _LONGEST * drawing.size:
+            continue
+        way = unit(vector)
+        # A force that presses ends on the surface, all others begin there.
+        if not is_moment and float(way @ inwards) > _PRESSES:
+            start = wrench.about - way * (way_out(drawing, node, -way) + length)
+        else:
+            start = wrench.about + way * way_out(drawing, node, way)
+        for other in made:
+            along = unit(other.end - other.start) @ way
+            if along > _SAME_LINE and (other.start - wrench.about) @ way > 0.0:
+                start = other.end + _GAP * length * way
+        made.append(Press(body, one.part, node, vector, is_moment, start, start + length * way))
+    return made
+
+
+def presses_in_words(length: float) -> str:
+    """What the arrows are, a sentence; `length` is the characteristic one [m]."""
+    return (
+        "Arrows: what parts press on bodies, forces with one head, moments with two, as forces "
+        f"about {length_in_words(length)}."
+    )
