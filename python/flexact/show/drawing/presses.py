@@ -78,7 +78,7 @@ def presses_of(drawing: Drawing, stress: SelfStress) -> tuple[Press, ...]:
         (one, k, load)
         for one in stress.parts
         for k, load in enumerate(one.ends)
-        if isinstance(load.on, Part) and load.on.kind is PartKind.BODY and load.position is not None
+        if isinstance(load.on, Part) and load.on.kind is PartKind.BODY
     ]
     sizes = [load.wrench.length * np.linalg.norm(load.wrench.force) for _, _, load in there]
     sizes += [np.linalg.norm(load.wrench.moment) for _, _, load in there]
@@ -90,13 +90,24 @@ def presses_of(drawing: Drawing, stress: SelfStress) -> tuple[Press, ...]:
     return tuple(made)
 
 
+def _node_of(drawing: Drawing, body: Part, place: FloatArray) -> int | None:
+    """The position node of a body that is nearest to a place; hinges have none of their own."""
+    rows = np.isin(drawing.members.index, body.elements)
+    nodes = np.unique(drawing.members.nodes[rows][:, [0, 2]])
+    far = np.linalg.norm(drawing.reference.position[nodes] - place, axis=1)
+    return int(nodes[far.argmin()]) if nodes.size else None
+
+
 def _at_end(
     drawing: Drawing, one: PartStress, which: int, load: EndLoad, scale: float
 ) -> list[Press]:
     """The arrows of a part at one of its ends; `scale` is the length for a moment of one [1/N]."""
     made: list[Press] = []
-    body, node, wrench = load.on, load.position, load.wrench
-    assert isinstance(body, Part) and node is not None
+    body, wrench = load.on, load.wrench
+    assert isinstance(body, Part)
+    node = _node_of(drawing, body, wrench.about)
+    if node is None:
+        return []
     # Into the body, along the part.
     inwards = one.direction * (1.0 if which else -1.0)
     for is_moment, vector in ((False, wrench.force), (True, wrench.moment)):

@@ -89,8 +89,14 @@ def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
     return tuple(made)
 
 
-def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
-    """All that does not depend on motions and self-stresses."""
+def static_data(parts: Parts, frame: Frame, segments: int) -> dict[str, Any]:
+    """All that does not depend on motions and self-stresses.
+
+    Args:
+        parts: Of the model.
+        frame: Its place in the page.
+        segments: Of members that bend.
+    """
     drawing = frame.drawing
     node, radius = joints_of(drawing)
     joined = frame.new[node] >= 0
@@ -118,7 +124,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         "sides": sides_in(drawing),
         "forms": {int(form): form.name.lower() for form in Form},
         "nodes": _nodes(parts, frame),
-        "members": _members(parts, frame),
+        "members": _members(parts, frame, segments),
         "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
         "supports": _supports(parts, frame),
@@ -165,7 +171,7 @@ def _held(frame: Frame, pairs: np.ndarray) -> dict[int, str]:
     }
 
 
-def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
+def _members(parts: Parts, frame: Frame, segments: int) -> dict[str, Any]:
     every = frame.drawing.members
     some = slice(MOST_MEMBERS)
     own = np.clip(every.colour[some], 0.0, 1.0)
@@ -174,6 +180,8 @@ def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
     rows: dict[int, int] = {}
     which = [rows.setdefault(part.number, len(rows)) for part in owner]
     called = {part.number: harmless(part.name) for part in owner}
+    necks = np.flatnonzero(every.neck[some].any(axis=1) & every.bends[some])
+    scale, beside = every.profile(necks, np.linspace(0.0, 1.0, segments + 1))
     return {
         "number": integers(every.number[some]),
         "part": integers(which),
@@ -186,6 +194,8 @@ def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
         "bends": flags(every.bends[some]),
         "across": floats(every.across[some]),
         "joined": flags(every.joined[some]),
+        "necks": necks.tolist(),
+        "profile": floats(np.concatenate((scale, beside / frame.size), axis=-1)),
         "shown": flags(~frame.drawing.in_solid[some]),
         "colour": flags(_bytes(own)),
         "edge": flags(_bytes(edge)),

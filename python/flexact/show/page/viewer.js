@@ -232,7 +232,9 @@ const Viewer = (() => {
       this.displacements.group.visible = Boolean(this.movement && this.layers.arrows);
       this.presses.show(this.layers.presses ? this.stress : null);
       this.joints.group.visible = true;
-      for (const part of [this.supports, this.freedoms]) part.group.visible = this.layers.symbols;
+      this.supports.group.visible = this.layers.symbols;
+      // They may lie along one line with what presses.
+      this.freedoms.group.visible = this.layers.symbols && !this.presses.group.visible;
     }
 
     /** Keep the mark of an element or a node, until another is clicked; null lets go. */

@@ -339,7 +339,7 @@ def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
     tracks, kinds = Tracks(frame, _PIECES), [each.kind for each in shaped.shapes[:MOST_MODES]]
     first = kinds.index("buckled") if "buckled" in kinds else min(1, len(kinds) - 1)
     return {
-        **static_data(Parts(shaped.data), frame),
+        **static_data(Parts(shaped.data), frame, tracks.segments),
         "reference": tracks.data(),
         "segments": tracks.segments,
         "movements": _fitting(_swings(shaped, tracks)),
@@ -387,7 +387,7 @@ def viewer_data(
         "What each flexure holds", lambda: holds_data(analysis, frame), [], missing
     )
     data = {
-        **static_data(analysis.parts, frame),
+        **static_data(analysis.parts, frame, tracks.segments),
         "reference": tracks.data(),
         "segments": tracks.segments,
         "movements": _fitting(movements(analysis, tracks, missing)),
