@@ -431,7 +431,8 @@ def test_a_block_of_ground_hides_the_ball_behind_it(tmp_path: Path) -> None:
     for view, eye in (("left", (180.0, 0.0)), ("right", (0.0, 0.0))):
         pixels = Pixels(draw(analysis, view=view), eye=eye)
         near = pixels.near((0.0, 0.0, 0.0), 8)
-        seen.append(bool(np.any(np.abs(near - ball).max(axis=1) < 2)))
+        # The bar's soft shadow may lie on it.
+        seen.append(bool(np.any(np.abs(near - ball).max(axis=1) < 6)))
     assert seen == [False, True]
 
 

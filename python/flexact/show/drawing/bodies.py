@@ -168,9 +168,9 @@ _MOST_POINTS, _MOST_MEMBERS = 120, 1500
 _BETTER = 1.0e-6
 #: Places along other members, and how deep within a hull one may not lie, parts of the thickness.
 _INNER, _DEEP = np.linspace(0.25, 0.75, 9), 0.3
-#: Radius of the edges of plates, a part of their thickness; and the turn [rad] of a step on the
-#: way round a corner, and round a disc.
-_EDGE_RADIUS, _STEP, _FINE_STEP = 0.2, np.pi / 6, np.pi / 24
+#: Radius of the edges of plates: a part of the thickness that points need, and at most of half of
+#: the plate's own; and the turn [rad] of a step on the way round a corner, and round a disc.
+_EDGE_RADIUS, _ROUNDEST, _STEP, _FINE_STEP = 0.2, 0.8, np.pi / 6, np.pi / 24
 #: Points that fill less of the plate round them are drawn as their hull.
 _FULL = 0.4
 #: What a body may be drawn as; "" is what fits it.
@@ -208,13 +208,14 @@ def solid_of(
     if hull is None and size[1] > _IN_PLANE * size[0]:
         axes = own[2:]
     frame, outline, volume = _plate_frame(points, own if axes is None else axes, least)
+    flat, height = points @ frame[:, :2], points @ frame[:, 2]
     if hull is not None and (
-        shape == "hull" or (not shape and _volume(points, hull) < _FULL * volume)
+        shape == "hull"
+        # Where points are nearly in a plane their hull is crumpled.
+        or (not shape and np.ptp(height) > least and _volume(points, hull) < _FULL * volume)
     ):
         return _rounded_hull(points, hull, least / 2)
-    flat = points @ frame[:, :2]
-    height = points @ frame[:, 2]
-    middle, half = (height.max() + height.min()) / 2, (np.ptp(height) + least) / 2
+    middle, half = (height.max() + height.min()) / 2, float(np.ptp(height) + least) / 2
     corner, margin, step = flat[outline], least / 2, _STEP
     if shape == "disc":
         corner = (flat.max(axis=0) + flat.min(axis=0))[None] / 2
@@ -223,7 +224,7 @@ def solid_of(
     elif shape == "box":
         corner = _rectangle(corner)
     half = thickness / 2 if thickness > 0.0 else half
-    radius = min(_EDGE_RADIUS * least, half)
+    radius = min(_EDGE_RADIUS * least, _ROUNDEST * half)
     base, way = _round_the_corners(corner, step)
     rings = (
         (margin - radius, half, 1.0),

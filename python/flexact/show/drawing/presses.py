@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.naming import length_in_words
-from ...analysis.part_stresses import EndLoad, PartStress
 from ...analysis.result import SelfStress
+from ...analysis.screws import Wrench
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part, PartKind
 from ...util.rotations import unit
@@ -23,7 +23,7 @@ from .drawing import Drawing
 
 #: Length of the longest arrow, a part of the drawing's size; shorter parts of it than this are
 #: left out, and all of them of drawings of more members.
-_LONGEST, _LEAST, _MOST_MEMBERS = 0.16, 0.06, 200
+_LONGEST, _LEAST, _MOST_MEMBERS = 0.13, 0.06, 200
 #: Two arrows are along one line if this is the cosine of their angle; then a gap is between them.
 _SAME_LINE, _GAP = 0.95, 0.2
 #: Cosine between a force and the way into the body, along the part, from which on it presses.
@@ -74,42 +74,46 @@ def presses_of(drawing: Drawing, stress: SelfStress) -> tuple[Press, ...]:
     """The arrows of a self-stress, part by part; none where a model has very many members."""
     if len(drawing.members) > _MOST_MEMBERS:
         return ()
-    there = [
-        (one, k, load)
-        for one in stress.parts
-        for k, load in enumerate(one.ends)
-        if isinstance(load.on, Part) and load.on.kind is PartKind.BODY
+    # Who presses on which body, from where, and the direction into the body along the part.
+    there: list[tuple[Part, Part, Wrench, FloatArray]] = []
+    for one in stress.parts:
+        for k, load in enumerate(one.ends):
+            if isinstance(load.on, Part) and load.on.kind is PartKind.BODY and load.on != one.part:
+                into = one.direction if k else -one.direction
+                there.append((load.on, one.part, load.wrench, into))
+    # Bodies that share a point press on each other there.
+    for body, loads in stress.on_bodies:
+        for part, wrench in loads:
+            if isinstance(body, Part) and part is not None and part.kind is PartKind.BODY:
+                shared = sorted(set(_nodes_of(drawing, body)) & set(_nodes_of(drawing, part)))
+                place = drawing.reference.position[shared].mean(axis=0) if shared else wrench.about
+                there.append((body, part, wrench.at(place), np.zeros(3)))
+    sizes = [
+        max(each.length * np.linalg.norm(each.force), np.linalg.norm(each.moment))
+        for _, _, each, _ in there
     ]
-    sizes = [load.wrench.length * np.linalg.norm(load.wrench.force) for _, _, load in there]
-    sizes += [np.linalg.norm(load.wrench.moment) for _, _, load in there]
     largest = float(max(sizes, default=0.0))
     scale = _LONGEST * drawing.size / largest if largest > 0.0 else 0.0
-    made: list[Press] = []
-    for one, k, load in there:
-        made += _at_end(drawing, one, k, load, scale)
-    return tuple(made)
+    return tuple(press for each in there for press in _at_end(drawing, *each, scale))
 
 
-def _node_of(drawing: Drawing, body: Part, place: FloatArray) -> int | None:
-    """The position node of a body that is nearest to a place; hinges have none of their own."""
+def _nodes_of(drawing: Drawing, body: Part) -> list[int]:
+    """Position nodes of a body."""
     rows = np.isin(drawing.members.index, body.elements)
-    nodes = np.unique(drawing.members.nodes[rows][:, [0, 2]])
-    far = np.linalg.norm(drawing.reference.position[nodes] - place, axis=1)
-    return int(nodes[far.argmin()]) if nodes.size else None
+    return sorted(set(drawing.members.nodes[rows][:, [0, 2]].ravel().tolist()))
 
 
 def _at_end(
-    drawing: Drawing, one: PartStress, which: int, load: EndLoad, scale: float
+    drawing: Drawing, body: Part, part: Part, wrench: Wrench, inwards: FloatArray, scale: float
 ) -> list[Press]:
-    """The arrows of a part at one of its ends; `scale` is the length for a moment of one [1/N]."""
+    """The arrows of one wrench; `scale` is the length for a moment of one [1/N]."""
     made: list[Press] = []
-    body, wrench = load.on, load.wrench
-    assert isinstance(body, Part)
-    node = _node_of(drawing, body, wrench.about)
-    if node is None:
-        return []
-    # Into the body, along the part.
-    inwards = one.direction * (1.0 if which else -1.0)
+    # Hinges have no position node of their own.
+    nodes = _nodes_of(drawing, body)
+    if not nodes:
+        return made
+    far = np.linalg.norm(drawing.reference.position[nodes] - wrench.about, axis=1)
+    node = nodes[int(far.argmin())]
     for is_moment, vector in ((False, wrench.force), (True, wrench.moment)):
         length = scale * (1.0 if is_moment else wrench.length) * float(np.linalg.norm(vector))
         if length < _LEAST * _LONGEST * drawing.size:
@@ -124,7 +128,7 @@ def _at_end(
             along = unit(other.end - other.start) @ way
             if along > _SAME_LINE and (other.start - wrench.about) @ way > 0.0:
                 start = other.end + _GAP * length * way
-        made.append(Press(body, one.part, node, vector, is_moment, start, start + length * way))
+        made.append(Press(body, part, node, vector, is_moment, start, start + length * way))
     return made
 
 

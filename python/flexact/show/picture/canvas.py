@@ -77,8 +77,8 @@ def painted(
         middle = nearest.reshape(shape)[SAMPLES // 2 :: SAMPLES, SAMPLES // 2 :: SAMPLES]
         depth = np.where(middle > 0, (middle >> _BITS) / _STEPS + lowest, -np.inf)
         solid = (depth >= between[0]) & (depth < between[1])
-        dark = _shadow((depth / SAMPLES).astype(np.float32), solid, reach)
-        made[solid] = np.rint(made[solid] * (1.0 - dark[:, None]))
+        dark = _shadow(np.float32(depth / SAMPLES), solid, reach)
+        made[solid] = np.rint(made[solid] * (1.0 - dark).reshape(-1, 1))
     return made
 
 
@@ -94,7 +94,7 @@ def _shadow(depth: FloatArray, solid: np.ndarray, reach: float) -> FloatArray:
     around = np.pad(depth, edge, constant_values=-np.inf)
     place = np.flatnonzero(np.pad(solid, edge))
     around, wide = around.ravel(), around.shape[1]
-    own = around[place] + np.float32(0.0)
+    own = around[place]
     dark = np.zeros(len(place), np.float32)
     for k in range(_PAIRS):
         angle, far = _GOLDEN * k, reach * np.sqrt((k + 0.5) / _PAIRS)
