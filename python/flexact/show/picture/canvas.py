@@ -77,7 +77,7 @@ def painted(
         middle = nearest.reshape(shape)[SAMPLES // 2 :: SAMPLES, SAMPLES // 2 :: SAMPLES]
         depth = np.where(middle > 0, (middle >> _BITS) / _STEPS + lowest, -np.inf)
         solid = (depth >= between[0]) & (depth < between[1])
-        dark = _shadow(np.float32(depth / SAMPLES), solid, reach)
+        dark = _shadow(depth / SAMPLES, solid, reach)
         made[solid] = np.rint(made[solid] * (1.0 - dark).reshape(-1, 1))
     return made
 
@@ -91,10 +91,9 @@ def _shadow(depth: FloatArray, solid: np.ndarray, reach: float) -> FloatArray:
         reach: How far nearer things are looked for [px].
     """
     edge = int(reach) + 1
-    around = np.pad(depth, edge, constant_values=-np.inf)
+    around = np.pad(depth, edge, constant_values=-np.inf).astype(np.float32).ravel()
     place = np.flatnonzero(np.pad(solid, edge))
-    around, wide = around.ravel(), around.shape[1]
-    own = around[place]
+    own, wide = around[place], solid.shape[-1] + 2 * edge
     dark = np.zeros(len(place), np.float32)
     for k in range(_PAIRS):
         angle, far = _GOLDEN * k, reach * np.sqrt((k + 0.5) / _PAIRS)
