@@ -112,7 +112,7 @@ def test_six_folded_sheets_alternate() -> None:
         pixels = Pixels(figure, eye=(azimuth, 10.0))
         along = 0.04 * np.array([-start[1], start[0], 0.0]) / np.hypot(*start[:2])
         for share, strong in ((0.15, 1), (0.97, 0)):
-            points = [(1 - share) * start + share * fold + s * along for s in (-0.45, 0.45)]
+            points = [(1 - share) * start + share * fold + s * along for s in (-0.25, 0.25)]
             seen.append([strong, *(hue(pixels.at(point)) for point in points)])
     ends = [tuple(row[1:]) for row in seen if row[0]]
     # Red stretches the edge of the sheet at the side of y, or x: the sense round the cylinder
