@@ -193,7 +193,8 @@ def solid_of(
     Args:
         points: (n, 3) that lie within it [m].
         shape: One of `SHAPES`.
-        thickness: Of a plate, a disc or a box [m]; 0: as thick as the points need.
+        thickness: Of a plate, a disc or a box, and of what is round a hull [m]; 0: as thick as
+            the points need.
         least: How thick it is at least; half of it is round the points [m]; 0: a part of their
             extent.
         axes: (k, 3) unit vectors along which it may be thick where the points are no plane; by
@@ -209,12 +210,13 @@ def solid_of(
         axes = own[2:]
     frame, outline, volume = _plate_frame(points, own if axes is None else axes, least)
     flat, height = points @ frame[:, :2], points @ frame[:, 2]
-    if hull is not None and (
-        shape == "hull"
-        # Where points are nearly in a plane their hull is crumpled.
-        or (not shape and np.ptp(height) > least and _volume(points, hull) < _FULL * volume)
+    # Where points are nearly in a plane their hull is crumpled.
+    if (
+        hull is not None
+        and np.ptp(height) > least
+        and (shape == "hull" or (not shape and _volume(points, hull) < _FULL * volume))
     ):
-        return _rounded_hull(points, hull, least / 2)
+        return _rounded_hull(points, hull, (thickness or least) / 2)
     middle, half = (height.max() + height.min()) / 2, float(np.ptp(height) + least) / 2
     corner, margin, step = flat[outline], least / 2, _STEP
     if shape == "disc":

@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.naming import length_in_words
 from ...analysis.result import SelfStress
 from ...analysis.screws import Wrench
 from ...core.arrays import FloatArray
@@ -135,6 +134,6 @@ def _at_end(
 def presses_in_words(length: float) -> str:
     """What the arrows are, a sentence; `length` is the characteristic one [m]."""
     return (
-        "Arrows: what parts press on bodies, forces with one head, moments with two, as forces "
-        f"about {length_in_words(length)}."
+        "Arrows: forces (one head) and moments (two heads) by which parts press on bodies; "
+        f"1 N is drawn as long as {length:.2g} N m."
     )

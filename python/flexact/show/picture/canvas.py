@@ -25,7 +25,7 @@ _STEPS = 32
 _BITS = 28
 #: Pairs of places beside a pixel, on a spiral of this angle [rad], where it is looked for what
 #: casts a shadow; how dark that is; and how far it reaches, a part of what is drawn.
-_PAIRS, _GOLDEN, _DARKEST, _REACH = 16, 2.39996, 0.45, 0.03
+_PAIRS, _GOLDEN, _DARKEST, _REACH = 24, 2.39996, 0.45, 0.03
 #: From a depth to another one [sample].
 Range = tuple[float, float]
 ALL = (-np.inf, np.inf)
