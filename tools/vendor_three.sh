@@ -16,11 +16,11 @@ npm install --silent --no-audit --no-fund --save-exact "three@$three" "esbuild@$
 
 cat >parts.js <<'PARTS'
 export {
-  AmbientLight, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry,
-  DirectionalLight, DoubleSide, DynamicDrawUsage, Group, InstancedMesh,
-  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, OrthographicCamera, Quaternion, Raycaster, Drawing, Sphere, SphereGeometry,
-  TorusGeometry, Vector2, Vector3, WebGLRenderer
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DepthTexture,
+  DirectionalLight, DoubleSide, DynamicDrawUsage, Group, HemisphereLight, InstancedMesh,
+  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
+  OrthographicCamera, PlaneGeometry, Quaternion, Raycaster, Scene, ShaderMaterial, Sphere,
+  SphereGeometry, TorusGeometry, Vector2, Vector3, WebGLRenderTarget, WebGLRenderer
 } from 'three';
 export { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 PARTS

@@ -23,6 +23,7 @@ SHOWN = {
     "hinge": colours.HINGE,
     "displacement": colours.ARROW,
     "freedom": colours.FREEDOM,
+    "press": colours.PRESS,
     "pointed at": colours.MARK,
     "ghost": colours.GHOST_FACE,
     "negative": colours.STOPS[0],

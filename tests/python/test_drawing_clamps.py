@@ -42,7 +42,7 @@ def test_members_at_one_point_have_one_block() -> None:
     (support,) = drawing.supports
     assert support.kind == Support.CLAMP
     assert len(support.held) in (1, 3)
-    data = static_data(Parts(drawing.data), frames_of(drawing)[0])
+    data = static_data(Parts(drawing.data), frames_of(drawing)[0], 16)
     (names,) = data["supports"]["names"]
     assert {"wire 0", "wire 1", "wire 2"} <= set(names)
     # The block is below what it holds: the wires stand on the same side of its face.

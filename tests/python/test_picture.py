@@ -112,7 +112,7 @@ def test_six_folded_sheets_alternate() -> None:
         pixels = Pixels(figure, eye=(azimuth, 10.0))
         along = 0.04 * np.array([-start[1], start[0], 0.0]) / np.hypot(*start[:2])
         for share, strong in ((0.15, 1), (0.97, 0)):
-            points = [(1 - share) * start + share * fold + s * along for s in (-0.45, 0.45)]
+            points = [(1 - share) * start + share * fold + s * along for s in (-0.25, 0.25)]
             seen.append([strong, *(hue(pixels.at(point)) for point in points)])
     ends = [tuple(row[1:]) for row in seen if row[0]]
     # Red stretches the edge of the sheet at the side of y, or x: the sense round the cylinder
@@ -431,7 +431,8 @@ def test_a_block_of_ground_hides_the_ball_behind_it(tmp_path: Path) -> None:
     for view, eye in (("left", (180.0, 0.0)), ("right", (0.0, 0.0))):
         pixels = Pixels(draw(analysis, view=view), eye=eye)
         near = pixels.near((0.0, 0.0, 0.0), 8)
-        seen.append(bool(np.any(np.abs(near - ball).max(axis=1) < 2)))
+        # The bar's soft shadow may lie on it.
+        seen.append(bool(np.any(np.abs(near - ball).max(axis=1) < 6)))
     assert seen == [False, True]
 
 

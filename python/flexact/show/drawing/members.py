@@ -6,15 +6,25 @@ from __future__ import annotations
 import itertools
 from collections import Counter
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import FloatArray, ModelArrays
-from ...core.elements import Member, keywords_of, planar_table
+from ...core.elements import Class, Member, Role, keywords_of, planar_table, role_table
 from ...model.data import Appearance, CrossSection, ModelData
-from ...model.parts.forms import Form, all_held, bending_held, forms_of, is_member
+from ...model.parts.forms import (
+    PLANAR,
+    XY,
+    XZ,
+    Form,
+    all_held,
+    bending_held,
+    forms_of,
+    is_member,
+)
 from ...util.records import Frozen
 
 
@@ -115,6 +125,8 @@ GHOST_FACE = (0.8936, 0.9012, 0.9126)
 #: Displacements of a motion, and declared degrees of freedom.
 ARROW = (0.80, 0.37, 0.06)
 FREEDOM = (0.0, 0.62, 0.40)
+#: What parts press on bodies in a self-stress.
+PRESS = (0.29, 0.02, 0.44)
 #: What is pointed at.
 MARK = (1.0, 0.92, 0.0)
 #: Freedom and constraint spaces, red and blue as in the literature on them; wires to add.
@@ -184,6 +196,18 @@ class Elements(Frozen):
         return np.asarray(self.opacity > 0.0)
 
 
+class Neck(IntEnum):
+    """What is cut or bent at an end of a member, told by the bending that it releases there."""
+
+    NONE = 0
+    WAIST = 1
+    """A sheet that bends in its plane there is cut so narrow."""
+    NOTCH = 2
+    """What is stiff in both planes, or a beam in the plane, is cut so thin where it bends."""
+    FOLD = 3
+    """A sheet with a waist that also stretches is folded there."""
+
+
 @dataclass(frozen=True, eq=False)
 class Members(Elements):
     """Drawn elements with two ends; their nodes are in the slots p, op, q, oq.
@@ -196,6 +220,8 @@ class Members(Elements):
         stiff: (k,) whether every deformation is held: drawn without any change of length.
         bends: (k,) whether it is drawn as a beam's cubic curve.
         joined: (k, 2) whether the same sheet or wire goes on at p and at q.
+        neck: (k, 2) `Neck` at p and at q.
+        cut: (k,) the local axis, 0 for y or 1 for z, along which a waist or notch is cut.
         across: (k, 2, 2) along ey and ez, the directions across it of `ModelData.across`.
         edge_colour: (k, 3) like their colours; NaN where none is given.
     """
@@ -207,8 +233,51 @@ class Members(Elements):
     stiff: np.ndarray
     bends: np.ndarray
     joined: np.ndarray
+    neck: np.ndarray
+    cut: np.ndarray
     across: FloatArray
     edge_colour: FloatArray
+
+    def profile(self, rows: np.ndarray, at: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Along ey and ez, (k, s, 2) by what the sizes of members are multiplied at stations (s,).
+
+        And likewise by how much their sections stand beside the axis [m].
+        """
+        scale, beside = np.ones((len(rows), at.size, 2)), np.zeros((len(rows), at.size, 2))
+        cut, neck, length = self.cut[rows], self.neck[rows], self.length[rows, None]
+        size = np.take_along_axis(self.section[rows], cut[:, None], axis=1)
+        reach = np.clip(size / np.where(length > 0.0, length, 1.0), *_NECK_REACH)
+        for end in (0, 1):
+            # From 1 where the neck ends to 0 in its middle.
+            away = np.minimum(np.abs(2 * np.abs(at - end) / reach - 1.0), 1.0)
+            k = np.flatnonzero(neck[:, end] == Neck.FOLD)
+            beside[k, :, 1 - cut[k]] += ((1.0 - away) * reach * length / 2)[k]
+            k = np.flatnonzero(np.isin(neck[:, end], (Neck.WAIST, Neck.NOTCH)))
+            scale[k, :, cut[k]] -= (1.0 - _NARROW) * np.sqrt(1.0 - away[k] ** 2)
+        return scale, beside
+
+
+#: Length of a waist, notch or fold, parts of the member's length; how narrow it is, a part of the
+#: size there; and a wire whose given section is so many times as wide as it is thick was a sheet.
+_NECK_REACH, _NARROW, _FLAT = (0.3, 0.45), 0.25, 6.0
+
+
+def _necks_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
+    """(elements, 2) `Neck` at p and q, and (elements,) the local axis along which it is cut."""
+    roles, held = role_table()[arrays.element_kind], arrays.deformation_class.T == Class.FIXED
+    stiff = np.array(
+        [[np.any((roles == role) & held, axis=1) for role in plane] for plane in (XY, XZ, PLANAR)]
+    )
+    in_xy, in_xz, in_plane = stiff.sum(axis=1)
+    stretches = np.any((roles == Role.ELONGATION) & ~held, axis=1)
+    neck = np.zeros((len(roles), 2), np.int64)
+    # How many bendings a plane holds that is cut, and how many the other one.
+    for plane, (own, other) in enumerate(((in_xy, in_xz), (in_xz, in_xy), (in_plane, 2))):
+        kind = np.where(stretches, Neck.FOLD, Neck.WAIST)
+        kind = np.where(np.equal(other, 2), Neck.NOTCH, kind)
+        cut = (own == 1) & np.not_equal(other, 1)
+        neck[cut] = np.where(stiff[plane].T, Neck.NONE, kind[:, None])[cut]
+    return neck, (in_xz == 1).astype(np.int64)
 
 
 def described(data: ModelData, index: np.ndarray, colour: ArrayLike) -> dict[str, Any]:
@@ -241,12 +310,17 @@ def members_of(data: ModelData, size: float) -> Members:
     frame, length = data.frames.frame[index], data.frames.length[index]
     stiff = all_held(arrays)[index]
     whole, joined = (each[index] for each in _in_chains(data))
-    section = _sections(form, wide, whole, size)
+    neck, cut = (each[index] for each in _necks_of(arrays))
+    thick = np.where(np.any(neck == Neck.NOTCH, axis=1), Form.BEAM, form)
+    section = _sections(thick, np.where(thick == form, wide, 0), whole, size)
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
     in_xz, in_xy = bending_held(arrays)[:, index]
     plainly = np.abs(in_xz - in_xy) == 2
     wide = np.where(plainly | (planar_table()[kind] == 1), wide, 0)
     section, round_ = _as_given(appearance, index, wide, section, round_, size)
+    # A wire that has the section of a sheet is cut out of it.
+    strip = (form == Form.WIRE) & (section.max(axis=1) > _FLAT * section.min(axis=1))
+    section = np.where(strip[:, None], section.min(axis=1, keepdims=True), section)
     return Members(
         **described(data, index, np.array([(0.0, 0.0, 0.0), *OF_FORMS.values()])[form]),
         form=form,
@@ -257,6 +331,8 @@ def members_of(data: ModelData, size: float) -> Members:
         stiff=stiff,
         bends=is_member(kind, Member.BEAM) & ~stiff,
         joined=joined,
+        neck=neck,
+        cut=cut,
         across=data.across[index] @ frame[..., 1:],
         edge_colour=appearance.edge_colour[index],
     )

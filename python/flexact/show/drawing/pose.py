@@ -260,7 +260,9 @@ def solid(strip: Strip, members: Members, planar: bool = False, corners: int = 8
         member = strip.member[rows]
         offset = members.section[member][:, None, :] * _corners(count, planar)
         across = strip.frame[rows][..., 1:]
-        points = strip.centre[rows][:, :, None] + np.einsum("ksxd,kcd->kscx", across, offset)
+        scale, beside = members.profile(member, strip.at)
+        local = scale[:, :, None] * offset[:, None] + beside[:, :, None]
+        points = strip.centre[rows][:, :, None] + np.einsum("ksxd,kscd->kscx", across, local)
         made.append(Solid(member, rows, offset, points, not planar))
     return made
 

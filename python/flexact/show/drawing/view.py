@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...model.parts.forms import Form
+from ...model.parts.parts import bodies_of
 from ...util.errors import BatchError, require_kind
 from ...util.quantities import quantity
 from ...util.records import Frozen, cached_property
@@ -27,6 +28,9 @@ NAMED = {
 ISO = "iso"
 _ISO_AZIMUTHS = (-62.0, -38.0, -74.0, -24.0, -122.0, -148.0)
 _ISO_ELEVATION = 25.0
+#: What is flat is seen from at least so far above its plane [degrees]. Flat is whose least extent
+#: is at most this part of the next one.
+_ABOVE, _FLATNESS = 35.0, 0.3
 #: Another azimuth than the first must show so much more.
 _BETTER = 0.04
 #: A sheet that is turned to the eye by this cosine is seen well enough.
@@ -79,16 +83,36 @@ def view_of(text: str | None, drawing: Drawing) -> View:
     if asked is not None:
         return asked
     # From above and the side from which members hide each other least and sheets are seen.
-    views = [View(azimuth, _ISO_ELEVATION) for azimuth in _ISO_AZIMUTHS]
+    normal = flat_normal(drawing)
+    lies = normal is not None and abs(normal[2]) > np.cos(np.radians(_ABOVE))
+    views = [View(azimuth, _ABOVE if lies else _ISO_ELEVATION) for azimuth in _ISO_AZIMUTHS]
     best = views[0]
     if not len(drawing.members):
         return best
     points, most = _sample(drawing), 0.0
     for view in views:
         seen = _seen(points, view, drawing.size) * _facing(drawing, view)
+        if normal is not None:
+            seen *= min(abs(float(normal @ view.axes[2])) / np.sin(np.radians(_ABOVE)), 1.0)
         if view is best or seen > most * (1.0 + _BETTER):
             best, most = view, seen
     return best
+
+
+def flat_normal(drawing: Drawing) -> FloatArray | None:
+    """(3,) unit normal of a flat mechanism; None of others.
+
+    Flat is where all points, or all points of bodies, lie near a plane and not near a line.
+    """
+    place, used = drawing.reference.position, np.unique(drawing.members.nodes[:, [0, 2]])
+    bodies = {node for body in bodies_of(drawing.data.arrays) for node in body.positions}
+    for nodes in (used.tolist(), sorted(bodies)):
+        apart = place[nodes] - place[nodes].mean(axis=0) if len(nodes) > 2 else np.zeros((3, 3))
+        axes = np.linalg.svd(apart, full_matrices=False)[2]
+        extents = np.ptp(apart @ axes.T, axis=0)
+        if extents[2] <= _FLATNESS * extents[1] and extents[1] > _FLATNESS * extents[0] / 3:
+            return np.asarray(axes[2])
+    return None
 
 
 def check_view(text: str) -> View | None:

@@ -207,6 +207,7 @@ SCRIPTS = (
     "shapes.js",
     "surfaces.js",
     "words.js",
+    "shadow.js",
     "stage.js",
     "members.js",
     "bodies.js",

@@ -11,9 +11,11 @@ const Bodies = (() => {
       Object.assign(this, { data, members, count: bodies.names.length });
       this.group = new THREE.Group();
       this.local = PageData.array(bodies.corner);
+      this.localNormal = PageData.array(bodies.normal);
       this.counts = PageData.array(bodies.count);
       this.corner = new BufferAttribute(new Float32Array(this.local.length), 3);
-      this.corner.setUsage(THREE.DynamicDrawUsage);
+      this.normal = new BufferAttribute(new Float32Array(this.local.length), 3);
+      for (const each of [this.corner, this.normal]) each.setUsage(THREE.DynamicDrawUsage);
       this.triangles = PageData.array(bodies.triangles);
       this.edges = PageData.array(bodies.edges);
       this.bodyOf = new Map(bodies.rows.flatMap((rows, b) => rows.map((row) => [row, b])));
@@ -39,6 +41,7 @@ const Bodies = (() => {
       const opacity = PageData.array(bodies.opacity), owner = PageData.array(bodies.owner);
       const attributes = {
         position: this.corner, color: this.painted(PageData.array(bodies.colour), opacity),
+        ...(planar ? {} : { normal: this.normal }),
       };
       for (const translucent of [false, true]) {
         const chosen = Array.from(owner.keys()).filter(
@@ -46,7 +49,7 @@ const Bodies = (() => {
         if (!chosen.length) continue;
         const index = chosen.flatMap((t) => Array.from(this.triangles.subarray(3 * t, 3 * t + 3)));
         const material = new THREE.MeshLambertMaterial({
-          vertexColors: true, flatShading: true, transparent: translucent,
+          vertexColors: true, flatShading: planar, transparent: translucent,
           depthWrite: !translucent, ...(planar ? { side: DoubleSide } : {}),
           polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
         });
@@ -100,18 +103,19 @@ const Bodies = (() => {
     /** Compute the corners from the present shapes of the members. */
     move() {
       const { plan, shape } = this.members;
-      const { array } = this.corner, local = this.local;
+      const turned = (out, local, at, f, k) => out + local[at] * shape.frame[f + k]
+        + local[at + 1] * shape.frame[f + 3 + k] + local[at + 2] * shape.frame[f + 6 + k];
       for (let b = 0, at = 0; b < this.count; b++) {
         const station = plan.station[this.data.bodies.rows[b][0]];
         const f = 9 * station, o = 3 * station;
         for (let c = 0; c < this.counts[b]; c++, at += 3) {
           for (let k = 0; k < 3; k++) {
-            array[at + k] = shape.centre[o + k] + local[at] * shape.frame[f + k]
-              + local[at + 1] * shape.frame[f + 3 + k] + local[at + 2] * shape.frame[f + 6 + k];
+            this.corner.array[at + k] = turned(shape.centre[o + k], this.local, at, f, k);
+            this.normal.array[at + k] = turned(0, this.localNormal, at, f, k);
           }
         }
       }
-      this.corner.needsUpdate = true;
+      this.corner.needsUpdate = this.normal.needsUpdate = true;
     }
 
     /** Keep the present places as the ghost. */

@@ -16,6 +16,7 @@ _VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right")
 _LAYERS = (
     ("ghost", "reference as a ghost", True),
     ("arrows", "arrows of displacements", True),
+    ("presses", "arrows of what parts press on bodies", True),
     ("symbols", "supports and freedoms", True),
     ("diagram", "bending diagram", False),
     ("axes", "local axes, p and q", False),
@@ -140,6 +141,7 @@ def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
     """What else is drawn, of what some drawings have; some are not drawn at first."""
     moves, stressed = (any(each[name] for each in drawings) for name in ("movements", "stresses"))
     lacking = {"ghost": not moves, "arrows": not moves, "diagram": not stressed}
+    lacking["presses"] = not stressed
     made = "".join(
         f'<label class="check"><input type="checkbox" data-layer="{layer}"'
         f"{' checked' if on and layer not in off else ''}>{words}</label>"

@@ -33,6 +33,7 @@ from ..drawing import (
 from ..drawing import members as colours
 from ..drawing.diagrams import GAP, HEIGHT, SHOWN
 from ..drawing.members import turned_at
+from ..drawing.presses import way_out
 from ..drawing.view import ISO, view_of
 from .assets import MOST_MEMBERS, flags, floats, image, integers, json_for_script, text
 from .controls import KEYS, PLANAR_KEYS
@@ -88,8 +89,14 @@ def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
     return tuple(made)
 
 
-def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
-    """All that does not depend on motions and self-stresses."""
+def static_data(parts: Parts, frame: Frame, segments: int) -> dict[str, Any]:
+    """All that does not depend on motions and self-stresses.
+
+    Args:
+        parts: Of the model.
+        frame: Its place in the page.
+        segments: Of members that bend.
+    """
     drawing = frame.drawing
     node, radius = joints_of(drawing)
     joined = frame.new[node] >= 0
@@ -102,6 +109,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
             "support": colours.SUPPORT,
             "arrow": colours.ARROW,
             "freedom": colours.FREEDOM,
+            "press": colours.PRESS,
             "mark": colours.MARK,
             "freedom space": colours.FREEDOM_SPACE,
             "constraint space": colours.CONSTRAINT_SPACE,
@@ -116,7 +124,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         "sides": sides_in(drawing),
         "forms": {int(form): form.name.lower() for form in Form},
         "nodes": _nodes(parts, frame),
-        "members": _members(parts, frame),
+        "members": _members(parts, frame, segments),
         "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
         "supports": _supports(parts, frame),
@@ -163,7 +171,7 @@ def _held(frame: Frame, pairs: np.ndarray) -> dict[int, str]:
     }
 
 
-def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
+def _members(parts: Parts, frame: Frame, segments: int) -> dict[str, Any]:
     every = frame.drawing.members
     some = slice(MOST_MEMBERS)
     own = np.clip(every.colour[some], 0.0, 1.0)
@@ -172,6 +180,8 @@ def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
     rows: dict[int, int] = {}
     which = [rows.setdefault(part.number, len(rows)) for part in owner]
     called = {part.number: harmless(part.name) for part in owner}
+    necks = np.flatnonzero(every.neck[some].any(axis=1) & every.bends[some])
+    scale, beside = every.profile(necks, np.linspace(0.0, 1.0, segments + 1))
     return {
         "number": integers(every.number[some]),
         "part": integers(which),
@@ -184,6 +194,8 @@ def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
         "bends": flags(every.bends[some]),
         "across": floats(every.across[some]),
         "joined": flags(every.joined[some]),
+        "necks": necks.tolist(),
+        "profile": floats(np.concatenate((scale, beside / frame.size), axis=-1)),
         "shown": flags(~frame.drawing.in_solid[some]),
         "colour": flags(_bytes(own)),
         "edge": flags(_bytes(edge)),
@@ -195,15 +207,17 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
     """Bodies that are solids: corners in the frame of the member with which each moves."""
     drawing, members = frame.drawing, frame.drawing.members
     solids = drawing.solids
-    corners, triangles, owner, edges = [np.zeros((0, 3))], [], [], []
+    corners, normals = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    triangles, owner, edges = [], [], []
     behind = 0
     for number, solid in enumerate(solids):
         row = solid.rows[0]
         arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
         corners.append(arm @ members.frame[row] / frame.size)
+        normals.append(solid.normals @ members.frame[row])
         triangles.append(behind + solid.hull.triangles)
         owner.append(np.full(len(solid.hull.triangles), number))
-        edges.append(behind + solid.hull.edges)
+        edges.append(behind + solid.hull.edges[solid.hull.drawn])
         behind += len(arm)
     own = np.array([solid.colour for solid in solids]).reshape(-1, 3).clip(0.0, 1.0)
     edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
@@ -212,6 +226,7 @@ def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
         "names": [parts.of_element(i).name for i in elements],
         "rows": [solid.rows.tolist() for solid in solids],
         "corner": floats(np.concatenate(corners)),
+        "normal": floats(np.concatenate(normals)),
         "count": integers([len(solid.corners) for solid in solids]),
         "triangles": integers(np.concatenate([np.zeros((0, 3)), *triangles])),
         "owner": integers(np.concatenate([np.zeros(0), *owner])),
@@ -271,6 +286,12 @@ def _arrows(frame: Frame) -> dict[str, Any]:
     return {
         "node": integers(frame.new[node[rows]]),
         "direction": floats(direction[rows]),
+        "start": floats(
+            [
+                way_out(frame.drawing, int(n), way) / frame.size
+                for n, way in zip(node[rows], direction[rows], strict=True)
+            ]
+        ),
         "turning": flags(turning[rows]),
     }
 

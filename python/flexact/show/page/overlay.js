@@ -37,7 +37,7 @@ const Overlay = (() => {
       context.beginPath();
       context.rect(0, 0, stage.width, stage.height);
       context.clip();
-      for (const part of [state.displacements, state.freedoms, state.spaces]) {
+      for (const part of [state.displacements, state.freedoms, state.presses, state.spaces]) {
         if (part.group.visible) for (const each of part.endOn()) this.drawEndOn(each);
       }
       const ground = this.colour("--stage");

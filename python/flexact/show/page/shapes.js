@@ -7,6 +7,7 @@ const Shapes = (() => {
   const ROUND = 24, ROUGH = 8; // corners of round sections: of thick ones, and of others
   const THICK = 0.015; // from this part of the drawing's size
   const THIN = 6; // a section so many times as wide as it is high looks flat
+  const PLAIN = [1, 1, 0, 0]; // of members that are neither cut nor folded
   const FLAT = [[-1, 0], [1, 0]]; // in the plane
   const RECTANGLE = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
   const circle = (count) => Array.from({ length: count }, (_, c) =>
@@ -39,7 +40,9 @@ const Shapes = (() => {
       vertex[m + 1] = vertex[m] + stations[m] * corners[m];
     }
     const joined = PageData.array(members.joined);
-    return { count, segments, stations, corners, station, vertex, wide, round, smooth, joined };
+    // Of what is cut or folded: its row of the profiles, which have four numbers a station.
+    const neck = new Map(members.necks.map((m, i) => [m, 4 * i * (segments + 1)]));
+    return { neck, count, segments, stations, corners, station, vertex, wide, round, smooth, joined };
   }
 
   /** The local axis along which a thin section is wide: 1 or 2; 0 of others. */
@@ -62,22 +65,25 @@ const Shapes = (() => {
   /** The corners of all members in a state of the tracks. */
   function compute(members, plan, { centre, section: turns }, out) {
     const section = PageData.array(members.section);
-    const { corner, normal, frame } = out;
+    const { corner, normal, frame } = out, profile = PageData.array(members.profile);
     let at = 0, turn = 0;
     for (let m = 0; m < plan.count; m++) {
       const around = SECTIONS.get(plan.corners[m]);
-      const height = section[2 * m] / 2, width = section[2 * m + 1] / 2;
+      const neck = plan.neck.get(m);
       const straight = plan.stations[m] === 2;
       for (let s = plan.station[m]; s < plan.station[m + 1]; s++) {
         // Both ends of a straight member have one cross-section.
         if (!straight || s === plan.station[m]) turn += 4;
         const f = 9 * s;
         frameOf(turns, turn - 4, frame, f);
+        const p = neck === undefined ? -1 : neck + 4 * (s - plan.station[m]);
+        const [high, wide, up, aside] = p < 0 ? PLAIN : profile.subarray(p, p + 4);
+        const height = high * section[2 * m] / 2, width = wide * section[2 * m + 1] / 2;
         for (const [y, z] of around) {
           for (let k = 0; k < 3; k++, at++) {
-            const ey = y * frame[f + 3 + k], ez = z * frame[f + 6 + k];
-            corner[at] = centre[3 * s + k] + height * ey + width * ez;
-            if (plan.smooth) normal[at] = ey + ez;
+            const ey = frame[f + 3 + k], ez = frame[f + 6 + k];
+            corner[at] = centre[3 * s + k] + (height * y + up) * ey + (width * z + aside) * ez;
+            if (plan.smooth) normal[at] = y * ey + z * ez;
           }
         }
       }

@@ -9,6 +9,7 @@ const Stage = (() => {
   const CORNERS = Array.from({ length: 8 }, (_, i) => [i & 1, (i >> 1) & 1, (i >> 2) & 1]);
   // Milliseconds: frames that follow so soon are one run, and are slow if so long apart on average.
   const RUNNING = 60, LONG = 45, GAPS = 4, REST = 250;
+  const GROUND = 0xd8d8dc; // what surfaces get of the light that look down
   const DIRECTIONS = { front: [0, -1, 0], top: [0, -1e-4, 1], right: [1, 0, 0] };
 
   class Stage {
@@ -34,6 +35,7 @@ const Stage = (() => {
       // Colours as they are given, so that they agree with the legend.
       this.renderer.outputColorSpace = "srgb-linear";
       this.illuminate();
+      this.shadow = planar ? null : new Shadow.Shadow();
       this.control();
       this.observer = new ResizeObserver(() => this.fill());
       this.observer.observe(canvas.parentElement);
@@ -44,7 +46,10 @@ const Stage = (() => {
     illuminate() {
       const head = new THREE.DirectionalLight(0xffffff, 1.5);
       head.position.set(0.35, 0.6, 1);
-      this.scene.add(new THREE.AmbientLight(0xffffff, 1.95), this.camera);
+      // From the sky, and less of it from the ground.
+      const around = new THREE.HemisphereLight(0xffffff, this.planar ? 0xffffff : GROUND, this.planar ? 1.95 : 2.1);
+      around.position.set(0, 0, 1);
+      this.scene.add(around, this.camera);
       this.camera.add(head);
     }
 
@@ -101,6 +106,7 @@ const Stage = (() => {
       clearTimeout(this.resting);
       this.observer.disconnect();
       this.controls.dispose();
+      if (this.shadow) this.shadow.dispose();
       this.renderer.dispose();
       this.renderer.forceContextLoss();
     }
@@ -263,7 +269,8 @@ const Stage = (() => {
         let more = false;
         for (const step of this.before) more = step(time) || more;
         this.lighten(this.slow);
-        this.draw();
+        // A processor has no time for shadows while something plays.
+        this.draw(!(more && this.software));
         if (this.slow) this.rest();
         if (more) this.request();
       });
@@ -294,10 +301,11 @@ const Stage = (() => {
       this.lightened(on);
     }
 
-    draw() {
+    draw(shaded = true) {
       this.frames += 1;
       this.drawn = performance.now();
       this.renderer.render(this.scene, this.camera);
+      if (this.shadow && shaded && !this.light) this.shadow.draw(this);
       for (const step of this.after) step();
     }
   }

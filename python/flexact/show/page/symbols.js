@@ -170,6 +170,15 @@ const Symbols = (() => {
     }
   }
 
+  /** Have copies drawn late, over whatever is there; they hide each other as they lie. */
+  function inFront(first, ...others) {
+    [first, ...others].forEach((mesh, k) => {
+      mesh.renderOrder = 7 + (k > 0);
+      mesh.material.transparent = true; // what is not is drawn before
+    });
+    first.onBeforeRender = (renderer) => renderer.clearDepth();
+  }
+
   /** Straight arrows: shafts and heads of a few thicknesses. */
   class Arrows {
     constructor(most, colour, thick) {
@@ -178,6 +187,7 @@ const Symbols = (() => {
       this.heads = new Copies(new ConeGeometry(0.5, 1, 14).translate(0, 0.5, 0), most, colour);
       this.group = new THREE.Group();
       this.group.add(this.shafts.mesh, this.heads.mesh);
+      inFront(this.shafts.mesh, this.heads.mesh);
     }
 
     /** Place arrow i from a point along a unit direction. */
@@ -223,12 +233,49 @@ const Symbols = (() => {
     }
   }
 
+  /** What parts press on bodies in a self-stress. */
+  class Presses extends Arrows {
+    constructor({ colours, stresses }) {
+      const counts = stresses.map(({ presses }) => PageData.array(presses.node).length);
+      super(Math.max(0, ...counts), colours.press, 0.0075);
+      this.tint = colours.press;
+      this.show(null);
+    }
+
+    show(stress) {
+      this.group.visible = Boolean(stress);
+      const { node, offset, way } = stress ? stress.presses : {};
+      if (stress) Object.assign(this, { node, offset, ways3: way });
+    }
+
+    move(pose) {
+      if (!this.group.visible) return;
+      const node = PageData.array(this.node), offset = PageData.array(this.offset);
+      node.forEach((each, i) => {
+        direction.fromArray(PageData.array(this.ways3), 3 * i);
+        const length = direction.length();
+        at(pose.position, each);
+        start.fromArray(offset, 3 * i).add(place);
+        this.set(i, start, direction.divideScalar(length), length);
+      });
+      this.done(node.length);
+    }
+
+    /** On a dark page it is lighter. */
+    dress({ lighter }) {
+      for (const { mesh } of [this.shafts, this.heads]) {
+        mesh.material.color.setRGB(...this.tint.map((part) => part + lighter * (1 - part)));
+      }
+    }
+  }
+
   /** Declared degrees of freedom: arrows along, and arcs with a head about, their axes. */
   class Freedoms {
     constructor(data) {
-      const { node, direction: way, turning } = data.arrows;
+      const { node, direction: way, start: out, turning } = data.arrows;
       this.node = PageData.array(node);
       this.way = PageData.array(way);
+      this.out = PageData.array(out);
       const turns = PageData.array(turning);
       const rows = Array.from(turns.keys());
       this.straight = rows.filter((i) => !turns[i]);
@@ -240,6 +287,7 @@ const Symbols = (() => {
       const head = new ConeGeometry(0.013, 0.035, 14).rotateZ(-Math.PI / 2)
         .translate(0.012, 0, -0.05);
       this.arcs = [arc, head].map((each) => new Copies(each, this.turning.length, colour));
+      inFront(...this.arcs.map(({ mesh }) => mesh));
       this.group = new THREE.Group();
       this.group.add(this.arrows.group, ...this.arcs.map((each) => each.mesh));
     }
@@ -251,7 +299,8 @@ const Symbols = (() => {
     move(pose) {
       this.straight.forEach((row, i) => {
         direction.fromArray(this.way, 3 * row);
-        start.fromArray(pose.position, 3 * this.node[row]).addScaledVector(direction, 0.03);
+        start.fromArray(pose.position, 3 * this.node[row])
+          .addScaledVector(direction, Math.max(this.out[row], 0.012));
         this.arrows.set(i, start, direction, 0.12);
       });
       this.arrows.done(this.straight.length);
@@ -284,5 +333,5 @@ const Symbols = (() => {
     }
   }
 
-  return { Copies, Arrows, Supports, Joints, Hinges, Displacements, Freedoms, NodeMark };
+  return { Copies, Arrows, Supports, Joints, Hinges, Displacements, Presses, Freedoms, NodeMark };
 })();

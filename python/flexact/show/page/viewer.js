@@ -19,7 +19,7 @@ const Viewer = (() => {
       this.pose = Tracks.reference(data);
       this.movement = this.stress = this.space = null;
       this.quantity = "";
-      this.layers = { diagram: false, ghost: true, arrows: true, symbols: true };
+      this.layers = { diagram: false, ghost: true, arrows: true, presses: true, symbols: true };
       this.stage = new Stage.Stage(this.part("canvas"), context, data);
       this.members = new Members.Members(data);
       this.bodies = new Bodies.Bodies(data, this.members);
@@ -28,6 +28,7 @@ const Viewer = (() => {
       this.joints = new Symbols.Joints(data);
       this.freedoms = new Symbols.Freedoms(data);
       this.displacements = new Symbols.Displacements(data.colours.arrow);
+      this.presses = new Symbols.Presses(data);
       this.spaces = new Spaces.Spaces(data);
       this.nodeMark = new Symbols.NodeMark();
       this.diagram = new Diagram.Diagram(this.members);
@@ -45,8 +46,10 @@ const Viewer = (() => {
     assemble() {
       const { stage } = this;
       for (const part of [this.members, this.bodies, this.hinges, this.supports, this.joints,
-        this.freedoms, this.displacements, this.diagram, this.spaces]) stage.scene.add(part.group);
+        this.freedoms, this.displacements, this.presses, this.diagram, this.spaces]) stage.scene.add(part.group);
       stage.scene.add(this.nodeMark.mesh);
+      Shadow.Shadow.cast(...this.members.solids, ...this.bodies.solids, this.hinges.group,
+        this.supports.group, this.joints.group);
       stage.before.push((time) => this.player.step(time));
       stage.before.push(() => this.diagram.isPassed(stage.towards) && this.drawDiagram());
       stage.after.push(() => this.overlay.draw());
@@ -91,7 +94,8 @@ const Viewer = (() => {
     follow() {
       this.members.move(this.pose);
       this.bodies.move();
-      for (const part of [this.hinges, this.supports, this.joints, this.freedoms, this.nodeMark]) {
+      for (const part of [this.hinges, this.supports, this.joints, this.freedoms, this.presses,
+        this.nodeMark]) {
         part.move(this.pose);
       }
       this.drawDiagram();
@@ -136,6 +140,9 @@ const Viewer = (() => {
 
     showStress(which) {
       this.stress = this.data.stresses[which] || null;
+      this.showLayers();
+      this.presses.move(this.pose);
+      this.stage.refit();
       this.showQuantity(this.stress ? this.stress.dominant : this.quantity);
     }
 
@@ -213,6 +220,7 @@ const Viewer = (() => {
       if (name === "elements") this.elementLabels = on;
       if (name === "nodes") this.nodeLabels = on;
       this.showLayers();
+      this.presses.move(this.pose);
       this.drawDiagram();
       this.stage.refit();
       this.stage.request();
@@ -222,8 +230,11 @@ const Viewer = (() => {
       const ghost = Boolean(this.movement && this.layers.ghost);
       this.members.ghost.visible = this.bodies.ghost.visible = ghost;
       this.displacements.group.visible = Boolean(this.movement && this.layers.arrows);
+      this.presses.show(this.layers.presses ? this.stress : null);
       this.joints.group.visible = true;
-      for (const part of [this.supports, this.freedoms]) part.group.visible = this.layers.symbols;
+      this.supports.group.visible = this.layers.symbols;
+      // They may lie along one line with what presses.
+      this.freedoms.group.visible = this.layers.symbols && !this.presses.group.visible;
     }
 
     /** Keep the mark of an element or a node, until another is clicked; null lets go. */
@@ -286,6 +297,7 @@ const Viewer = (() => {
       this.members.dress(chrome);
       this.bodies.dress(chrome);
       this.spaces.dress(chrome);
+      this.presses.dress(chrome);
       this.nodeMark.dress(chrome);
       this.stage.request();
     }
@@ -318,7 +330,7 @@ const Viewer = (() => {
       const parts = [];
       if (space) parts.push(space.title);
       if (movement) parts.push(`${movement.title}. ${movement.note}`);
-      if (stress) parts.push(`${stress.title}: ${data.meaning[quantity]}.`);
+      if (stress) parts.push(`${stress.title}: ${data.meaning[quantity]}. ${stress.presses.note}`.trim());
       return parts.join(" ") || "The reference configuration.";
     }
   }

@@ -37,6 +37,7 @@ from ..drawing import (
     stations,
     swing,
 )
+from ..drawing.presses import SECOND, Press, presses_in_words, presses_of
 from ..drawing.selection import way_of
 from ..spaces import SpaceShown, dashes, holds_shown, spaces_shown
 from .assets import (
@@ -230,6 +231,7 @@ def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[st
         made.append(
             {
                 "title": f"Self-stress {number}",
+                "presses": _presses(presses_of(frame.drawing, stress), frame, found.length),
                 "dominant": found.dominant,
                 "largest": {each: found.largest(each) for each in there},
                 "members": {each: floats(found[each][:MOST_MEMBERS]) for each in there},
@@ -237,6 +239,24 @@ def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[st
             }
         )
     return made
+
+
+def _presses(presses: Sequence[Press], frame: Frame, length: float) -> dict[str, Any]:
+    """Arrows by the nodes with which they move: where each begins beside it, and its way there.
+
+    A moment has two arrows, one of them shorter, of which the heads are seen.
+    """
+    rows = [(each, part) for each in presses for part in (1.0, SECOND)[: 1 + each.is_moment]]
+    rows = [(each, part) for each, part in rows if frame.new[each.node] >= 0]
+    place = frame.drawing.reference.position
+    offset = [each.start - place[each.node] for each, _ in rows]
+    way = [part * (each.end - each.start) for each, part in rows]
+    return {
+        "node": integers([frame.new[each.node] for each, _ in rows]),
+        "offset": floats(np.reshape(offset, (-1, 3)) / frame.size),
+        "way": floats(np.reshape(way, (-1, 3)) / frame.size),
+        "note": presses_in_words(length) if rows else "",
+    }
 
 
 #: Of more flexures what they hold is shown together alone.
@@ -319,7 +339,7 @@ def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
     tracks, kinds = Tracks(frame, _PIECES), [each.kind for each in shaped.shapes[:MOST_MODES]]
     first = kinds.index("buckled") if "buckled" in kinds else min(1, len(kinds) - 1)
     return {
-        **static_data(Parts(shaped.data), frame),
+        **static_data(Parts(shaped.data), frame, tracks.segments),
         "reference": tracks.data(),
         "segments": tracks.segments,
         "movements": _fitting(_swings(shaped, tracks)),
@@ -367,7 +387,7 @@ def viewer_data(
         "What each flexure holds", lambda: holds_data(analysis, frame), [], missing
     )
     data = {
-        **static_data(analysis.parts, frame),
+        **static_data(analysis.parts, frame, tracks.segments),
         "reference": tracks.data(),
         "segments": tracks.segments,
         "movements": _fitting(movements(analysis, tracks, missing)),

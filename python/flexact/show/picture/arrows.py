@@ -8,7 +8,8 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...util.rotations import frames_along, matrix_of, unit, vector_of
 from ..drawing import Drawing, Pose, reach_of
-from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE
+from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE, PRESS
+from ..drawing.presses import SECOND, Press, way_out
 from ..spaces import SpaceShown, dashes
 from .canvas import OVER, Canvas
 
@@ -76,10 +77,25 @@ def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
         return
     place = drawing.reference.position[node]
     start = place[~turning]
+    # From the surface of the body.
+    for row, k in enumerate(np.flatnonzero(~turning).tolist()):
+        start[row] += way_out(drawing, int(node[k]), direction[k]) * direction[k]
     end = start + _LENGTH * drawing.size * direction[~turning]
     add_straight(canvas, start, end, FREEDOM, drawing.size)
     for row in np.flatnonzero(turning).tolist():
         _add_turning(canvas, place[row], direction[row], drawing.size, FREEDOM)
+
+
+def add_presses(canvas: Canvas, drawing: Drawing, presses: tuple[Press, ...]) -> None:
+    """Arrows of what parts press on bodies; of moments with two heads."""
+    for heads, chosen in (
+        ((1.0,), [each for each in presses if not each.is_moment]),
+        ((1.0, SECOND), [each for each in presses if each.is_moment]),
+    ):
+        if chosen:
+            start, end = (np.array([each[k] for each in chosen]) for k in (-2, -1))
+            for part in heads:
+                add_straight(canvas, start, start + part * (end - start), PRESS, drawing.size)
 
 
 def _by_size(sizes: FloatArray, unit_size: float) -> np.ndarray:
@@ -176,8 +192,6 @@ def _add(
 #: Of lines [pt]; and of faces, whose edges are as wide as this.
 _BOLD, _SPACES_WIDTH, _THIN, _EDGE, _DASH = 2.6, 1.5, 0.8, 0.7, 2.6
 _OPACITY = 0.16
-#: Where the second head of a couple is, along its arrow.
-_SECOND = 0.84
 
 
 def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
@@ -195,7 +209,7 @@ def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
     if shape.arrows:
         ends = np.array(shape.arrows)
         # A couple has two heads.
-        for part in (1.0,) if shape.is_freedom else (1.0, _SECOND):
+        for part in (1.0,) if shape.is_freedom else (1.0, SECOND):
             tips = ends[:, 0] + part * (ends[:, 1] - ends[:, 0])
             add_straight(canvas, ends[:, 0], tips, tuple(colour.tolist()), drawing.size)
     if len(shown.wires):

@@ -23,6 +23,12 @@ SAMPLES = 3
 _STEPS = 32
 #: Of a number that holds a depth and a facet, the bits of the facet.
 _BITS = 28
+#: Pairs of places beside a pixel, on a spiral of this angle [rad], where it is looked for what
+#: casts a shadow; how dark that is; and how far it reaches, a part of what is drawn.
+_PAIRS, _GOLDEN, _DARKEST, _REACH = 24, 2.39996, 0.45, 0.03
+#: From a depth to another one [sample].
+Range = tuple[float, float]
+ALL = (-np.inf, np.inf)
 #: Samples that are looked at together.
 _MOST = 2_000_000
 
@@ -32,10 +38,19 @@ _MOST = 2_000_000
 Facets = tuple[FloatArray, FloatArray]
 
 
-def painted(facets: list[Facets], width: int, height: int) -> np.ndarray:
+def painted(
+    facets: list[Facets], width: int, height: int, reach: float = 0.0, between: Range = ALL
+) -> np.ndarray:
     """(height, width, 3) the facets on white, 8 bits a colour, from below to above.
 
     Each sample shows the nearest opaque facet, and over it the translucent ones that are nearer.
+
+    Args:
+        facets: What is drawn.
+        width: [px].
+        height: [px].
+        reach: How far from what is nearer its soft shadow reaches [px]; 0: there is none.
+        between: The depths on which shadows fall [sample].
     """
     shape = (height * SAMPLES, width * SAMPLES)
     lowest, nearest = _nearest(facets, shape)
@@ -58,7 +73,36 @@ def painted(facets: list[Facets], width: int, height: int) -> np.ndarray:
     mixed = sum(table[part[there]] for part in parts)
     made = np.full((height, width, 3), 255, np.uint8)
     made[there] = (mixed + SAMPLES**2 // 2) // SAMPLES**2
+    if reach > 1.0:
+        middle = nearest.reshape(shape)[SAMPLES // 2 :: SAMPLES, SAMPLES // 2 :: SAMPLES]
+        depth = np.where(middle > 0, (middle >> _BITS) / _STEPS + lowest, -np.inf)
+        solid = (depth >= between[0]) & (depth < between[1])
+        dark = _shadow(depth / SAMPLES, solid, reach)
+        made[solid] = np.rint(made[solid] * (1.0 - dark).reshape(-1, 1))
     return made
+
+
+def _shadow(depth: FloatArray, solid: np.ndarray, reach: float) -> FloatArray:
+    """How dark pixels are for what is nearer beside them, 0 to 1; as `page/shadow.js` does it.
+
+    Args:
+        depth: (h, w) of what is seen, towards the eye [px]; -inf where nothing is.
+        solid: (h, w) which pixels are asked for.
+        reach: How far nearer things are looked for [px].
+    """
+    edge = int(reach) + 1
+    around = np.pad(depth, edge, constant_values=-np.inf).astype(np.float32).ravel()
+    place = np.flatnonzero(np.pad(solid, edge))
+    own, wide = around[place], solid.shape[-1] + 2 * edge
+    dark = np.zeros(len(place), np.float32)
+    for k in range(_PAIRS):
+        angle, far = _GOLDEN * k, reach * np.sqrt((k + 0.5) / _PAIRS)
+        step = round(far * np.sin(angle)) * wide + round(far * np.cos(angle))
+        # On both sides, so that a slope is in its own shadow nowhere.
+        sides = [np.maximum(around[place + way] - own, -4.0 * reach) for way in (step, -step)]
+        share = (sides[0] + sides[1]) / reach
+        dark += np.clip(2.0 * share - 0.2, 0.0, 1.0) * np.clip(1.6 - 0.4 * share, 0.0, 1.0)
+    return np.asarray(_DARKEST * dark / _PAIRS)
 
 
 def visible(facets: list[Facets], width: int, height: int) -> np.ndarray:
@@ -339,7 +383,7 @@ class Canvas:
 
             def draw(self, renderer: Any) -> None:
                 if isinstance(renderer, RendererAgg):
-                    _draw_pixels(self.canvas._batches, self.axes, renderer)
+                    _draw_pixels(self.canvas, self.axes, renderer)
                     return
                 made = self.axes.add_collection(self.canvas.collection(), autolim=False)
                 made.draw(renderer)
@@ -351,15 +395,21 @@ class Canvas:
         return CanvasArtist()
 
 
-def _draw_pixels(batches: list[_Batch], axes: Any, renderer: Any) -> None:
+def _draw_pixels(canvas: Canvas, axes: Any, renderer: Any) -> None:
     box = axes.bbox
     left, below = int(np.floor(box.x0)), int(np.floor(box.y0))
     width, height = int(np.ceil(box.x1)) - left, int(np.ceil(box.y1)) - below
     low, high = np.transpose((axes.get_xlim(), axes.get_ylim()))
     pixel = (high[0] - low[0]) / box.width
     corner = low - pixel * (box.min - (left, below))
-    facets = _facets(batches, corner, pixel, renderer.points_to_pixels(1.0))
-    rgb = painted(facets, width, height)
+    facets = _facets(canvas._batches, corner, pixel, renderer.points_to_pixels(1.0))
+    every = zip(facets, canvas._batches, strict=True)
+    deep = [flat[..., 2] for (flat, _), each in every if each.layer == SOLID]
+    reach, between = 0.0, ALL
+    if deep and canvas.view is not FLAT:
+        reach = _REACH * float(np.hypot(*(canvas.box[1] - canvas.box[0]))) / pixel
+        between = (min(map(np.min, deep)), max(map(np.max, deep)) + 1.0)
+    rgb = painted(facets, width, height, reach, between)
     image = np.dstack((rgb, np.full(rgb.shape[:2], 255, np.uint8)))
     gc = renderer.new_gc()
     renderer.draw_image(gc, left, below, image)

@@ -18,6 +18,7 @@ from ...util.text import harmless
 from ..drawing import BENDING, UNITS, Drawing, meanings_in, reach_of
 from ..drawing.members import diverging
 from ..drawing.movement import AMPLITUDE
+from ..drawing.presses import presses_in_words
 from ..drawing.view import View
 from .canvas import Box, Canvas
 from .panel import detail_of, paint
@@ -308,6 +309,8 @@ def _caption(drawing: Drawing, subject: Subject) -> str:
         about = subject.space.words
     elif subject.stress is not None:
         about = "Relative values, only their ratios matter."
+        if subject.stress.presses:
+            about = f"{about} {presses_in_words(subject.stress.values.length)}"
     elif movement is None:
         about = "Arrows: declared degrees of freedom." * (len(drawing.arrows[0]) > 0)
     else:

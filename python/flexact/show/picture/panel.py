@@ -28,7 +28,7 @@ from ..drawing.members import GHOST as GHOST_COLOUR
 from ..drawing.members import GHOST_FACE as PALE
 from ..drawing.members import HINGE_SIZE, SUPPORT
 from ..drawing.view import View
-from .arrows import add_displacements, add_freedoms, add_rotations, add_space
+from .arrows import add_displacements, add_freedoms, add_presses, add_rotations, add_space
 from .canvas import GHOST, SOLID, Canvas
 from .stress import OUTLINE, OUTLINE_WIDTH, SHADE, Peak, Stress, add_diagrams, add_grid, lit
 from .subject import Subject
@@ -59,8 +59,9 @@ def _add_bodies(canvas: Canvas, drawing: Drawing, pose: Pose, *, pale: bool = Fa
         quads = each.quads(corners, chosen)
         colours = np.repeat(shaded, 3, axis=0)
         canvas.polygons(quads, colours, opacity=each.opacity, layer=layer)
-        seen = each.hull.edges[front[each.hull.beside].any(axis=1)]
-        canvas.lines(corners[seen], line, OUTLINE_WIDTH, layer=layer)
+        beside = front[each.hull.beside]
+        seen = (each.hull.drawn & beside.any(axis=1)) | (beside[:, 0] != beside[:, 1])
+        canvas.lines(corners[each.hull.edges[seen]], line, OUTLINE_WIDTH, layer=layer)
 
 
 #: Up to so many members, a bent one has so many segments and a round section so many corners.
@@ -441,6 +442,7 @@ def paint(
         add_freedoms(canvas, drawing)
     elif len(drawing.members) <= _MOST_DIAGRAMS:
         peaks = add_diagrams(canvas, drawing, stress)
+        add_presses(canvas, drawing, stress.presses)
     if movement is not None:
         add_displacements(canvas, drawing, pose)
         add_rotations(canvas, drawing, pose, movement.pose(1.0))

@@ -13,6 +13,7 @@ from ...util.rotations import unit
 from ..drawing import QUANTITIES, Drawing, Resultants
 from ..drawing.diagrams import PIECES, diagrams_of
 from ..drawing.members import diverging
+from ..drawing.presses import Press
 from ..drawing.view import View
 from .canvas import OVER, SOLID, Canvas
 
@@ -114,11 +115,13 @@ class Stress(Frozen):
         values: The resultants.
         quantity: One of `QUANTITIES`.
         largest: Its largest magnitude, of members and hinges [N] or [N m].
+        presses: What parts press on bodies.
     """
 
     values: Resultants
     quantity: str
     largest: float
+    presses: tuple[Press, ...] = ()
 
     def colours(self, member: np.ndarray, at: FloatArray) -> FloatArray:
         """(k, s - 1, 3) of the pieces between stations (s,) of members (k,)."""

@@ -24,6 +24,7 @@ from ..drawing import (
     quantity_named,
     resultants,
 )
+from ..drawing.presses import presses_of
 from ..drawing.selection import require_there, select_motion
 from ..spaces import SpaceShown, holds_shown, spaces_shown
 from .files import PictureError
@@ -187,7 +188,8 @@ def _stressed(
     values = resultants(drawing, stresses[number - 1])
     known = (quantity_named(quantity) if quantity else None) or values.dominant
     words = f"self-stress {number} of {analysis.over_constrained}"
-    return [Subject(_heading(words), stress=Stress(values, known, values.largest(known)))]
+    presses = presses_of(drawing, stresses[number - 1])
+    return [Subject(_heading(words), stress=Stress(values, known, values.largest(known), presses))]
 
 
 def refuse_zero(analysis: Result, number: int | None, quantity: str | None) -> None:
