@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ...model.data import CrossSection, ModelData
+from ...model.data import BodyShape, CrossSection, ModelData
 from ...model.parts.forms import Form
 from ...model.parts.parts import Body, bodies_of
 from ...util.records import Frozen
@@ -175,6 +175,7 @@ _EDGE_RADIUS, _ROUNDEST, _STEP, _FINE_STEP = 0.2, 0.8, np.pi / 6, np.pi / 24
 _FULL = 0.4
 #: What a body may be drawn as; "" is what fits it.
 SHAPES = ("", "disc", "box", "hull")
+SHAPES_ASKED = {int(each): each.name.lower() for each in BodyShape if each}
 
 #: Corners (v, 3) of a solid [m], outward unit vectors there (v, 3), and its surface.
 Rounded = tuple[FloatArray, FloatArray, Hull]
@@ -403,10 +404,13 @@ def solids_of(data: ModelData, members: Members, size: float, position: FloatArr
     made = []
     for body in bodies_of(data.arrays):
         rows = [row_of[i] for i in body.elements if i in row_of]
+        asked = data.appearance.body_shape[list(body.elements)]
+        wish = SHAPES_ASKED.get(int(asked.max(initial=0)), "")
         # Where a plate swallows others an upright one or the hull may not.
-        for shape, upright in (("", False), ("", True), ("hull", False)):
+        ways = ((wish, False),) if wish else (("", False), ("", True), ("hull", False))
+        for shape, upright in ways:
             solid = _solid(data, members, body, rows, size, shape, upright)
-            if solid is not None and not _swallows(members, solid, position, size):
+            if solid is not None and (wish or not _swallows(members, solid, position, size)):
                 made.append(solid)
                 break
     return made
@@ -445,7 +449,9 @@ def _solid(
         hull = _polygon_hull(ring, outline)
         return None if hull is None else Solid(np.array(rows), ring, normal, hull, outline, *look)
     axes = np.eye(3)[::-1] if upright else np.concatenate([frame.T for frame in frames])
-    made = solid_of(points, shape, least=thick, axes=axes)
+    asked = given.body_thickness[elements]
+    thickness = float(np.nanmax(np.where(np.isnan(asked), 0.0, asked), initial=0.0))
+    made = solid_of(points, shape, thickness, least=thick, axes=axes)
     if made is None:
         return None
     corners, normals, hull = made
