@@ -26,6 +26,8 @@ NO_RESULTANT = 1.0e-12
 TOLD = 1.0e2 * ROUNDING
 #: Wrenches are multiples of one another where no more than this part of the largest is left.
 SAME_WRENCH = 1.0e3 * ROUNDING
+#: Of a body's loads and twists, of unit length, what is below this is none.
+HELD = 1.0e-6
 #: Components of a mode below this part of its largest are left out of the JSON.
 LEFT_OUT = 1.0e-14
 #: Below this leverage a row does not reach into a null space, far above what rounding makes of it.

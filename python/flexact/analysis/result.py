@@ -53,6 +53,7 @@ from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
+    from .holding import BodyHolding, Holding
 
 
 def turning_folds(result: Result) -> tuple[tuple[int, int], ...]:
@@ -243,6 +244,21 @@ class Result(Decomposition):
         then: Result = result_of(made, self.asked, self.name)
         over, under = self.over_constrained, self.under_constrained - len(folds)
         return then if (then.under_constrained, then.over_constrained) == (under, over) else None
+
+    @cached_property
+    def holding(self) -> Holding:
+        """How often each body is held, and what no body feels (`flexact.analysis.holding`)."""
+        made: Holding = load("flexact.analysis.holding").holding_of(self)
+        return made
+
+    @property
+    def bodies(self) -> tuple[BodyHolding, ...]:
+        """Of each body how often each of its motions is held, and which are declared or free.
+
+        Of a mechanism without bodies the points that flexures carry; none of a large model. A
+        divided sheet or wire counts as one beam.
+        """
+        return self.holding.bodies
 
     @cached_property
     def evidence(self) -> Evidence:
