@@ -221,6 +221,42 @@ def taken_as_one(result: Result) -> list[Entries] | None:
     ]
 
 
+def held_bodies(result: Result) -> list[Entries] | None:
+    """How often each motion of each body is held; None of a model too large for that.
+
+    Point and axes are given where they are not the middle of the body and those of the model.
+    """
+    if result.holding.left_out:
+        return None
+    made = []
+    for body in result.bodies:
+        entry: Entries = {
+            "name": body.name,
+            "held": body.held,
+            "declared": list(body.declared),
+            "free": list(body.free),
+        }
+        if body.where:
+            entry |= {"at": quantity(body.at.tolist(), "m"), "axes": body.axes.tolist()}
+        if body.together:
+            entry["together"] = [
+                {"directions": list(group.directions), "held": group.held}
+                for group in body.together
+            ]
+        if body.against:
+            entry["against"] = {way: list(others) for way, others in body.against.items()}
+        made.append(entry)
+    return made
+
+
+def held_inside(result: Result) -> list[Entries]:
+    """Parts that are held too often between their ends, which no body feels."""
+    return [
+        {"parts": [part.name for part in each.parts], "too_often": each.count}
+        for each in result.holding.inside
+    ]
+
+
 def internal_motions(result: Result) -> Entries | None:
     """Motions inside of divided sheets and wires; None where nothing of them is undeclared."""
     whole = result.with_internal_declared
@@ -539,6 +575,8 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         "parts": parts(analysis),
         "taken_as_one": taken_as_one(analysis),
         "internal_motions": internal_motions(analysis),
+        "bodies": held_bodies(analysis),
+        "held_inside": held_inside(analysis),
         "freedoms": list(freedoms(analysis)),
         **modes[0],
         **modes[1],

@@ -26,6 +26,7 @@ from ..util.text import in_short
 from .body_motions import Moves, Velocities
 from .certainty import Assessment, assess, least, margins
 from .decomposition import (
+    Accuracy,
     Asked,
     Decomposition,
     column_weights,
@@ -35,6 +36,7 @@ from .decomposition import (
     row_weights,
 )
 from .freedoms import Freedom, freedoms_of
+from .limits import USUAL_ACCURACY, USUAL_PART
 from .locate import elements_of, node_of
 from .mode_basis import (
     column_key,
@@ -314,9 +316,27 @@ class Result(Decomposition):
         return self.accuracy is not None and any(self.accuracy.exceeds(self.margin))
 
     @property
+    def usual_accuracy(self) -> Accuracy:
+        """The accuracy that was given, or that to which parts are usually made.
+
+        20 um where the model has stiffness, and so is in metres; else a part of its size.
+        """
+        if self.accuracy is not None:
+            return self.accuracy
+        given, length = self.given.properties, self.characteristic_length
+        if given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any()):
+            return Accuracy(USUAL_ACCURACY, USUAL_ACCURACY / length)
+        return Accuracy(USUAL_PART * length, USUAL_PART)
+
+    @property
+    def has_small_margin(self) -> bool:
+        """Whether the margin is smaller than the accuracy, or than parts are usually made to."""
+        return any(self.usual_accuracy.exceeds(self.margin))
+
+    @property
     def colour(self) -> str:
-        """Of the verdict, as #rrggbb; amber where exactly constrained is only marginal."""
-        if self.verdict is Verdict.EXACT and self.is_marginal:
+        """Of the verdict, as #rrggbb; amber where exactly constrained has a small margin."""
+        if self.verdict is Verdict.EXACT and self.has_small_margin:
             return MARGINAL_COLOUR
         return self.verdict.colour
 

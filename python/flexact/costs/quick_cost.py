@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..analysis.naming import filled, line_of
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
@@ -21,7 +20,7 @@ from ..elasticity.tolerance import MISMATCH
 from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
-from ..util.text import TIE, USUAL, harmless
+from ..util.text import TIE, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
 from .elastic_design import ElasticDesign, Level, has_stiffness, tolerances_of
 from .request import SHIFT
@@ -36,12 +35,6 @@ _MOST_LOOKED_AT = 16_000
 _MOST_NEAR = 6
 #: The error that is told where that is too much [m, rad].
 _SMALL = 1.0e-6
-
-
-def with_quick_cost(words: str, result: Result, width: int = USUAL) -> str:
-    """The words about a result, and a paragraph of what over-constraint costs, if it is known."""
-    told = quick_cost(result)
-    return f"{words}\n\n{filled(line_of(told), width=width)}" if told else words
 
 
 def quick_cost(result: Result) -> str:

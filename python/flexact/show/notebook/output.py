@@ -237,7 +237,7 @@ def _light(analysis: Result) -> str:
     head = f"<b>{text(words)}</b>"
     line = f"border-left:5px solid {analysis.colour};padding-left:10px"
     margin = text(margin_in_short(analysis).capitalize())
-    told = escape(attempted("", lambda: describe(analysis, most=MOST_MODES), words, None))
+    told = escape(attempted("", lambda: describe(analysis), words, None))
     return (
         f"<div><p style='{line}'>{name}{head} {margin}.</p>{still(analysis, WHOLE, words)}"
         f"<details><summary>In words</summary><pre>{told}</pre></details>"
