@@ -103,7 +103,8 @@ def describe(
         )
         return _safe("\n\n".join(filter(None, (_block(each, width) for each in sections))))
     text = ""
-    for bodies, modes, parts in _SCREENS:
+    count = max(result.under_constrained, result.over_constrained)
+    for bodies, modes, parts in _SCREENS[0 if count <= MOST_MODES else 2 :]:
         modes = min(modes, MOST_MODES if most is None else most)
         first = (*_verdict(result), *held_lines(result, bodies), *head, margin_line(result))
         shown: tuple[Iterable[_Told], ...] = (

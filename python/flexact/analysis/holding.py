@@ -18,12 +18,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import islice, permutations, product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import Basis, FloatArray, IntArray
+from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import Class, NodeKind
 from ..core.raw import RawAnalysis
 from ..model.parts.parts import Joint, Part, PartKind, natural
@@ -45,7 +45,8 @@ if TYPE_CHECKING:
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 #: Beyond so many bodies, or multiplications for the loads of one, nothing is counted.
 _MOST_BODIES, _MOST_WORK = 200, 4.0e8
-#: How many points and axes of a body are tried, and how many of its screws are told.
+#: Multiplications for trying points and axes, how many of each are tried, and how many of its screws are told.
+_MOST_TRIED = 1.0e8
 _MOST_PLACES, _MOST_AXES, _MOST_SCREWS = 8, 8, 2
 _TIMES = ("not at all", "once", "twice")
 _NUMBERS = ("three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
@@ -424,10 +425,9 @@ class _Found:
             return BodyHolding(
                 *(carrier.name, {}, declared, undeclared, rest, {}, centre, np.eye(3), {})
             )
-        moves, frees = (
-            _diagonal(self._seen(each, frame.at - centre, frame.axes)) > 0.5
-            for each in (movable, free)
-        )
+        there = [self._seen(each, frame.at - centre, frame.axes) for each in (movable, free)]
+        moves = _diagonal(there[0]) > 0.5
+        frees = moves & ~_complement(there[1], moves)
         held: dict[str, int] = {}
         together, against = [], {}
         for group in frame.groups:
@@ -533,36 +533,50 @@ class _Found:
     ) -> _Frame | None:
         """The point and the axes in which most falls apart; None where the motions do not."""
         centre = self._centre(carrier)
-        steps = self._steps(carrier, loads, spaces)
+        steps = self._steps(carrier, loads, spaces[1])
         if steps is None:
             return None
+        free, movable = spaces
         all_axes = [
             axes
             for axes in self._axes(sides, loads, spaces)
-            if all(_is_of_axes(self._seen(each, steps[0], axes)) for each in spaces)
+            if _is_of_axes(self._seen(movable, steps[0], axes))
         ]
+        all_axes = [axes for axes in all_axes if self._is_along(free, axes)] or all_axes
         best: _Frame | None = None
-        for step in steps:
-            moved = loads.copy()
-            moved[:, 3:] -= np.cross(step, np.eye(3)).T @ loads[:, :3] / self.length
-            count = loads.shape[2]
-            turned = np.linalg.qr(moved.reshape(6 * len(loads), count))[0].reshape(moved.shape)
-            for axes in all_axes:
-                along = np.concatenate(
-                    [np.einsum("ai,pak->pik", axes, turned[:, rows]) for rows in (_MOVED, _TURNED)],
-                    axis=1,
-                )
-                groups = _groups(along, ways)
-                if best is None or len(groups) > len(best.groups):
-                    at = centre + step
-                    at[np.abs(at) < SAME_PLACE * self.length] = 0.0
-                    best = _Frame(at, axes, groups, along)
-                if len(groups) == len(ways):
-                    return best
+        count = loads.shape[2]
+        most = max(1, int(_MOST_TRIED / max(1, loads.size * count)))
+        for step, axes in islice(product(steps, all_axes), most):
+            moved = np.concatenate((loads[:, _MOVED], loads[:, _TURNED]), axis=1)
+            moved[:, _TURNED] -= np.cross(step, np.eye(3)).T @ loads[:, _MOVED] / self.length
+            flat = (np.kron(np.eye(2), axes.T) @ moved).reshape(6 * len(loads), count)
+            # Orthonormal again, by the root of the table of products.
+            root = np.linalg.cholesky(flat.T @ flat)
+            along = np.linalg.solve(root, flat.T).T.reshape(loads.shape)
+            groups = _groups(along, ways)
+            if best is None or len(groups) > len(best.groups):
+                at = centre + step
+                at[np.abs(at) < SAME_PLACE * self.length] = 0.0
+                best = _Frame(at, axes, groups, along)
+            if len(groups) == len(ways):
+                break
         return best
 
+    def _parted(self, twists: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(6, a) of twists those that turn, and (3, b) orthonormal, the translations among them."""
+        _, values, right = np.linalg.svd(twists[3:])
+        turning = int(np.count_nonzero(values > self.least))
+        return twists @ right[:turning].T, twists[:3] @ right[turning:].T
+
+    def _is_along(self, twists: FloatArray, axes: FloatArray) -> bool:
+        """Whether translations, and axes of rotations, are spanned by some of the axes."""
+        turning, shifts = self._parted(twists) if twists.size else (twists, twists[:3])
+        return all(
+            _is_of_axes(axes.T @ each) for each in (shifts, span(turning[3:], self.least))
+        )
+
     def _steps(
-        self, carrier: _Carrier, loads: FloatArray, spaces: tuple[FloatArray, FloatArray]
+        self, carrier: _Carrier, loads: FloatArray, twists: FloatArray
     ) -> list[FloatArray] | None:
         """From the middle to the points about which what a body can do is of rotations.
 
@@ -570,18 +584,12 @@ class _Found:
         linear in the step; None where there is no such point.
         """
         matrix, wanted = [np.zeros((0, 3))], [np.zeros(0)]
-        for twists in spaces:
-            if not twists.size:
-                continue
-            _, values, right = np.linalg.svd(twists[3:])
-            turning = int(np.count_nonzero(values > self.least))
-            shifts = twists[:3] @ right[turning:].T
+        if twists.size:
+            turning, shifts = self._parted(twists)
             across = np.eye(3) - shifts @ shifts.T
-            for velocity, rotation in zip(
-                (twists[:3] @ right[:turning].T).T, (twists[3:] @ right[:turning].T).T, strict=True
-            ):
-                matrix.append(across @ np.cross(rotation / self.length, np.eye(3)).T)
-                wanted.append(-across @ velocity)
+            for each in turning.T:
+                matrix.append(across @ np.cross(each[3:] / self.length, np.eye(3)).T)
+                wanted.append(-across @ each[:3])
         left, right_side = np.concatenate(matrix), np.concatenate(wanted)
         first = np.linalg.lstsq(left, right_side, rcond=self.least)[0] if left.size else np.zeros(3)
         if left.size and np.abs(left @ first - right_side).max() > 10.0 * self.least:
@@ -601,12 +609,11 @@ class _Found:
     def _crossings(self, loads: FloatArray) -> Iterator[FloatArray]:
         """The point nearest to the lines of all forces, from the middle, if all pass it."""
         force, moment = (loads[:, rows].transpose(0, 2, 1).reshape(-1, 3) for rows in (_MOVED, _TURNED))
-        size = np.linalg.norm(force, axis=1)
-        kept = size > self.least
-        if kept.any():
-            # step x force = moment.
-            matrix = np.concatenate([np.cross(np.eye(3), each).T for each in force[kept]])
-            yield np.linalg.lstsq(matrix, moment[kept].ravel() * self.length, rcond=self.least)[0]
+        if np.linalg.norm(force, axis=1).max(initial=0.0) > self.least:
+            # Of step x force = moment the normal equations.
+            matrix = (force**2).sum() * np.eye(3) - force.T @ force
+            wanted = np.cross(force, moment * self.length).sum(axis=0)
+            yield np.linalg.lstsq(matrix, wanted, rcond=self.least)[0]
 
     def _axes(
         self,
@@ -661,6 +668,23 @@ def _diagonal(twists: FloatArray) -> FloatArray:
     return np.asarray((twists**2).sum(axis=1))
 
 
+def _complement(twists: FloatArray, moves: BoolArray) -> BoolArray:
+    """Which of some motions span with orthonormal twists all of these motions.
+
+    What nobody declared is what is left where the declared point rests, which may be a rotation
+    about it: that such a point lies aside of the middle is not told.
+    """
+    chosen = np.zeros(6, bool)
+    for _ in range(int(moves.sum()) - twists.shape[1]):
+        rest = np.eye(6) - twists @ twists.T
+        size = np.where(moves & ~chosen, np.linalg.norm(rest, axis=0), -1.0)
+        way = int(np.argmax(np.round(size, 6)))
+        chosen[way] = True
+        added = rest[:, way : way + 1] / np.linalg.norm(rest[:, way])
+        twists = np.concatenate((twists, added), axis=1)
+    return chosen
+
+
 def _is_of_axes(twists: FloatArray) -> bool:
     """Whether orthonormal twists are spanned by some of the six motions."""
     share = _diagonal(twists)
@@ -669,8 +693,9 @@ def _is_of_axes(twists: FloatArray) -> bool:
 
 def _groups(loads: FloatArray, ways: Sequence[int]) -> tuple[tuple[int, ...], ...]:
     """Motions whose orthonormal loads (P, 6, r) hang together."""
-    gram = np.einsum("pik,pil->ikl", loads[:, list(ways)], loads[:, list(ways)])
-    hang = np.sqrt(np.abs(np.einsum("ikl,jkl->ij", gram, gram))) > HELD
+    along = loads[:, list(ways)].transpose(1, 0, 2)
+    gram = (along.transpose(0, 2, 1) @ along).reshape(len(ways), -1)
+    hang = np.sqrt(np.abs(gram @ gram.T)) > HELD
     return tuple(tuple(ways[k] for k in group) for group in _hanging_together(hang))
 
 
