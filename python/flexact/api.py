@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .advice.describe import describe
+from .advice.todo import todo_of
 from .analysis.decomposition import AccuracyGiven, asked_for
 from .analysis.json import dictionary_of, text_of
 from .analysis.result import Result, result_of
@@ -170,11 +171,11 @@ class Analysis(Result):
                 and everything that may be declared, held, released or freed.
         """
         costs = ""
-        if self.over_constrained and self.given.properties is not None:
+        if self.over_constrained and self.given.has_stiffness:
             # It takes a while to load.
             quick = load("flexact.costs.quick_cost")
             costs = attempted("", lambda: str(quick.quick_cost(self)), "", None)
-        return describe(self, verbose=verbose, costs=costs)
+        return describe(self, verbose=verbose, todo=todo_of(self, costs))
 
     def __repr__(self) -> str:
         """Verdict, margin and size in a line."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from typing import NamedTuple
 
@@ -20,7 +20,6 @@ from ..analysis.naming import (
     Pieces,
     counted,
     counts_in_words,
-    ended,
     filled,
     in_words,
     line_of,
@@ -29,7 +28,6 @@ from ..analysis.naming import (
 )
 from ..analysis.places import listed, names_words, part_words
 from ..analysis.result import Result
-from ..analysis.verdict import Verdict
 from ..analysis.verdict_words import (
     decision,
     decision_in_short,
@@ -40,8 +38,6 @@ from ..analysis.verdict_words import (
 )
 from ..analysis.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 from ..util.groups import grouped
-from ..util.loading import load
-from ..util.partial import attempted
 from ..util.text import TIE, USUAL, harmless, table
 
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
@@ -75,7 +71,7 @@ def describe(
     most: int | None = None,
     width: int = USUAL,
     verbose: bool = False,
-    costs: str = "",
+    todo: Sequence[Line] = (),
 ) -> str:
     """The result for people, in rows of a width: one screen, or all there is to say.
 
@@ -87,14 +83,11 @@ def describe(
             all, of a screen as many as fit.
         width: Of the rows, in columns of a terminal.
         verbose: Whether all is said, on more than one screen.
-        costs: What over-constraint costs, where that is known.
+        todo: What is best done, and what over-constraint costs (`flexact.advice.todo`).
     """
-    step = do_this(result)
-    head = [] if step is None else [step]
-    head += [line_of(costs)] if costs else []
     if verbose:
         sections: tuple[Iterable[_Told], ...] = (
-            (*_verdict(result), *held_lines(result, None), *head, margin_line(result)),
+            (*_verdict(result), *held_lines(result, None), *todo, margin_line(result)),
             (*_counts(result), line_of(f"{declared_in_words(result)}.")),
             decision(result),
             _motions(result, most, _PARTS, (*lines_on_motions(result),)),
@@ -106,7 +99,7 @@ def describe(
     count = max(result.under_constrained, result.over_constrained)
     for bodies, modes, parts in _SCREENS[0 if count <= MOST_MODES else 2 :]:
         modes = min(modes, MOST_MODES if most is None else most)
-        first = (*_verdict(result), *held_lines(result, bodies), *head, margin_line(result))
+        first = (*_verdict(result), *held_lines(result, bodies), *todo, margin_line(result))
         shown: tuple[Iterable[_Told], ...] = (
             first,
             (*_counts(result), *_ranked(result)),
@@ -160,32 +153,6 @@ def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
     yield from (line_of(harmless(words)) for words, _ in lines[:shown])
     if rest := sum(count for _, count in lines[shown:]):
         yield line_of(f"... and {counted(rest, 'more bod', 'y', 'ies')} (-v).")
-
-
-#: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find.
-_MOST_TO_ADVISE = 1.0e6
-
-
-def do_this(result: Result) -> Line | None:
-    """What is best done, and what the mechanism is then; None where nothing need be done."""
-    if result.verdict is Verdict.EXACT:
-        return None
-    if float(result.rows) * result.columns * min(result.rows, result.columns) > _MOST_TO_ADVISE:
-        where = "analysis.advice()"
-        if result.given.source is not None and result.name:
-            where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
-        return line_of(f"{where} says what can be done.")
-
-    def found() -> Line | None:
-        # It takes a while to load.
-        step = next(load("flexact.advice.advice").advice_of(result).numbered(), None)
-        if step is None:
-            return None
-        outcome = f" The mechanism is then {step.after.outcome}."
-        pieces = ended(step.words())
-        return line_of("Do this: ", *pieces, *[outcome] * (step.after.outcome not in plain(pieces)))
-
-    return attempted("What to do", found, None, None)
 
 
 class VerdictInWords(NamedTuple):

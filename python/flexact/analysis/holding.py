@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice, permutations, product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,34 +30,33 @@ from ..model.parts.parts import Joint, Part, PartKind, natural
 from ..util.groups import grouped
 from ..util.matrices import null_space, span
 from ..util.records import Frozen
-from .decomposition import row_weights
-from .freedoms import Block
+from .body_motions import Moves
+from .decomposition import Decomposition, row_weights
+from .freedoms import Block, Freedom
 from .limits import HELD, SAME_PLACE
+from .naming import in_words as number_in_words
 from .places import direction_words, joint_words, listed, part_words
 from .screws import Screw, ScrewKind, in_words
 from .sparse_basis import orthonormal
 from .verdict import AnalysisError
 
-if TYPE_CHECKING:
-    from .result import Result
-
 #: The motions of a body along and about its axes, in their order.
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 #: Beyond so many bodies, or multiplications for the loads of one, nothing is counted.
 _MOST_BODIES, _MOST_WORK = 200, 4.0e8
-#: Multiplications for trying points and axes, how many of each are tried, and how many of its screws are told.
+#: Multiplications for trying points and axes, and how many of each are tried.
 _MOST_TRIED = 1.0e8
-_MOST_PLACES, _MOST_AXES, _MOST_SCREWS = 8, 8, 2
+_MOST_PLACES, _MOST_AXES = 8, 8
+#: How many screws, or names of parts, are told.
+_MOST_SCREWS = 2
 _TIMES = ("not at all", "once", "twice")
-_NUMBERS = ("three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 
 
 def times_in_words(count: int) -> str:
     """How often: "once", "twice", "three times"."""
     if count < len(_TIMES):
         return _TIMES[count]
-    at = count - len(_TIMES)
-    return f"{_NUMBERS[at] if at < len(_NUMBERS) else count} times"
+    return f"{number_in_words(count)} times"
 
 
 class Together(NamedTuple):
@@ -67,19 +66,23 @@ class Together(NamedTuple):
     """Of `MOTIONS`; "others" for all that are neither declared nor free."""
     held: int
     """How often all of them together: as many as they are, and once for each self-stress."""
-    count: int
-    """How many motions they are."""
+    motions: int
+    """How many they are."""
 
     def __str__(self) -> str:
         """In words."""
-        surplus = self.held - self.count
+        surplus = self.held - self.motions
         names = ", ".join(self.directions)
         if self.directions == ("others",):
-            names = f"the other {self.count} motions" if self.count > 1 else "the other motion"
+            names = (
+                f"the other {number_in_words(self.motions)} motions"
+                if self.motions > 1
+                else "the other motion"
+            )
         if not surplus:
-            return f"{names} held once{' each' * (self.count > 1)}"
+            return f"{names} held once{' each' * (self.motions > 1)}"
         often = f"{times_in_words(self.held)} ({times_in_words(surplus)} too often)"
-        return f"{names}{' together' * (self.count > 1)} held {often}"
+        return f"{names}{' together' * (self.motions > 1)} held {often}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -120,7 +123,7 @@ class BodyHolding(Frozen):
             for way, count in self.held.items()
             if way not in in_groups and way not in self.against
         )
-        told = []
+        told: list[str] = []
         for count in sorted(by_count, reverse=True):
             each = " each" if len(by_count[count]) > 1 and not told else ""
             held = " held" if not told else ""
@@ -152,7 +155,7 @@ class HeldInside(NamedTuple):
     """Parts that are held too often between their ends, which no body feels."""
 
     parts: tuple[Part, ...]
-    count: int
+    too_often: int
     """How many self-stresses."""
 
     def __str__(self) -> str:
@@ -160,7 +163,7 @@ class HeldInside(NamedTuple):
         names = [part_words(part) for part in self.parts]
         if len(names) > _MOST_SCREWS + 1:
             names = [*names[:_MOST_SCREWS], f"{len(names) - _MOST_SCREWS} more"]
-        often = f"held {times_in_words(self.count)} too often"
+        often = f"held {times_in_words(self.too_often)} too often"
         if all(part.kind is PartKind.BODY for part in self.parts):
             return f"{listed(names)}: {often} by supports and drives."
         its = "its ends" if len(names) == 1 else "their ends, which no body feels"
@@ -179,9 +182,16 @@ class Holding(NamedTuple):
 _TOO_MUCH = "How often each body is held is not counted in so large a model."
 
 
-def holding_of(result: Result) -> Holding:
-    """How often each body of a mechanism is held, each divided sheet as one beam."""
-    result = result.with_internal_declared or result
+def holding_of(
+    result: Decomposition, freedoms: tuple[Freedom, ...], motions: Sequence[Moves]
+) -> Holding:
+    """How often each body of a mechanism is held.
+
+    Args:
+        result: Its decomposition, with divided sheets as one beam each.
+        freedoms: The declared degrees of freedom.
+        motions: What nothing determines, as it is told.
+    """
     raw = result.raw
     given = raw.stresses.vectors, raw.motions.vectors
     if not result.is_told_by_parts or given != (result.over_constrained, result.under_constrained):
@@ -190,7 +200,7 @@ def holding_of(result: Result) -> Holding:
     if len(carriers) > _MOST_BODIES:
         return Holding((), (), _TOO_MUCH)
     try:
-        return _Found(result, carriers).holding()
+        return _Found(result, carriers, freedoms, motions).holding()
     except AnalysisError:
         return Holding((), (), _TOO_MUCH)
 
@@ -206,7 +216,7 @@ class _Carrier(NamedTuple):
     """Indices of its elements in the model as given."""
 
 
-def _carriers(result: Result) -> list[_Carrier]:
+def _carriers(result: Decomposition) -> list[_Carrier]:
     """The bodies that are told; of a mechanism without any the points that flexures carry."""
     parts, arrays = result.parts, result.given.arrays
     at = {int(node): k for k, node in enumerate(result.condensed.nodes)}
@@ -223,7 +233,9 @@ def _carriers(result: Result) -> list[_Carrier]:
     bodies = [
         made(part.name, part, (*body.positions, *body.orientations), body.elements)
         for part, body in zip(result.carriers.bodies, parts.bodies, strict=True)
-        if not (any(map(parts.is_held, body.positions)) and any(map(parts.is_held, body.orientations)))
+        if not (
+            any(map(parts.is_held, body.positions)) and any(map(parts.is_held, body.orientations))
+        )
     ]
     bodies = [one for one in bodies if not _divides(result, one)] or bodies
     bodies.sort(key=lambda one: natural(one.name))
@@ -239,13 +251,15 @@ def _carriers(result: Result) -> list[_Carrier]:
     ]
 
 
-def _divides(result: Result, body: _Carrier) -> bool:
+def _divides(result: Decomposition, body: _Carrier) -> bool:
     """Whether a body does no more than divide a flexure: two in line with it, and nothing else."""
     parts, arrays = result.parts, result.data.arrays
     nodes = np.concatenate((body.positions, body.orientations))
     if np.any(np.isin(arrays.coordinate_class[:, nodes], (Class.FIXED, Class.INDEPENDENT))):
         return False
-    ended = {part for node in body.positions for part in parts.at(int(result.condensed.nodes[node]))}
+    ended = {
+        part for node in body.positions for part in parts.at(int(result.condensed.nodes[node]))
+    }
     others = [part for part in ended if part != body.of]
     if len(others) != 2 or any(len(part.ends) != 2 for part in others):
         return False
@@ -268,9 +282,16 @@ class _Frame(NamedTuple):
 class _Found:
     """The spaces of a mechanism, from which those of each body are cut."""
 
-    def __init__(self, result: Result, carriers: Sequence[_Carrier]) -> None:
+    def __init__(
+        self,
+        result: Decomposition,
+        carriers: Sequence[_Carrier],
+        freedoms: tuple[Freedom, ...],
+        motions: Sequence[Moves],
+    ) -> None:
         """Keep what each body needs: entries of the Jacobian by node, and spaces."""
         self.result, self.carriers = result, carriers
+        self.freedoms, self.motions = freedoms, motions
         self.length = result.characteristic_length
         self.least = max(HELD, 10.0 * result.rounding)
         whole, nodes = result.assembly, result.data.arrays.node_number.size
@@ -289,7 +310,7 @@ class _Found:
         self.is_position = result.data.arrays.node_kind <= NodeKind.POSITION
         self.part = [result.parts.of_element(int(e)) for e in result.condensed.elements]
         self.free = [self._velocities(result.raw)]
-        blocks: dict[int, Block] = {id(each.block): each.block for each in result.freedoms}
+        blocks: dict[int, Block] = {id(each.block): each.block for each in freedoms}
         self.movable = self.free + [self._velocities(block.freed) for block in blocks.values()]
         dimension = 2 if result.given.planar else 3
         nodes_of = result.condensed.nodes
@@ -301,7 +322,7 @@ class _Found:
         self.ways = [0, 1, 5] if dimension == 2 else list(range(6))
 
     def _velocities(self, raw: RawAnalysis) -> FloatArray:
-        """(nodes, 3, k) orthonormal velocities that a decomposition leaves, rotations as lengths."""
+        """(nodes, 3, k) orthonormal velocities that are left, rotations as lengths."""
         if raw.motions.vectors < raw.column_scale.size - raw.rank:
             raise AnalysisError("there are too many motions")
         node, axis = raw.column_label - 1
@@ -325,7 +346,11 @@ class _Found:
             left, values, right = np.linalg.svd(flat, full_matrices=False)
             kept = values > self.least * max(1.0, float(values.max(initial=0.0)))
             felt.append(right[kept])
-            told.append(self._of_body(carrier, sides, left[:, kept].reshape(*loads.shape[:2], int(kept.sum()))))
+            told.append(
+                self._of_body(
+                    carrier, sides, left[:, kept].reshape(*loads.shape[:2], int(kept.sum()))
+                )
+            )
         rest = null_space(np.concatenate(felt), self.least)
         return Holding(tuple(told), tuple(self._inside(rest)))
 
@@ -403,7 +428,10 @@ class _Found:
         made = []
         for each in velocities:
             both = np.zeros((6, each.shape[2]))
-            for rows, nodes in ((slice(0, 3), carrier.positions), (slice(3, 6), carrier.orientations)):
+            for rows, nodes in (
+                (slice(0, 3), carrier.positions),
+                (slice(3, 6), carrier.orientations),
+            ):
                 if nodes.size:
                     both[rows] = each[nodes].mean(axis=0)
             made.append(both)
@@ -468,7 +496,9 @@ class _Found:
         for part in (part for side in sides for part in side):
             nodes = {*part.ends, *slots[:, list(part.elements)].ravel().tolist()}
             at = [k for node in sorted(nodes) for k in self.carried_at.get(node, ())]
-            made.update({self.carriers[k].name: None for k in at if self.carriers[k] is not carrier})
+            made.update(
+                {self.carriers[k].name: None for k in at if self.carriers[k] is not carrier}
+            )
         if not all(sides):
             made["its drive"] = None
         return tuple(made) or ("what moves with it",)
@@ -477,19 +507,18 @@ class _Found:
         """What a body does of its own where no axes separate it: screws in words, or how many."""
         if not count:
             return ()
-        result = self.result
         target = carrier.of
         if isinstance(target, Joint):
-            return (f"{count} motions" if count > 1 else "one motion",)
+            return (f"{number_in_words(count)} motion{'s' * (count > 1)}",)
         if is_declared:
-            moving = [each.motion for each in result.freedoms[: 4 * _MOST_SCREWS]]
+            moving = [each.motion for each in self.freedoms[: 4 * _MOST_SCREWS]]
             found = [motion.of(target) for motion in moving if motion is not None]
         else:
-            found = [motion.of(target) for motion in result.motions[: 4 * _MOST_SCREWS]]
+            found = [motion.of(target) for motion in self.motions[: 4 * _MOST_SCREWS]]
         told = tuple(_screw_words(screw, self.length) for screw in found if screw)
         if len(told) == count <= _MOST_SCREWS:
             return told
-        return (f"{count} motions" if count > 1 else "one motion",)
+        return (f"{number_in_words(count)} motion{'s' * (count > 1)}",)
 
     def _where(
         self, frame: _Frame, centre: FloatArray, carrier: _Carrier, ways: Sequence[str]
@@ -571,9 +600,7 @@ class _Found:
     def _is_along(self, twists: FloatArray, axes: FloatArray) -> bool:
         """Whether translations, and axes of rotations, are spanned by some of the axes."""
         turning, shifts = self._parted(twists) if twists.size else (twists, twists[:3])
-        return all(
-            _is_of_axes(axes.T @ each) for each in (shifts, span(turning[3:], self.least))
-        )
+        return all(_is_of_axes(axes.T @ each) for each in (shifts, span(turning[3:], self.least)))
 
     def _steps(
         self, carrier: _Carrier, loads: FloatArray, twists: FloatArray
@@ -595,7 +622,7 @@ class _Found:
         if left.size and np.abs(left @ first - right_side).max() > 10.0 * self.least:
             return None
         along = null_space(left * self.length, self.least)
-        made = [first]
+        made: list[FloatArray] = [np.asarray(first, float)]
         if carrier.orientations.size and loads.size:
             middle, values = self._centre(carrier), self.result.data.arrays.node_value[:3]
             tried = [values[:, n] - middle for n in carrier.positions[:_MOST_PLACES]]
@@ -608,7 +635,9 @@ class _Found:
 
     def _crossings(self, loads: FloatArray) -> Iterator[FloatArray]:
         """The point nearest to the lines of all forces, from the middle, if all pass it."""
-        force, moment = (loads[:, rows].transpose(0, 2, 1).reshape(-1, 3) for rows in (_MOVED, _TURNED))
+        force, moment = (
+            loads[:, rows].transpose(0, 2, 1).reshape(-1, 3) for rows in (_MOVED, _TURNED)
+        )
         if np.linalg.norm(force, axis=1).max(initial=0.0) > self.least:
             # Of step x force = moment the normal equations.
             matrix = (force**2).sum() * np.eye(3) - force.T @ force
@@ -624,7 +653,11 @@ class _Found:
         """Axes that are tried: of the model, of the parts at the body, and of its spaces."""
         made = [np.eye(3)]
         frames = self.result.data.frames.frame
-        elements = (np.searchsorted(self.result.condensed.elements, p.elements[0]) for side in sides for p in side)
+        elements = (
+            np.searchsorted(self.result.condensed.elements, p.elements[0])
+            for side in sides
+            for p in side
+        )
         count = self.result.data.arrays.element_number.size
         tried = [_named(frames[e]) for e in list(elements)[:_MOST_AXES] if e < count]
         # Axes of which each space is spanned by some are eigenvectors of any sum of projectors.

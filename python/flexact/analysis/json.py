@@ -94,15 +94,15 @@ def margin(result: Result, item: Margin) -> Entries:
     }
 
 
-def accuracy(result: Result) -> Entries | None:
-    """The accuracy as it was given, and whether the margin is smaller; None without one."""
-    given = result.accuracy
+def accuracy(result: Result, *, usual: bool = False) -> Entries | None:
+    """The accuracy as it was given, else None or the usual one; whether the margin is smaller."""
+    given = result.usual_accuracy if usual else result.accuracy
     if given is None:
         return None
     return {
         "length": quantity(given.length, "m"),
         "angle": None if given.angle is None else quantity(given.angle, "rad"),
-        "exceeds_margin": result.is_marginal,
+        "exceeds_margin": result.has_small_margin if usual else result.is_marginal,
     }
 
 
@@ -237,7 +237,7 @@ def held_bodies(result: Result) -> list[Entries] | None:
             "free": list(body.free),
         }
         if body.where:
-            entry |= {"at": quantity(body.at.tolist(), "m"), "axes": body.axes.tolist()}
+            entry |= {"at": quantity(body.at.tolist(), "m"), "axes": body.axes.T.tolist()}
         if body.together:
             entry["together"] = [
                 {"directions": list(group.directions), "held": group.held}
@@ -252,7 +252,7 @@ def held_bodies(result: Result) -> list[Entries] | None:
 def held_inside(result: Result) -> list[Entries]:
     """Parts that are held too often between their ends, which no body feels."""
     return [
-        {"parts": [part.name for part in each.parts], "too_often": each.count}
+        {"parts": [part.name for part in each.parts], "too_often": each.too_often}
         for each in result.holding.inside
     ]
 
@@ -551,6 +551,7 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         "margin": margin(analysis, analysis.margin),
         "margins": [margin(analysis, item) for item in analysis.margins],
         "accuracy": accuracy(analysis),
+        "usual_accuracy": accuracy(analysis, usual=True),
         "degrees_of_freedom": analysis.degrees_of_freedom,
         "counts": {name: part._asdict() for name, part in analysis.counts._asdict().items()},
         "characteristic_length": quantity(analysis.characteristic_length, "m"),

@@ -73,9 +73,8 @@ NO_CHANGE = 1.0e-9
 #: Margins below this angle [rad], or this part of the characteristic length, are small: what is
 #: larger is another design, and the margin is of first order.
 SMALL_MARGIN = 0.1
-#: A margin below this is smaller than parts are usually made to [m]; of a model that is not known to
-#: be in metres, as it has no stiffness, below this part of the characteristic length, or as an
-#: angle [rad].
+#: A margin below this is smaller than parts are usually made to [m]; of a model without stiffness,
+#: which may be in any unit, below this part of the characteristic length, or this angle [rad].
 USUAL_ACCURACY, USUAL_PART = 2.0e-5, 2.0e-4
 #: A smallest non-zero singular value below this part of the largest is worth a warning.
 CLOSE_DECISION = 1.0e-5

@@ -57,9 +57,9 @@ def names_words(names: Sequence[str], most: int = _MOST_NAMED) -> str:
     stems = {each[1] if each else "" for each in found}
     numbers = sorted(int(each[2]) for each in found if each)
     stem = next(iter(stems))
-    if len(names) > _MOST_NAMED and len(stems) == 1 and stem.endswith(" ") and stem[:-2].isalpha():
-        if numbers == list(range(numbers[0], numbers[0] + len(names))):
-            return f"{stem.strip()}s {numbers[0]} to {numbers[-1]}"
+    is_plain = len(stems) == 1 and stem.endswith(" ") and stem[:-2].isalpha()
+    if is_plain and len(names) > _MOST_NAMED and numbers[-1] - numbers[0] == len(names) - 1:
+        return f"{stem.strip()}s {numbers[0]} to {numbers[-1]}"
     if len(names) > most + 1:
         return listed([*names[:most], f"{len(names) - most} more"])
     return listed(names)

@@ -250,7 +250,9 @@ class Result(Decomposition):
     @cached_property
     def holding(self) -> Holding:
         """How often each body is held, and what no body feels (`flexact.analysis.holding`)."""
-        made: Holding = load("flexact.analysis.holding").holding_of(self)
+        whole = self.with_internal_declared or self
+        holding_of = load("flexact.analysis.holding").holding_of
+        made: Holding = holding_of(whole, whole.freedoms, whole.motions)
         return made
 
     @property
@@ -323,8 +325,8 @@ class Result(Decomposition):
         """
         if self.accuracy is not None:
             return self.accuracy
-        given, length = self.given.properties, self.characteristic_length
-        if given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any()):
+        length = self.characteristic_length
+        if self.given.has_stiffness:
             return Accuracy(USUAL_ACCURACY, USUAL_ACCURACY / length)
         return Accuracy(USUAL_PART * length, USUAL_PART)
 

@@ -61,8 +61,11 @@ def margin_line(result: Result) -> Line:
             told += (*(" or ",) * bool(told), "turning ", turned, f" by {angle_in_words(angle)}")
         told += (" would change this, to first order.",)
         if accuracy is None and result.has_small_margin:
-            usual = length_in_words(result.usual_accuracy.length)
-            told += (f" Parts are seldom made to less than {usual}.",)
+            usual, of = (
+                result.usual_accuracy.length,
+                "" if result.given.has_stiffness else " of this size",
+            )
+            told += (f" Parts{of} are usually made to {length_in_words(usual)}.",)
     if accuracy is not None:
         told += (f" The accuracy is {' and '.join(_sizes(*accuracy))}.",)
     return line_of("Margin: ", *told)
@@ -219,9 +222,7 @@ def _doubt(result: Result) -> Line:
     meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
     doubt = f"he decision on the rank is doubtful{meant}."
     if is_exact:
-        return line_of(
-            f"Exactly constrained up to the rounding of its coordinates; t{doubt}"
-        )
+        return line_of(f"Exactly constrained up to the rounding of its coordinates; t{doubt}")
     return line_of(f"T{doubt}")
 
 

@@ -22,7 +22,7 @@ from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import ElasticDesign, Level, has_stiffness, tolerances_of
+from .elastic_design import ElasticDesign, Level, tolerances_of
 from .request import SHIFT
 from .resolve import Places
 from .words import costs, costs_nothing, off
@@ -46,7 +46,7 @@ def quick_cost(result: Result) -> str:
     """
     data = result.given
     too_large = data.arrays.element_number.size > _MOST
-    if not result.over_constrained or too_large or not has_stiffness(data):
+    if not result.over_constrained or too_large or not data.has_stiffness:
         return ""
     try:
         return _QuickCost(result).sentence()

@@ -9,6 +9,7 @@ import sys
 from typing import Any
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
+from ...advice.todo import todo_of
 from ...analysis.result import Result
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
@@ -34,7 +35,18 @@ from .decks import (
 )
 from .parser import Verb, argument
 from .targets import folder_or, mesh_argument
-from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, is_verbose, painted, say, text_width
+from .terminal import (
+    Bar,
+    ExitCode,
+    Outcome,
+    complain,
+    give,
+    is_coloured,
+    is_verbose,
+    painted,
+    say,
+    text_width,
+)
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
 
@@ -171,21 +183,21 @@ def _words(analysis: Result, chosen: argparse.Namespace, has_files: bool) -> tup
     # What concerns the deck stands on stderr already.
     missing: list[str] = []
     costs = ""
-    if analysis.over_constrained and analysis.given.properties is not None:
+    if analysis.over_constrained and analysis.given.has_stiffness:
         # It takes a while to load.
         quick = load("flexact.costs.quick_cost")
         costs = attempted(
             "What over-constraint costs", lambda: str(quick.quick_cost(analysis)), "", missing
         )
-        complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
     words = describe(
         analysis,
         about_model=False,
         most=MOST_MODES,
         width=text_width(),
         verbose=is_verbose(),
-        costs=costs,
+        todo=todo_of(analysis, costs),
     )
+    complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
     return f"{_coloured(words, analysis)}\n", False
 
 
