@@ -30,11 +30,11 @@ from ..model.parts.parts import Joint, Part, PartKind, natural
 from ..util.groups import grouped
 from ..util.matrices import null_space, span
 from ..util.records import Frozen
+from ..util.text import number_in_words
 from .body_motions import Moves
 from .decomposition import Decomposition, row_weights
 from .freedoms import Block, Freedom
 from .limits import HELD, SAME_PLACE
-from .naming import in_words as number_in_words
 from .places import direction_words, joint_words, listed, part_words
 from .screws import Screw, ScrewKind, in_words
 from .sparse_basis import orthonormal
