@@ -123,7 +123,11 @@ def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str
     """A section as rows; of a sentence the first ones."""
     rows = []
     for told in section:
-        made = table(told, width) if isinstance(told, list) else filled(told, width=width)
+        if isinstance(told, list):
+            made = table(told, width)
+        else:
+            is_numbered = plain(told.head).startswith("  ")
+            made = filled(told, hanging=is_numbered, width=width)
         lines = made.split("\n")
         if most is not None and len(lines) > most and not isinstance(told, list):
             lines = [*lines[: most - 1], f"{lines[most - 1][: width - 4].rstrip(' ;,.')} ..."]
@@ -227,7 +231,7 @@ def _motions(
         told = tuple(motion for motion in told if not motion.is_internal)
     modes = (Line((), motion_in_parts(motion, parts)).shortened(parts) for motion in told)
     kind = "motion", "s", "kinematically"
-    yield from _modes(kind, result.under_constrained, len(result.motions), modes, internal)
+    yield from _modes(kind, result.under_constrained, len(result.motions), modes, most, internal)
     yield from ways
 
 
@@ -242,7 +246,7 @@ def _self_stresses(
         for lead, each in told
     )
     kind = "self-stress", "es", "statically"
-    yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes)
+    yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes, most)
     yield from ways
 
 
@@ -264,10 +268,15 @@ def _notes(result: Result, about_model: bool) -> Iterator[Line]:
 
 
 def _modes(
-    kind: tuple[str, str, str], count: int, given: int, modes: Iterable[Line], internal: str = ""
+    kind: tuple[str, str, str],
+    count: int,
+    given: int,
+    modes: Iterable[Line],
+    most: int | None,
+    internal: str = "",
 ) -> Iterator[Line]:
     """Modes one by one, and how many there are besides: nothing where there are none."""
-    if not count:
+    if not count or (most == 0 and not internal):
         return
     what, ending, way = kind
     many = what + ending

@@ -33,5 +33,5 @@ def do_this(result: Result) -> Line | None:
     if step is None:
         return None
     pieces, outcome = ended(step.words()), step.after.outcome
-    then = f" The mechanism is then {outcome}."
-    return line_of("Do this: ", *pieces, *[then] * (outcome not in plain(pieces)))
+    then = "" if outcome in plain(pieces) else f", and the mechanism is {outcome}"
+    return line_of(f"Do this{then}: ", *pieces)

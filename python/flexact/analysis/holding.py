@@ -165,7 +165,7 @@ class HeldInside(NamedTuple):
             names = [*names[:_MOST_SCREWS], f"{len(names) - _MOST_SCREWS} more"]
         often = f"held {times_in_words(self.too_often)} too often"
         if all(part.kind is PartKind.BODY for part in self.parts):
-            return f"{listed(names)}: {often} by supports and drives."
+            return f"{listed(names)}: {often} within its own members."
         its = "its ends" if len(names) == 1 else "their ends, which no body feels"
         return f"{listed(names)}: {often} between {its}."
 
@@ -473,10 +473,7 @@ class _Found:
                 n = round(float(np.sum(frame.loads[:, list(group)] ** 2)))
                 names = tuple(MOTIONS[way] for way in group)
                 together.append(Together(names, len(group) + n, len(group)))
-        # The rotations that are told apart from those that are held once.
-        turning = [
-            way for k, way in enumerate(MOTIONS) if k > 2 and (moves[k] or held.get(way, 1) > 1)
-        ]
+        moving = [way for k, way in enumerate(MOTIONS) if moves[k]]
         return BodyHolding(
             carrier.name,
             {way: held[way] for way in MOTIONS if way in held},
@@ -486,7 +483,7 @@ class _Found:
             against,
             frame.at,
             frame.axes,
-            self._where(frame, centre, carrier, turning),
+            self._where(frame, centre, carrier, moving, held),
         )
 
     def _others(self, carrier: _Carrier, sides: Sequence[tuple[Part, ...]]) -> tuple[str, ...]:
@@ -521,26 +518,40 @@ class _Found:
         return (f"{number_in_words(count)} motion{'s' * (count > 1)}",)
 
     def _where(
-        self, frame: _Frame, centre: FloatArray, carrier: _Carrier, ways: Sequence[str]
+        self,
+        frame: _Frame,
+        centre: FloatArray,
+        carrier: _Carrier,
+        moving: list[str],
+        held: dict[str, int],
     ) -> dict[str, str]:
-        """Its own axes in words where they are not those of the model, and where it turns."""
-        made = {}
+        """Where it turns, and along what axes: as far as some motions are not as all others are."""
+        apart = [MOTIONS[group[0]] for group in frame.groups if len(group) == 1]
+        apart = [*moving, *(way for way in apart if way not in moving and held[way] > 1)]
+        letters = {way[-1] for way in apart}
+        every = {MOTIONS[way][-1] for group in frame.groups for way in group}
+        for group in frame.groups:
+            mine = {MOTIONS[way][-1] for way in group}
+            letters |= mine if len(group) > 1 and mine | letters < every else set()
         told = [
             f"{name} along {direction_words(axis)}"
             for name, axis, unit in zip("xyz", frame.axes.T, np.eye(3), strict=True)
-            if np.abs(axis - unit).max() > HELD
+            if name in letters and np.abs(axis - unit).max() > HELD
         ]
-        if carrier.orientations.size and np.linalg.norm(frame.at - centre) > HELD * self.length:
-            at = in_words(frame.at, self.length)[1:-1].split(", ")
-            if self.result.given.planar:
-                made["rz"] = f"about the point ({', '.join(at[:2])}) m"
-            elif len(ways) == 1:
-                if not told:
-                    at["xyz".index(ways[0][1])] = "*"
-                made[ways[0]] = f"about the line through ({', '.join(at)}) m"
-            else:
-                told.append(f"rotations about the point ({', '.join(at)}) m")
-        return {**made, "": ", ".join(told)} if told else made
+        turning = [way for way in moving if way[0] == "r"]
+        turning = turning or [way for way in apart if way[0] == "r"]
+        is_aside = np.linalg.norm(frame.at - centre) > HELD * self.length
+        if not (carrier.orientations.size and turning and is_aside):
+            return {"": ", ".join(told)} if told else {}
+        at = in_words(frame.at, self.length)[1:-1].split(", ")
+        if self.result.given.planar:
+            return {"rz": f"about the point ({', '.join(at[:2])}) m"}
+        if len(turning) > 1:
+            return {"": ", ".join((*told, f"rotations about the point ({', '.join(at)}) m"))}
+        if not told:
+            at["xyz".index(turning[0][1])] = "*"
+        line = {turning[0]: f"about the line through ({', '.join(at)}) m"}
+        return {**line, "": ", ".join(told)} if told else line
 
     # Points and axes --------------------------------------------------------
 
@@ -702,10 +713,10 @@ def _diagonal(twists: FloatArray) -> FloatArray:
 
 
 def _complement(twists: FloatArray, moves: BoolArray) -> BoolArray:
-    """Which of some motions span with orthonormal twists all of these motions.
+    """Which of some motions span all of them with orthonormal twists: the declared ones.
 
-    What nobody declared is what is left where the declared point rests, which may be a rotation
-    about it: that such a point lies aside of the middle is not told.
+    What nobody declared is found with the declared points at rest, and so may turn about these;
+    of motions that do, the one is declared that is the least like them.
     """
     chosen = np.zeros(6, bool)
     for _ in range(int(moves.sum()) - twists.shape[1]):
