@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..analysis.naming import Line, ended, line_of, plain
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
@@ -29,7 +31,9 @@ def do_this(result: Result) -> Line | None:
         if result.given.source is not None and result.name:
             where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
-    step = next(load("flexact.advice.advice").advice_of(result).numbered(), None)
+    # Vectors of any length may stand in a model.
+    with np.errstate(all="ignore"):
+        step = next(load("flexact.advice.advice").advice_of(result).numbered(), None)
     if step is None:
         return None
     pieces, outcome = ended(step.words()), step.after.outcome

@@ -200,9 +200,10 @@ def holding_of(
     if len(carriers) > _MOST_BODIES:
         return Holding((), (), _TOO_MUCH)
     try:
-        return _Found(result, carriers, freedoms, motions).holding()
-    except AnalysisError:
-        return Holding((), (), _TOO_MUCH)
+        with np.errstate(over="raise", invalid="raise"):
+            return _Found(result, carriers, freedoms, motions).holding()
+    except (AnalysisError, FloatingPointError, np.linalg.LinAlgError):
+        return Holding((), (), "How often each body is held could not be counted.")
 
 
 class _Carrier(NamedTuple):
