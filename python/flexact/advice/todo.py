@@ -11,9 +11,11 @@ from ..analysis.verdict import Verdict
 from ..util.loading import load
 from ..util.partial import attempted
 from ..util.text import TIE, harmless
+from .step import Step
 
-#: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find.
-_MOST_TO_ADVISE = 1.0e6
+#: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find; of
+#: more than this so does a repair of few statements.
+_MOST_TO_ADVISE, _MOST_TO_REPAIR = 1.0e6, 1.0e8
 
 
 def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
@@ -26,14 +28,19 @@ def do_this(result: Result) -> Line | None:
     """The first step of the advice, and what the mechanism is then; None where none is needed."""
     if result.verdict is Verdict.EXACT:
         return None
-    if float(result.rows) * result.columns * min(result.rows, result.columns) > _MOST_TO_ADVISE:
+    size = float(result.rows) * result.columns * min(result.rows, result.columns)
+    step: Step | None = None
+    # Vectors of any length may stand in a model.
+    with np.errstate(all="ignore"):
+        if size <= _MOST_TO_REPAIR:
+            advice = load("flexact.advice.advice").advice_of(result)
+            steps = advice.numbered() if size <= _MOST_TO_ADVISE else iter(advice.repairs)
+            step = next(steps, None)
+    if step is None and size > _MOST_TO_ADVISE:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
             where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
-    # Vectors of any length may stand in a model.
-    with np.errstate(all="ignore"):
-        step = next(load("flexact.advice.advice").advice_of(result).numbered(), None)
     if step is None:
         return None
     pieces, outcome = ended(step.words()), step.after.outcome
