@@ -156,6 +156,14 @@ def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str
     return "\n".join(rows)
 
 
+#: How many bodies that are held alike are named, but for those whose numbers follow each other.
+_BODIES = 3
+
+
+def _together(names: Sequence[str]) -> str:
+    return plain(together_in_words([Named("element", 0, each) for each in names], _BODIES))
+
+
 def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
     """A line on each body: how often its motions are held, which are declared, and free.
 
@@ -168,10 +176,7 @@ def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
     holding = result.holding
     alike = grouped((body.words, body.name) for body in holding.bodies)
     lines = [
-        (
-            f"{plain(together_in_words([Named('', 0, each) for each in names]))}{', each' * (len(names) > 1)}: {words}.",
-            len(names),
-        )
+        (f"{_together(names)}{', each' * (len(names) > 1)}: {words}.", len(names))
         for words, names in alike.items()
     ]
     lines += [(str(each), 0) for each in holding.inside]

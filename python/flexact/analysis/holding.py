@@ -2,13 +2,14 @@
 """How often each motion of each body is held, and which are declared or free.
 
 What the parts that end at a body exert on it in the self-stresses is a subspace of R^(6P), six
-numbers for each of P parts; parts that lead to one other body are first taken together, as a guide,
-and then what they do within where they exert nothing together. A motion d of the body is held once, and once more for each of the
-independent self-stresses that load the body along d: 1 + rank of the parts' loads along d. With
-the orthogonal projector on the subspace, two motions hang together where their P x P block of it
-is not zero; its trace over motions that hang together counts the self-stresses on them. What the
-body can do is a subspace of its twists: of the motions that nothing determines, and of those
-besides when nothing is declared. All of this is of subspaces: no basis of them is chosen.
+numbers for each of P parts; parts that lead to one other body are first taken together, as a
+guide, and then what they do within where they exert nothing together. A motion d of the body is
+held once, and once more for each of the independent self-stresses that load the body along d:
+1 + rank of the parts' loads along d. With the orthogonal projector on the subspace, two motions
+hang together where their P x P block of it is not zero; its trace over motions that hang together
+counts the self-stresses on them. What the body can do is a subspace of its twists: of the motions
+that nothing determines, and of those besides when nothing is declared. All of this is of
+subspaces: no basis of them is chosen.
 
 The motions are told along the axes and about the point in which what the body can do is spanned by
 single motions, and the loads fall apart into as many as can be; the axes of the model and the
@@ -485,20 +486,24 @@ class _Found:
         held: dict[str, int] = {}
         together, against = [], {}
         for group in frame.groups:
-            for way in group:
+            # What hangs together with a motion that is held counts for that one.
+            stopped = [way for way in group if not moves[way]]
+            for way in stopped or group:
                 along = frame.loads[:, way]
                 values = np.linalg.svd(along, compute_uv=False)
                 n = int(np.count_nonzero(values > self.least))
-                if not moves[way] or n:
+                if stopped or n:
                     held[MOTIONS[way]] = 1 + n
-                if moves[way] and n:
+                if not stopped and n:
                     loaded = np.linalg.norm(along, axis=1) > self.least
                     those = [sides[k] for k in np.flatnonzero(loaded).tolist()]
                     against[MOTIONS[way]] = self._others(carrier, those)
-            if len(group) > 1:
-                n = round(float(np.sum(frame.loads[:, list(group)] ** 2)))
-                names = tuple(MOTIONS[way] for way in group)
-                together.append(Together(names, len(group) + n, len(group)))
+            n = round(float(np.sum(frame.loads[:, list(group)] ** 2)))
+            if len(stopped) == 1:
+                held[MOTIONS[stopped[0]]] = 1 + n
+            if len(stopped or group) > 1:
+                names = tuple(MOTIONS[way] for way in stopped or group)
+                together.append(Together(names, len(names) + n, len(names)))
         moving = [way for k, way in enumerate(MOTIONS) if moves[k]]
         return BodyHolding(
             carrier.name,
