@@ -241,7 +241,13 @@ def _carriers(result: Decomposition) -> list[_Carrier]:
         )
     ]
     bodies = [one for one in bodies if not _divides(result, one)] or bodies
-    bodies.sort(key=lambda one: natural(one.name))
+    # What is farthest from the ground is what the mechanism is for.
+    away, nodes_of = result.carriers.away, result.condensed.nodes
+    far = {
+        id(one): int(away[nodes_of[[*one.positions, *one.orientations]]].max(initial=0))
+        for one in bodies
+    }
+    bodies.sort(key=lambda one: (-far[id(one)], natural(one.name)))
     if bodies:
         return bodies
     joints = [joint for joint in result.carriers.joints if joint.position is not None]
