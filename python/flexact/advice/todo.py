@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import shlex
+
 import numpy as np
 
 from ..analysis.naming import Line, ended, line_of, plain
@@ -12,8 +14,8 @@ from ..util.loading import load
 from ..util.partial import attempted
 from ..util.text import TIE, harmless
 
-#: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find.
-_MOST_TO_ADVISE = 1.0e6
+#: Of a D(c) with more rows or columns than this a step takes more than some 0.3 s to find.
+_MOST_TO_ADVISE = 300
 
 
 def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
@@ -26,10 +28,10 @@ def do_this(result: Result) -> Line | None:
     """The first step of the advice, and what the mechanism is then; None where none is needed."""
     if result.verdict is Verdict.EXACT:
         return None
-    if float(result.rows) * result.columns * min(result.rows, result.columns) > _MOST_TO_ADVISE:
+    if max(result.rows, result.columns) > _MOST_TO_ADVISE:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
-            where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
+            where = f"flexact advise {shlex.quote(harmless(result.name))}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
     # Vectors of any length may stand in a model.
     with np.errstate(all="ignore"):
