@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import shlex
+
 import numpy as np
 
 from ..analysis.naming import Line, ended, line_of, plain
@@ -39,7 +41,7 @@ def do_this(result: Result) -> Line | None:
     if step is None and size > _MOST_TO_ADVISE:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
-            where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
+            where = f"flexact advise {shlex.quote(harmless(result.name))}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
     if step is None:
         return None
