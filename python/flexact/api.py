@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .advice.describe import MOST_MODES, describe
+from .advice.describe import describe
+from .advice.todo import todo_of
 from .analysis.decomposition import AccuracyGiven, asked_for
 from .analysis.json import dictionary_of, text_of
 from .analysis.result import Result, result_of
@@ -160,17 +161,21 @@ class Analysis(Result):
         made: Advice = load("flexact.advice.advice").advice_of(self, body, wanted, bodies)
         return made
 
-    def describe(self) -> str:
-        """The result in plain English: verdict, counts, decision, motions and self-stresses.
+    def describe(self, verbose: bool = False) -> str:
+        """The result in plain English, on one screen: verdict, bodies, what to do, and why.
 
         Where stiffness is given (ESTIFF), also what over-constraint costs, in a sentence.
+
+        Args:
+            verbose: Whether all is said: all motions and self-stresses, how the rank was decided,
+                and everything that may be declared, held, released or freed.
         """
-        words = describe(self, most=MOST_MODES)
-        if self.over_constrained and self.given.properties is not None:
+        costs = ""
+        if self.over_constrained and self.given.has_stiffness:
             # It takes a while to load.
-            quick, told = load("flexact.costs.quick_cost"), words
-            words = attempted("", lambda: str(quick.with_quick_cost(told, self)), words, None)
-        return words
+            quick = load("flexact.costs.quick_cost")
+            costs = attempted("", lambda: str(quick.quick_cost(self)), "", None)
+        return describe(self, verbose=verbose, todo=todo_of(self, costs))
 
     def __repr__(self) -> str:
         """Verdict, margin and size in a line."""

@@ -26,7 +26,7 @@ _DIRECTION = re.compile(rf"(?:along|about) \(({_NUMBER}(?:, {_NUMBER})+)\)")
 _PLAIN = re.compile(rf"(?<![\w.])({_NUMBER})(?![\w.]*\d)")
 #: Keys of texts that label something, and of rows of them.
 _LABELS = ("words", "label", "name", "part", "on")
-_ROWS = ("bodies", "joints", "internal_to", "parts", "calls")
+_ROWS = ("bodies", "joints", "internal_to", "parts", "calls", "declared", "free")
 #: Of a vector, what is below this part of its largest component may be told as 0.
 _ZERO = 1e-9
 
@@ -160,6 +160,7 @@ def _is_vector(parts: list[str], exact: list[float], length: float) -> bool:
 
 def _of_direction(objects: list[dict[str, Any]]) -> Callable[[re.Match[str]], str]:
     directions = [each["direction"] for each in objects if "direction" in each]
+    directions += [axis for each in objects for axis in each.get("axes", ())]
 
     def of(found: re.Match[str]) -> str:
         parts = [float(part) for part in found[1].split(", ")]

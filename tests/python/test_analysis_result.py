@@ -67,11 +67,11 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
     read = json.loads(text)
     assert list(read) == [
         *("format", "deck", "flexact", "verdict", "under_constrained", "over_constrained"),
-        *("margin", "margins", "accuracy", "degrees_of_freedom", "counts"),
+        *("margin", "margins", "accuracy", "usual_accuracy", "degrees_of_freedom", "counts"),
         *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
         *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),
         *("condition_number", "certainty", "proof", "nearly", "alternatives", "parts"),
-        *("taken_as_one", "internal_motions", "freedoms"),
+        *("taken_as_one", "internal_motions", "bodies", "held_inside", "freedoms"),
         *("motions", "self_stresses", "advice", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"

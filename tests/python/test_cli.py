@@ -41,7 +41,7 @@ def test_method_and_tolerance_are_those_that_are_asked_for(
     decks: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     arguments = ["analyse", str(decks / "over.dat"), "--method", "jacobi"]
-    assert main(arguments) == 0
+    assert main([*arguments, "-v"]) == 0
     assert "jacobi" in capsys.readouterr().out
     main([*arguments, "--tolerance", "1e-3", "--json"])
     (result,) = json_lines(capsys.readouterr().out)

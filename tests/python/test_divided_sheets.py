@@ -85,7 +85,7 @@ def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> 
 
 def but_own_counts(analysis: flexact.Analysis) -> str:
     """The words but for the counts, which are the deck's own, and what is taken as one beam."""
-    verdict, _, decision, *rest = analysis.describe().split("\n\n")
+    verdict, _, decision, *rest = analysis.describe(verbose=True).split("\n\n")
     decision = re.sub(r"Taken as one beam.*?(?=D\(c\) has)", "", decision, flags=re.S)
     return "\n\n".join((verdict, decision, *rest))
 
@@ -471,7 +471,7 @@ def test_counts_are_the_decks_own(seed: int) -> None:
     assert record["counts"]["deformations"] == own.deformations._asdict()
     assert record["degrees_of_freedom"] == declared
     assert (record["rows"], record["columns"]) == (analysis.rows, analysis.columns)
-    words = analysis.describe()
+    words = analysis.describe(verbose=True)
     for name, part in own._asdict().items():
         assert [int(word) for word in re.findall(rf"{name} +(.*)", words)[0].split()] == [*part]
     head, table = (

@@ -10,6 +10,7 @@ import pytest
 from known_models import folded_sheet, ring, twelve_trusses
 
 from flexact import Certainty, Model, analyse, read_text
+from flexact.advice.describe import describe
 from flexact.core import calls
 from flexact.core.arrays import packed
 
@@ -103,7 +104,7 @@ def test_a_zero_that_any_misalignment_lifts_has_no_margin() -> None:
         assert (margin.length, margin.angle, margin.exact_alignment) == (0.0, 0.0, True)
         assert (margin.node, margin.element) == (3, 1)
         assert margin.singular_value == pytest.approx(0.0, abs=1e-15)
-    told = " ".join(analysis.describe().split())
+    told = " ".join(describe(analysis).split())
     assert "depend on exact alignment" in told
     assert "exact alignment" in repr(analysis)
     assert not re.search(r"\d (nm|um|mm|nrad|urad|mrad)", told)

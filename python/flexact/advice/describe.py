@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from typing import NamedTuple
 
@@ -26,16 +26,18 @@ from ..analysis.naming import (
     part_in_words,
     plain,
 )
-from ..analysis.places import listed, part_words
+from ..analysis.places import listed, names_words, part_words
 from ..analysis.result import Result
 from ..analysis.verdict_words import (
     decision,
+    decision_in_short,
     declared_in_words,
     margin_line,
     verdict_in_short,
     warnings_of,
 )
 from ..analysis.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
+from ..util.groups import grouped
 from ..util.text import TIE, USUAL, harmless, table
 
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
@@ -53,37 +55,108 @@ _Table = list[tuple[str, ...]]
 _Told = Line | _Table
 
 
+#: Rows of a screen, of which some are the name, the verdict and the tables.
+_ROWS = 30
+#: How many lines on bodies and how many motions and self-stresses stand on a screen, and in how
+#: many words: the first that fit.
+_SCREENS = ((8, 12, _PARTS), (8, 6, 2), (8, 3, 2), (8, 2, 1), (6, 1, 1), (4, 1, 1), (2, 0, 1))
+#: Rows of one sentence, and warnings, on a screen.
+_MOST_OF_SENTENCE, _MOST_WARNINGS = 3, 2
+
+
 def describe(
-    result: Result, *, about_model: bool = True, most: int | None = None, width: int = USUAL
+    result: Result,
+    *,
+    about_model: bool = True,
+    most: int | None = None,
+    width: int = USUAL,
+    verbose: bool = False,
+    todo: Sequence[Line] = (),
 ) -> str:
-    """The result for people, in rows of a width.
+    """The result for people, in rows of a width: one screen, or all there is to say.
 
     Args:
         result: The result.
         about_model: Whether warnings and notes about the model or deck itself are given;
             not on a screen where they have been shown already.
         most: How many motions, and how many self-stresses, are given one by one; by default
-            all.
+            all, of a screen as many as fit.
         width: Of the rows, in columns of a terminal.
+        verbose: Whether all is said, on more than one screen.
+        todo: What is best done, and what over-constraint costs (`flexact.advice.todo`).
     """
-    sections = (
-        _verdict(result),
-        _counts(result),
-        decision(result),
-        _motions(result, most),
-        _self_stresses(result, most),
-        _notes(result, about_model),
-    )
-    blocks = (
-        [
-            table(told, width) if isinstance(told, list) else filled(told, width=width)
-            for told in section
-        ]
-        for section in sections
-    )
-    text = "\n\n".join("\n".join(block) for block in blocks if block)
+    if verbose:
+        sections: tuple[Iterable[_Told], ...] = (
+            (*_verdict(result), *held_lines(result, None), *todo, margin_line(result)),
+            (*_counts(result), line_of(f"{declared_in_words(result)}.")),
+            decision(result),
+            _motions(result, most, _PARTS, (*lines_on_motions(result),)),
+            _self_stresses(result, most, _PARTS, lines_on_self_stresses(result)),
+            _notes(result, about_model),
+        )
+        return _safe("\n\n".join(filter(None, (_block(each, width) for each in sections))))
+    text = ""
+    count = max(result.under_constrained, result.over_constrained)
+    for bodies, modes, parts in _SCREENS[0 if count <= MOST_MODES else 2 :]:
+        modes = min(modes, MOST_MODES if most is None else most)
+        first = (*_verdict(result), *held_lines(result, bodies), *todo, margin_line(result))
+        shown: tuple[Iterable[_Told], ...] = (
+            first,
+            (*_counts(result), *_ranked(result)),
+            _motions(result, modes, parts, _on_insides(result)),
+            _self_stresses(result, modes, parts, ()),
+            _first_notes(result, about_model),
+        )
+        made = (_block(each, width, _MOST_OF_SENTENCE) for each in shown)
+        text = "\n\n".join(filter(None, made))
+        if text.count("\n") < _ROWS:
+            break
+    return _safe(text)
+
+
+def _safe(text: str) -> str:
     # In the log of a service that runs tests these would be commands, of whoever names a part.
     return _COMMAND.sub(lambda found: f"{found[1]} {found[2]}", text)
+
+
+def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str:
+    """A section as rows; of a sentence the first ones."""
+    rows = []
+    for told in section:
+        if isinstance(told, list):
+            made = table(told, width)
+        else:
+            is_numbered = plain(told.head).startswith("  ")
+            made = filled(told, hanging=is_numbered, width=width)
+        lines = made.split("\n")
+        if most is not None and len(lines) > most and not isinstance(told, list):
+            lines = [*lines[: most - 1], f"{lines[most - 1][: width - 4].rstrip(' ;,.')} ..."]
+        rows += lines
+    return "\n".join(rows)
+
+
+def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
+    """A line on each body: how often its motions are held, which are declared, and free.
+
+    Equal ones are said once; then what is held too often between its ends and no body feels.
+
+    Args:
+        result: The result.
+        most: How many lines at most; None for all.
+    """
+    holding = result.holding
+    alike = grouped((body.words, body.name) for body in holding.bodies)
+    lines = [
+        (f"{names_words(names)}{', each' * (len(names) > 1)}: {words}.", len(names))
+        for words, names in alike.items()
+    ]
+    lines += [(str(each), 0) for each in holding.inside]
+    if holding.left_out:
+        lines = [(holding.left_out, 0)]
+    shown = len(lines) if most is None or len(lines) <= most else most - 1
+    yield from (line_of(harmless(words)) for words, _ in lines[:shown])
+    if rest := sum(count for _, count in lines[shown:]):
+        yield line_of(f"... and {counted(rest, 'more bod', 'y', 'ies')} (-v).")
 
 
 class VerdictInWords(NamedTuple):
@@ -133,7 +206,6 @@ def _verdict(result: Result) -> Iterator[Line]:
     if result.name:
         yield line_of(harmless(result.name).replace(" ", TIE))
     yield line_of(str(verdict_in_words(result)))
-    yield margin_line(result)
 
 
 def _counts(result: Result) -> Iterator[_Told]:
@@ -142,28 +214,48 @@ def _counts(result: Result) -> Iterator[_Told]:
         ("coordinates", *map(str, result.counts.coordinates)),
         ("deformations", *map(str, result.counts.deformations)),
     ]
+
+
+def _ranked(result: Result) -> Iterator[Line]:
+    """How many degrees of freedom are declared, and the rank, in short."""
     yield line_of(f"{declared_in_words(result)}.")
+    yield from decision_in_short(result)
 
 
-def _motions(result: Result, most: int | None) -> Iterator[Line]:
+def _motions(
+    result: Result, most: int | None, parts: int, ways: tuple[Line, ...]
+) -> Iterator[Line]:
     told = result.motions[:most]
     internal = internal_in_words(result)
     if internal and result.with_internal_declared is not None:
         told = tuple(motion for motion in told if not motion.is_internal)
-    modes = (Line((), motion_in_parts(motion, _PARTS)) for motion in told)
+    modes = (Line((), motion_in_parts(motion, parts)).shortened(parts) for motion in told)
     kind = "motion", "s", "kinematically"
-    yield from _modes(kind, result.under_constrained, len(result.motions), modes, internal)
-    yield from lines_on_motions(result)
+    yield from _modes(kind, result.under_constrained, len(result.motions), modes, most, internal)
+    yield from ways
 
 
-def _self_stresses(result: Result, most: int | None) -> Iterator[Line]:
+def _self_stresses(
+    result: Result, most: int | None, parts: int, ways: tuple[Line, ...]
+) -> Iterator[Line]:
     told = ((conflict_in_words(each), each) for each in result.self_stresses[:most])
     modes = (
-        Line((*lead, ": ") if lead else (), stress_in_parts(each, _PARTS)) for lead, each in told
+        Line((*lead, "."))
+        if lead and parts < _PARTS
+        else Line((*lead, ": ") if lead else (), stress_in_parts(each, parts)).shortened(parts)
+        for lead, each in told
     )
     kind = "self-stress", "es", "statically"
-    yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes)
-    yield from lines_on_self_stresses(result)
+    yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes, most)
+    yield from ways
+
+
+def _first_notes(result: Result, about_model: bool) -> Iterator[Line]:
+    """The first warnings and notes, and how many there are besides."""
+    lines = list(_notes(result, about_model))
+    yield from lines[:_MOST_WARNINGS]
+    if (more := len(lines) - _MOST_WARNINGS) > 0:
+        yield line_of(f"... and {counted(more, 'more warning', '', 's')} (-v).")
 
 
 def _notes(result: Result, about_model: bool) -> Iterator[Line]:
@@ -176,10 +268,15 @@ def _notes(result: Result, about_model: bool) -> Iterator[Line]:
 
 
 def _modes(
-    kind: tuple[str, str, str], count: int, given: int, modes: Iterable[Line], internal: str = ""
+    kind: tuple[str, str, str],
+    count: int,
+    given: int,
+    modes: Iterable[Line],
+    most: int | None,
+    internal: str = "",
 ) -> Iterator[Line]:
     """Modes one by one, and how many there are besides: nothing where there are none."""
-    if not count:
+    if not count or (most == 0 and not internal):
         return
     what, ending, way = kind
     many = what + ending
@@ -191,7 +288,7 @@ def _modes(
     shown = 0
     for shown, line in enumerate(modes, start=1):
         numbered = line._replace(head=(f"  {shown}. ", *line.head))
-        yield numbered.shortened(_PARTS)
+        yield numbered
     if count > shown and not internal:
         more = counted(count - shown, f"more {what}", "", ending)
         yield line_of(f"  ... and {more}")
@@ -233,19 +330,19 @@ def lines_on_motions(result: Result) -> tuple[Line, ...]:
     return tuple(_line(result, heads[item.step], item) for item in advice)
 
 
+def _on_insides(result: Result) -> tuple[Line, ...]:
+    """What the mechanism is with insides of sheets, or folds, declared; nothing without any."""
+    whole = result.with_internal_declared
+    if whole is not None:
+        return (_internal_as_one(result, whole),)
+    if result.with_folds_declared is not None:
+        return (_folds_declared(result, result.with_folds_declared),)
+    return ()
+
+
 def _lines_on_internal(result: Result, whole: Result, advice: Way) -> Iterator[Line]:
     """What makes each divided sheet or wire one beam, and what the verdict is then."""
-    chains = [chain for chain in result.given.chains if chain.condensed_classes is None]
-    names = [part_words(result.parts.of_element(chain.elements[0])) for chain in chains]
-    if len(names) > _PARTS:
-        names = [*names[: _PARTS - 1], f"{len(names) - _PARTS + 1} other parts"]
-    counts = counts_in_words(whole.under_constrained, whole.over_constrained)
-    be = "is" if len(chains) == 1 else "are"
-    start = listed(names)
-    yield line_of(
-        f"{start[:1].upper()}{start[1:]} {be} divided into beams whose deformations are not "
-        f"declared; counted as one beam each, the mechanism is {counts}."
-    )
+    yield _internal_as_one(result, whole)
     if result.given.source is None:
         yield line_of("To declare what is inside: model.declare_internal_motions()")
         return
@@ -253,13 +350,34 @@ def _lines_on_internal(result: Result, whole: Result, advice: Way) -> Iterator[L
     yield Line(("To declare what is inside, instead of RLSE: ",), statements, (), advice.more)
 
 
+def _internal_as_one(result: Result, whole: Result) -> Line:
+    """What the mechanism is with each divided sheet or wire as one beam."""
+    chains = [chain for chain in result.given.chains if chain.condensed_classes is None]
+    names = [part_words(result.parts.of_element(chain.elements[0])) for chain in chains]
+    if len(names) > _PARTS:
+        names = [*names[: _PARTS - 1], f"{len(names) - _PARTS + 1} other parts"]
+    counts = counts_in_words(whole.under_constrained, whole.over_constrained)
+    be = "is" if len(chains) == 1 else "are"
+    start = listed(names)
+    return line_of(
+        f"{start[:1].upper()}{start[1:]} {be} divided into beams whose deformations are not "
+        f"declared; counted as one beam each, the mechanism is {counts}."
+    )
+
+
 def _lines_on_folds(result: Result, whole: Result) -> Iterator[Line]:
     """What declares the folds that turn, and what is to be done then."""
-    counts = counts_in_words(whole.under_constrained, whole.over_constrained)
-    s, them = ("", "it") if len(result.folds) == 1 else ("s", "them")
+    s = "" if len(result.folds) == 1 else "s"
     yield _line(result, f"To declare the fold{s}: ", next(iter(on_motions(result))))
-    yield line_of(f"With {them} declared the mechanism is {counts}.")
+    yield _folds_declared(result, whole)
     yield from lines_on_motions(whole)
+
+
+def _folds_declared(result: Result, whole: Result) -> Line:
+    """What the mechanism is with the folds that turn declared."""
+    counts = counts_in_words(whole.under_constrained, whole.over_constrained)
+    s = "" if len(result.folds) == 1 else "s"
+    return line_of(f"With the fold{s} declared the mechanism is {counts}.")
 
 
 def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:

@@ -155,15 +155,20 @@ class Block:
         self.places = tuple(places)
 
     @cached_property
-    def _freed(self) -> RawAnalysis:
+    def freed(self) -> RawAnalysis:
+        """The decomposition with none of them declared.
+
+        Raises:
+            AnalysisError: it cannot be made.
+        """
         data = _undeclared(self._outcome.data, self.places)
         return decompose(data, Asked(self._outcome.asked.method))
 
     @cached_property
     def _rates(self) -> FloatArray:
         """(freedoms, vectors) the independent velocities in each motion of the null space."""
-        basis = self._freed.motions
-        node, axis = self._freed.column_label - 1
+        basis = self.freed.motions
+        node, axis = self.freed.column_label - 1
         # From the entries of the basis: as many motions as there may be, kept one by one at all
         # nodes, would take gigabytes.
         of_entry = basis.of_entries()
@@ -196,8 +201,8 @@ class Block:
         )[0]
         if np.abs(scale * (rates @ shares - wanted)).max() > NOT_ONE * (scale @ wanted):
             return None
-        basis = self._freed.motions
-        node, axis = self._freed.column_label - 1
+        basis = self.freed.motions
+        node, axis = self.freed.column_label - 1
         both = np.zeros((self._outcome.data.arrays.node_kind.size, 3))
         both[node, axis] = np.bincount(
             basis.place, basis.value * shares[basis.of_entries()], basis.size

@@ -94,15 +94,15 @@ def margin(result: Result, item: Margin) -> Entries:
     }
 
 
-def accuracy(result: Result) -> Entries | None:
-    """The accuracy as it was given, and whether the margin is smaller; None without one."""
-    given = result.accuracy
+def accuracy(result: Result, *, usual: bool = False) -> Entries | None:
+    """The accuracy as it was given, else None or the usual one; whether the margin is smaller."""
+    given = result.usual_accuracy if usual else result.accuracy
     if given is None:
         return None
     return {
         "length": quantity(given.length, "m"),
         "angle": None if given.angle is None else quantity(given.angle, "rad"),
-        "exceeds_margin": result.is_marginal,
+        "exceeds_margin": result.has_small_margin if usual else result.is_marginal,
     }
 
 
@@ -218,6 +218,42 @@ def taken_as_one(result: Result) -> list[Entries] | None:
             "elements": number[list(chain.elements)].tolist(),
         }
         for chain in result.condensed.chains
+    ]
+
+
+def held_bodies(result: Result) -> list[Entries] | None:
+    """How often each motion of each body is held; None of a model too large for that.
+
+    Point and axes are given where they are not the middle of the body and those of the model.
+    """
+    if result.holding.left_out:
+        return None
+    made = []
+    for body in result.bodies:
+        entry: Entries = {
+            "name": body.name,
+            "held": body.held,
+            "declared": list(body.declared),
+            "free": list(body.free),
+        }
+        if body.where:
+            entry |= {"at": quantity(body.at.tolist(), "m"), "axes": body.axes.T.tolist()}
+        if body.together:
+            entry["together"] = [
+                {"directions": list(group.directions), "held": group.held}
+                for group in body.together
+            ]
+        if body.against:
+            entry["against"] = {way: list(others) for way, others in body.against.items()}
+        made.append(entry)
+    return made
+
+
+def held_inside(result: Result) -> list[Entries]:
+    """Parts that are held too often between their ends, which no body feels."""
+    return [
+        {"parts": [part.name for part in each.parts], "too_often": each.too_often}
+        for each in result.holding.inside
     ]
 
 
@@ -515,6 +551,7 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         "margin": margin(analysis, analysis.margin),
         "margins": [margin(analysis, item) for item in analysis.margins],
         "accuracy": accuracy(analysis),
+        "usual_accuracy": accuracy(analysis, usual=True),
         "degrees_of_freedom": analysis.degrees_of_freedom,
         "counts": {name: part._asdict() for name, part in analysis.counts._asdict().items()},
         "characteristic_length": quantity(analysis.characteristic_length, "m"),
@@ -539,6 +576,8 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         "parts": parts(analysis),
         "taken_as_one": taken_as_one(analysis),
         "internal_motions": internal_motions(analysis),
+        "bodies": held_bodies(analysis),
+        "held_inside": held_inside(analysis),
         "freedoms": list(freedoms(analysis)),
         **modes[0],
         **modes[1],

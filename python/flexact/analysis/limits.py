@@ -26,6 +26,8 @@ NO_RESULTANT = 1.0e-12
 TOLD = 1.0e2 * ROUNDING
 #: Wrenches are multiples of one another where no more than this part of the largest is left.
 SAME_WRENCH = 1.0e3 * ROUNDING
+#: Of a body's loads and twists, of unit length, what is below this is none.
+HELD = 1.0e-6
 #: Components of a mode below this part of its largest are left out of the JSON.
 LEFT_OUT = 1.0e-14
 #: Below this leverage a row does not reach into a null space, far above what rounding makes of it.
@@ -71,6 +73,9 @@ NO_CHANGE = 1.0e-9
 #: Margins below this angle [rad], or this part of the characteristic length, are small: what is
 #: larger is another design, and the margin is of first order.
 SMALL_MARGIN = 0.1
+#: A margin below this is smaller than parts are usually made to [m]; of a model without stiffness,
+#: which may be in any unit, below this part of the characteristic length, or this angle [rad].
+USUAL_ACCURACY, USUAL_PART = 2.0e-5, 2.0e-4
 #: A smallest non-zero singular value below this part of the largest is worth a warning.
 CLOSE_DECISION = 1.0e-5
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ..core.elements import Dual, dual_table
 from ..util.groups import grouped
-from ..util.text import TIE, USUAL, wrapped
+from ..util.text import TIE, USUAL, number_in_words, wrapped
 from .decomposition import Decomposition
 from .freedoms import Freedom
 from .places import deformation_words, node_words, part_words
@@ -25,6 +25,7 @@ _NOUNS = frozenset(
         *("crank", "ring", "clamp", "stage"),
     )
 )
+in_words = number_in_words
 
 
 class Named(NamedTuple):
@@ -187,12 +188,6 @@ def _in_words(size: float, units: tuple[tuple[float, str], ...]) -> str:
     return f"{rounded / factor:.4g} {unit}"
 
 
-_NUMBERS = (
-    *("no", "one", "two", "three", "four", "five", "six"),
-    *("seven", "eight", "nine", "ten", "eleven", "twelve"),
-)
-
-
 def part_in_words(result: Decomposition, part: Part) -> Pieces:
     """A coordinate or a deformation."""
     if isinstance(part, Coordinate):
@@ -274,8 +269,3 @@ def counts_in_words(under: int, over: int) -> str:
     parts = [f"under-constrained by {under}"] * (under > 0)
     parts += [f"over-constrained by {over}"] * (over > 0)
     return " and ".join(parts) or "exactly constrained"
-
-
-def in_words(count: int) -> str:
-    """A number, as a word up to twelve."""
-    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)

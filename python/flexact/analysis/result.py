@@ -26,6 +26,7 @@ from ..util.text import in_short
 from .body_motions import Moves, Velocities
 from .certainty import Assessment, assess, least, margins
 from .decomposition import (
+    Accuracy,
     Asked,
     Decomposition,
     column_weights,
@@ -35,6 +36,7 @@ from .decomposition import (
     row_weights,
 )
 from .freedoms import Freedom, freedoms_of
+from .limits import USUAL_ACCURACY, USUAL_PART
 from .locate import elements_of, node_of
 from .mode_basis import (
     column_key,
@@ -53,6 +55,7 @@ from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
+    from .holding import BodyHolding, Holding
 
 
 def turning_folds(result: Result) -> tuple[tuple[int, int], ...]:
@@ -245,6 +248,23 @@ class Result(Decomposition):
         return then if (then.under_constrained, then.over_constrained) == (under, over) else None
 
     @cached_property
+    def holding(self) -> Holding:
+        """How often each body is held, and what no body feels (`flexact.analysis.holding`)."""
+        whole = self.with_internal_declared or self
+        holding_of = load("flexact.analysis.holding").holding_of
+        made: Holding = holding_of(whole, whole.freedoms, whole.motions)
+        return made
+
+    @property
+    def bodies(self) -> tuple[BodyHolding, ...]:
+        """Of each body how often each of its motions is held, and which are declared or free.
+
+        Of a mechanism without bodies the points that flexures carry; none of a large model. A
+        divided sheet or wire counts as one beam.
+        """
+        return self.holding.bodies
+
+    @cached_property
     def evidence(self) -> Evidence:
         """What small changes and rounding may make of the singular values."""
         return Evidence(self)
@@ -298,9 +318,27 @@ class Result(Decomposition):
         return self.accuracy is not None and any(self.accuracy.exceeds(self.margin))
 
     @property
+    def usual_accuracy(self) -> Accuracy:
+        """The accuracy that was given, or that to which parts are usually made.
+
+        20 um where the model has stiffness, and so is in metres; else a part of its size.
+        """
+        if self.accuracy is not None:
+            return self.accuracy
+        length = self.characteristic_length
+        if self.given.has_stiffness:
+            return Accuracy(USUAL_ACCURACY, USUAL_ACCURACY / length)
+        return Accuracy(USUAL_PART * length, USUAL_PART)
+
+    @property
+    def has_small_margin(self) -> bool:
+        """Whether the margin is smaller than the accuracy, or than parts are usually made to."""
+        return any(self.usual_accuracy.exceeds(self.margin))
+
+    @property
     def colour(self) -> str:
-        """Of the verdict, as #rrggbb; amber where exactly constrained is only marginal."""
-        if self.verdict is Verdict.EXACT and self.is_marginal:
+        """Of the verdict, as #rrggbb; amber where exactly constrained has a small margin."""
+        if self.verdict is Verdict.EXACT and self.has_small_margin:
             return MARGINAL_COLOUR
         return self.verdict.colour
 

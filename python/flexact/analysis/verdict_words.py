@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -28,22 +29,29 @@ from .places import parts_words
 from .result import Result
 from .verdict import Certainty, Margin, Proof, Verdict
 
+#: Beyond it an angle says nothing of a margin that is of first order [rad].
+_RIGHT_ANGLE = 0.5 * math.pi
 _ALIGNED = "in exact alignment"
 _ANY_MISALIGNMENT = (
     "none. A motion and a self-stress here depend on exact alignment: any misalignment lifts "
     "both, however small."
 )
+_NO_MISALIGNMENT = "no misalignment of one node or element changes this to first order"
 
 
 def margin_line(result: Result) -> Line:
-    """What would change the verdict, and by how much; then the accuracy, where it was given."""
+    """What would change the verdict, and by how much; then the accuracy, where it was given.
+
+    Of a margin that is a large part of the mechanism the size alone.
+    """
     margin, accuracy = result.margin, result.accuracy
     length, angle = _small(margin, result.characteristic_length, accuracy)
     told: Pieces = ()
     if margin.exact_alignment:
         told = (_ANY_MISALIGNMENT,)
     elif length is None and angle is None:
-        told = ("no small misalignment of one node or element would change this.",)
+        sizes = _sizes_of(margin, result.characteristic_length, accuracy)
+        told = (f"{' or '.join(sizes) or _NO_MISALIGNMENT}.",)
     else:
         if length is not None and margin.node is not None:
             moved = named_node(result, margin.node)
@@ -52,6 +60,12 @@ def margin_line(result: Result) -> Line:
             turned = named_element(result, margin.element)
             told += (*(" or ",) * bool(told), "turning ", turned, f" by {angle_in_words(angle)}")
         told += (" would change this, to first order.",)
+        if accuracy is None and result.has_small_margin:
+            usual, of = (
+                result.usual_accuracy.length,
+                "" if result.given.has_stiffness else " of this size",
+            )
+            told += (f" Parts{of} are usually made to {length_in_words(usual)}.",)
     if accuracy is not None:
         told += (f" The accuracy is {' and '.join(_sizes(*accuracy))}.",)
     return line_of("Margin: ", *told)
@@ -66,15 +80,15 @@ def margin_of_sizes(margin: Margin, characteristic: float, accuracy: Accuracy | 
     """The margin in the same words, of its numbers and the characteristic length [m]."""
     if margin.exact_alignment:
         return f"only {_ALIGNED}"
-    sizes = _sizes(*_small(margin, characteristic, accuracy))
-    return f"margin {' or '.join(sizes)}" if sizes else "no small margin"
+    sizes = _sizes_of(margin, characteristic, accuracy)
+    return f"margin {' or '.join(sizes)}" if sizes else _NO_MISALIGNMENT
 
 
 def margin_cells(result: Result) -> tuple[str, str]:
     """The margin in the cell of a table: in eight letters or so, and with the angle besides."""
     if result.margin.exact_alignment:
         return "aligned", _ALIGNED.removeprefix("in ")
-    sizes = _sizes(*_small(result.margin, result.characteristic_length, result.accuracy))
+    sizes = _sizes_of(result.margin, result.characteristic_length, result.accuracy)
     return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
 
 
@@ -123,6 +137,14 @@ def _small(
     )
 
 
+def _sizes_of(margin: Margin, characteristic: float, accuracy: Accuracy | None) -> list[str]:
+    """A margin in words: the length, and the angle where it is small or there is no length."""
+    angle = _small(margin, characteristic, accuracy)[1]
+    if margin.length is None and margin.angle is not None and margin.angle < _RIGHT_ANGLE:
+        angle = margin.angle
+    return _sizes(margin.length, angle)
+
+
 def _sizes(length: float | None, angle: float | None) -> list[str]:
     sizes = [length_in_words(length)] if length is not None else []
     return sizes + ([angle_in_words(angle)] if angle is not None else [])
@@ -169,6 +191,41 @@ def decision(result: Result) -> Iterator[Line]:
         yield line_of(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
 
 
+def decision_in_short(result: Result) -> Iterator[Line]:
+    """The rank and how sure it is, and what else may be meant where it is doubtful."""
+    rows, columns, proof = result.rows, result.columns, result.proof
+    size = f"{counted(rows, 'row', '', 's')} and {counted(columns, 'column', '', 's')}"
+    sure = ""
+    if result.certainty is Certainty.CERTAIN:
+        sure = ", numerically certain"
+        if proof is not None and proof.rank == result.rank:
+            sure = f", proven for {_OF[proof.of]}"
+    yield line_of(f"D(c) has {size}; its rank is {result.rank}{sure}.")
+    if not sure:
+        yield _doubt(result)
+
+
+def _doubt(result: Result) -> Line:
+    """What may be meant instead of what was decided."""
+    others = []
+    by_digits = (DoubtKind.DIGITS_EXPLAIN, DoubtKind.COORDINATES_ROUNDED)
+    is_rounded = any(doubt.kind in by_digits for doubt in result.assessment.doubts)
+    is_exact = False
+    for item in result.alternatives:
+        if is_rounded and not (item.under_constrained or item.over_constrained):
+            is_exact = True
+            continue
+        # Counts, and the change that leads there.
+        counts = counts_in_words(item.under_constrained, item.over_constrained)
+        ways = _sizes(item.change_m or None, item.change_rad or None)
+        others.append(f"{counts} (a change by {' or '.join(ways)})" if ways else counts)
+    meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
+    doubt = f"he decision on the rank is doubtful{meant}."
+    if is_exact:
+        return line_of(f"Exactly constrained up to the rounding of its coordinates; t{doubt}")
+    return line_of(f"T{doubt}")
+
+
 def _zeros(result: Result) -> str:
     """The zeros and their limit; a zero within it is rounding, and of rounding no digit counts."""
     zero, limit = result.gap.largest_zero, f"limit {result.tolerance:.2g}"
@@ -198,14 +255,7 @@ def _certainty(result: Result) -> Iterator[Line]:
                 f"the rank is {_proven(proof)}."
             )
     else:
-        others = []
-        for item in result.alternatives:
-            # Counts, and the change that leads there.
-            counts = counts_in_words(item.under_constrained, item.over_constrained)
-            ways = _sizes(item.change_m or None, item.change_rad or None)
-            others.append(f"{counts} (a change by {' or '.join(ways)})" if ways else counts)
-        meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
-        yield line_of(f"The decision on the rank is doubtful{meant}.")
+        yield _doubt(result)
         if proof:
             yield line_of(f"{_AS_THEY_ARE[proof.of]} the rank is {_proven(proof)}.")
 

@@ -48,7 +48,6 @@ from .elastic_design import (
     curve_against,
     direction_words,
     drives_of,
-    has_stiffness,
     over_levels,
     tolerances_of,
 )
@@ -409,7 +408,7 @@ def compute(
 ) -> Made:
     """What a design costs; see `flexact.cost`."""
     data.require_sound()
-    if not has_stiffness(data):
+    if not data.has_stiffness:
         raise model_error(
             "no-stiffness",
             "what it costs needs stiffness, and the model gives none",

@@ -21,7 +21,7 @@ from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
-from ..model.data import ModelData, Properties
+from ..model.data import Properties
 from ..util.records import Frozen, cached_property
 from .designs import (
     Misalignment,
@@ -226,12 +226,6 @@ def _moved(measures: Measures, state: State, mode: int, node: int, name: str) ->
     sizes = np.abs(shape) * np.where(state.data.arrays.node_kind > 2, measures.size, 1.0)[:, None]
     largest = float(sizes.max(initial=0.0))
     return float(sizes[index, "xyz".index(name[-1])]) / largest if largest > 0.0 else 0.0
-
-
-def has_stiffness(data: ModelData) -> bool:
-    """Whether any element has a stiffness."""
-    given = data.properties
-    return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..analysis.naming import filled, line_of
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
@@ -21,9 +20,9 @@ from ..elasticity.tolerance import MISMATCH
 from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
-from ..util.text import TIE, USUAL, harmless
+from ..util.text import TIE, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import ElasticDesign, Level, has_stiffness, tolerances_of
+from .elastic_design import ElasticDesign, Level, tolerances_of
 from .request import SHIFT
 from .resolve import Places
 from .words import costs, costs_nothing, off
@@ -38,12 +37,6 @@ _MOST_NEAR = 6
 _SMALL = 1.0e-6
 
 
-def with_quick_cost(words: str, result: Result, width: int = USUAL) -> str:
-    """The words about a result, and a paragraph of what over-constraint costs, if it is known."""
-    told = quick_cost(result)
-    return f"{words}\n\n{filled(line_of(told), width=width)}" if told else words
-
-
 def quick_cost(result: Result) -> str:
     """A sentence on the clamp and direction that matter most; empty where nothing is known.
 
@@ -53,7 +46,7 @@ def quick_cost(result: Result) -> str:
     """
     data = result.given
     too_large = data.arrays.element_number.size > _MOST
-    if not result.over_constrained or too_large or not has_stiffness(data):
+    if not result.over_constrained or too_large or not data.has_stiffness:
         return ""
     try:
         return _QuickCost(result).sentence()

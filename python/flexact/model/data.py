@@ -436,6 +436,12 @@ class ModelData(Frozen):
         """Index of each element by its number."""
         return {number: i for i, number in enumerate(self.arrays.element_number.tolist())}
 
+    @property
+    def has_stiffness(self) -> bool:
+        """Whether any element has a stiffness (ESTIFF)."""
+        given = self.properties
+        return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
+
     @cached_property
     def size(self) -> float:
         """The diagonal of the box about its positions [m]; 1 without extent."""

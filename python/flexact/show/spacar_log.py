@@ -42,7 +42,7 @@ def log_text(analysis: Result, *, most_in_mesh: int | None = None) -> str:
 
 
 def _parts(analysis: Result, most_in_mesh: int | None) -> Iterator[str]:
-    yield describe(analysis, most=MOST_MODES)
+    yield describe(analysis, most=MOST_MODES, verbose=True)
     for count, modes, what in (
         (analysis.under_constrained, analysis.motions, "motions"),
         (analysis.over_constrained, analysis.self_stresses, "self-stresses"),

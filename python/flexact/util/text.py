@@ -80,6 +80,17 @@ def significant_digits(value: float) -> int:
     return len(mantissa.strip("0"))
 
 
+_NUMBERS = (
+    *("no", "one", "two", "three", "four", "five", "six"),
+    *("seven", "eight", "nine", "ten", "eleven", "twelve"),
+)
+
+
+def number_in_words(count: int) -> str:
+    """A number, as a word up to twelve."""
+    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)
+
+
 #: Columns of text where nobody says how many there are.
 USUAL = 100
 #: Holds words together while rows are broken.

@@ -9,6 +9,7 @@ import sys
 from typing import Any
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
+from ...advice.todo import todo_of
 from ...analysis.result import Result
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
@@ -34,7 +35,18 @@ from .decks import (
 )
 from .parser import Verb, argument
 from .targets import folder_or, mesh_argument
-from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, painted, say, text_width
+from .terminal import (
+    Bar,
+    ExitCode,
+    Outcome,
+    complain,
+    give,
+    is_coloured,
+    is_verbose,
+    painted,
+    say,
+    text_width,
+)
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
 
@@ -169,19 +181,23 @@ def _words(analysis: Result, chosen: argparse.Namespace, has_files: bool) -> tup
     if chosen.log and not has_files:
         return load("flexact.show.spacar_log").spacar_log(analysis), True
     # What concerns the deck stands on stderr already.
-    width = text_width()
-    words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
-    if analysis.over_constrained and analysis.given.properties is not None:
+    missing: list[str] = []
+    costs = ""
+    if analysis.over_constrained and analysis.given.has_stiffness:
         # It takes a while to load.
-        quick, told = load("flexact.costs.quick_cost"), words
-        missing: list[str] = []
-        words = attempted(
-            "What over-constraint costs",
-            lambda: str(quick.with_quick_cost(told, analysis, width)),
-            words,
-            missing,
+        quick = load("flexact.costs.quick_cost")
+        costs = attempted(
+            "What over-constraint costs", lambda: str(quick.quick_cost(analysis)), "", missing
         )
-        complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
+    words = describe(
+        analysis,
+        about_model=False,
+        most=MOST_MODES,
+        width=text_width(),
+        verbose=is_verbose(),
+        todo=todo_of(analysis, costs),
+    )
+    complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
     return f"{_coloured(words, analysis)}\n", False
 
 
@@ -193,7 +209,7 @@ def _coloured(words: str, analysis: Result) -> str:
     verdict = r"\s+".join(map(re.escape, verdict_in_words(analysis).start.split()))
     style = "bad"
     if analysis.verdict is Verdict.EXACT:
-        style = "unsure" if analysis.is_marginal else "good"
+        style = "unsure" if analysis.has_small_margin else "good"
     return re.sub(verdict, lambda found: painted(found[0], style), words, count=1)
 
 

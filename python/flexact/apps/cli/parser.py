@@ -93,7 +93,7 @@ MANNER = Group(
                     *("-v", "--verbose"),
                     action="count",
                     default=0,
-                    help="say what is done, and how long it takes",
+                    help="say all there is to say, what is done, and how long it takes",
                 ),
             ),
         ),

@@ -23,6 +23,7 @@ from typing import Any, overload
 import numpy as np
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
+from ...advice.todo import todo_of
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
 from ...analysis.naming import Pieces, counted, plain
 from ...analysis.places import listed
@@ -237,7 +238,7 @@ def _light(analysis: Result) -> str:
     head = f"<b>{text(words)}</b>"
     line = f"border-left:5px solid {analysis.colour};padding-left:10px"
     margin = text(margin_in_short(analysis).capitalize())
-    told = escape(attempted("", lambda: describe(analysis, most=MOST_MODES), words, None))
+    told = escape(attempted("", lambda: describe(analysis, todo=todo_of(analysis)), words, None))
     return (
         f"<div><p style='{line}'>{name}{head} {margin}.</p>{still(analysis, WHOLE, words)}"
         f"<details><summary>In words</summary><pre>{told}</pre></details>"

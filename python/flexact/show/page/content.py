@@ -269,7 +269,7 @@ Advised = tuple[tuple[Line, ...], tuple[Line, ...]]
 
 def kind_of(analysis: Result) -> tuple[str, str]:
     """Class of the page and sign of a result."""
-    if analysis.verdict is Verdict.EXACT and analysis.is_marginal:
+    if analysis.verdict is Verdict.EXACT and analysis.has_small_margin:
         return MARGINAL
     return KINDS[analysis.verdict]
 
