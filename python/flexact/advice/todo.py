@@ -3,12 +3,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import islice
+
+import numpy as np
+
 from ..analysis.naming import Line, ended, line_of, plain
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..util.loading import load
 from ..util.partial import attempted
 from ..util.text import TIE, harmless
+from .step import Step
 
 #: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find.
 _MOST_TO_ADVISE = 1.0e6
@@ -16,22 +22,39 @@ _MOST_TO_ADVISE = 1.0e6
 
 def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
     """What is best done, then what over-constraint costs, where that is known."""
-    lines = [attempted("What is best done", lambda: do_this(result), None, None)]
+
+    def found() -> Line | None:
+        return do_this(result, first_steps(result, 1))
+
+    lines = [attempted("What is best done", found, None, None)]
     return tuple(line for line in (*lines, line_of(costs)) if line is not None and plain(line.head))
 
 
-def do_this(result: Result) -> Line | None:
-    """The first step of the advice, and what the mechanism is then; None where none is needed."""
+def first_steps(result: Result, most: int) -> tuple[Step, ...] | None:
+    """The first steps of the advice, none where none is needed; None where that takes long."""
     if result.verdict is Verdict.EXACT:
-        return None
+        return ()
     if float(result.rows) * result.columns * min(result.rows, result.columns) > _MOST_TO_ADVISE:
+        return None
+    # Vectors of any length may stand in a model.
+    with np.errstate(all="ignore"):
+        return tuple(islice(load("flexact.advice.advice").advice_of(result).numbered(), most))
+
+
+def do_this(result: Result, steps: Sequence[Step] | None) -> Line | None:
+    """The first step, and what the mechanism is then; None where none is needed.
+
+    Args:
+        result: The result.
+        steps: The first steps of its advice, as `first_steps` gives them.
+    """
+    if steps is None:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
             where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
-    step = next(load("flexact.advice.advice").advice_of(result).numbered(), None)
-    if step is None:
+    if not steps:
         return None
-    pieces, outcome = ended(step.words()), step.after.outcome
+    pieces, outcome = ended(steps[0].words()), steps[0].outcome
     then = "" if outcome in plain(pieces) else f", and the mechanism is {outcome}"
     return line_of(f"Do this{then}: ", *pieces)

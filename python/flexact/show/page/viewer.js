@@ -88,6 +88,16 @@ const Viewer = (() => {
       this.memberOf = rows(this.data.members.number);
       this.hingeOf = rows(this.data.hinges.number);
       this.nodeOf = rows(this.data.nodes.number);
+      this.heldOf = new Map(); // what holds a body, by its elements, or its node
+      for (const held of this.data.held) {
+        for (const number of held.own) this.heldOf.set(number, held);
+        if (!held.own.length) this.heldOf.set(`node ${held.node}`, held);
+      }
+    }
+
+    /** What holds the body of an element, or a point, by their numbers; undefined of others. */
+    holding({ element, node }) {
+      return this.heldOf.get(element === undefined ? `node ${node}` : element);
     }
 
     /** Draw everything in the present pose. */
@@ -249,7 +259,10 @@ const Viewer = (() => {
       const named = target.element !== undefined || target.node !== undefined;
       const { element, node } = named ? target : this.held || {};
       const row = this.memberOf.get(element), body = this.bodies.bodyOf.get(row);
-      this.members.mark(row === undefined || body !== undefined ? [] : [row]);
+      const held = this.holding({ element, node });
+      const by = held ? held.by.map((number) => this.memberOf.get(number)) : [];
+      this.members.mark([...by, ...(body === undefined ? [row] : [])]
+        .filter((each) => each !== undefined));
       this.bodies.mark(body === undefined ? -1 : body);
       this.nodeMark.node = this.placeOf(element, node);
       this.nodeMark.move(this.pose);
@@ -277,9 +290,11 @@ const Viewer = (() => {
     }
 
     /** Lines about what is pointed at. */
-    describe({ kind, row }) {
-      if (kind === "node") return Words.node(this.data, row, this.pose, this.movement);
-      return Words[kind](this.data, row, this.stress);
+    describe(found) {
+      const { kind, row } = found, held = this.holding(this.targetOf(found));
+      const lines = kind === "node" ? Words.node(this.data, row, this.pose, this.movement)
+        : Words[kind](this.data, row, this.stress);
+      return held ? [...lines, held.words] : lines;
     }
 
     /** The number by which the tables know what is pointed at. */
@@ -287,7 +302,10 @@ const Viewer = (() => {
       const { nodes, members, hinges, bodies } = this.data;
       if (kind === "body") return this.targetOf({ kind: "member", row: bodies.rows[row][0] });
       const { number } = { node: nodes, member: members, hinge: hinges }[kind];
-      return { [kind === "node" ? "node" : "element"]: PageData.array(number)[row] };
+      const key = kind === "node" ? "node" : "element", found = PageData.array(number)[row];
+      const held = this.holding({ [key]: found });
+      // A body is known by its first element.
+      return { [key]: held ? held[key] : found };
     }
 
     /** The page has become light or dark. */
