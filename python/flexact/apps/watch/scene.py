@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from typing import Any
 
+from ...advice.step import Step
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
 from ...analysis.naming import plain
 from ...analysis.result import Motion, Result, SelfStress
@@ -21,7 +22,8 @@ from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
 from ...show.page.assets import text
 from ...show.page.content import content_of
 from ...util.partial import attempted, why
-from ...util.text import file_name
+from ...util.text import file_name, harmless
+from .editable_model import StepEdit
 
 #: What a script ends with; anything else is a deck.
 SCRIPT = ".py"
@@ -117,6 +119,11 @@ class Shown:
     model: str = ""
 
 
+def steps_in(steps: Sequence[Step]) -> tuple[StepEdit, ...]:
+    """Steps of the advice as edits, known by their words as the page has them."""
+    return tuple(StepEdit(harmless(plain(each.pieces)), each.number, each.change) for each in steps)
+
+
 def shown_of(
     result: Result,
     summary: ResultSummary,
@@ -124,6 +131,7 @@ def shown_of(
     files: tuple[str, ...],
     *,
     is_edited: bool = False,
+    before: tuple[Result, str] | None = None,
 ) -> Shown:
     """A result as the page shows it.
 
@@ -133,8 +141,9 @@ def shown_of(
         which: Which model it is, in words.
         files: What it was made of.
         is_edited: Whether it is not that of the file.
+        before: The result before the last step of the advice, and the step in words.
     """
-    body = content_of(result, has_origin=not is_edited).body
+    body = content_of(result, has_origin=not is_edited, before=before).body
     title = verdict_word(result)
     given = result.given
     problems = given.problems

@@ -284,7 +284,7 @@ def kind_of(analysis: Result) -> tuple[str, str]:
 
 
 #: How many steps of the advice are told.
-_STEPS = 3
+STEPS = 3
 
 
 class Advised(NamedTuple):
@@ -304,7 +304,7 @@ class Advised(NamedTuple):
 def advised(analysis: Result) -> Advised:
     """What can be done; nothing where nothing need be."""
     singles = lines_on_motions(analysis), lines_on_self_stresses(analysis)
-    return Advised(first_steps(analysis, _STEPS), *singles)
+    return Advised(first_steps(analysis, STEPS), *singles)
 
 
 #: Of more bodies what holds them is folded away.
@@ -358,7 +358,9 @@ def verdict(analysis: Result, name: str, advice: Advised, held: str) -> str:
     if name:
         about = f'<span class="name">{text(name)}</span> {about}'
     line = do_this(analysis, advice.steps)
-    todo = f'<p class="todo">{flowing(line)}</p>' if line is not None else ""
+    todo = ""
+    if line is not None:
+        todo = f'<p class="todo">{flowing(line).replace("Do this", "<b>Do this</b>", 1)}</p>'
     return head(kind, sign, verdict_in_words(analysis), about, held + todo + margin)
 
 
@@ -369,6 +371,26 @@ def verdict_of_side(analysis: Result, which: str) -> str:
         f'<header class="verdict {kind}"><p class="which">{which}</p>'
         f"{_headline('h2', sign, verdict_in_words(analysis))}{margin}"
         f'<p class="about">{about}</p></header>'
+    )
+
+
+def result_side(
+    analysis: Result, data: dict[str, Any], mark: str, header: str, still: bytes | None = None
+) -> str:
+    """One of several drawings of a page, with its header and what is shown of it.
+
+    Args:
+        analysis: The result.
+        data: Of its drawing.
+        mark: What tells its names from those of the others.
+        header: HTML.
+        still: A picture as PNG, for browsers without scripts or WebGL.
+    """
+    words = str(verdict_in_words(analysis))
+    return (
+        f'<div class="viewer half {mark}side">{header}'
+        f"{drawing_part(data, still, words, left_out=left_out(analysis, data), mark=mark)}"
+        f"{choices_part(data, stuck_in(analysis), mark=mark)}</div>"
     )
 
 
@@ -450,6 +472,7 @@ def content_of(
     has_origin: bool = True,
     is_short: bool = False,
     missing: Sequence[str] = (),
+    before: tuple[Result, str] | None = None,
 ) -> Content:
     """What the page of a result holds; what of it cannot be made is left out, and told.
 
@@ -460,6 +483,8 @@ def content_of(
         has_origin: Whether it is told of what it was made, and how it is made again.
         is_short: Whether tables and deck are folded away, as among other things.
         missing: Sentences on what is left out already.
+        before: The result of the mechanism before a step of the advice was done, which is drawn
+            beside it, and the step in words.
     """
     require_kind(analysis, Result, "a page is that of a result")
     told = list(missing)
@@ -467,11 +492,16 @@ def content_of(
     def made(what: str, make: Callable[[], str]) -> str:
         return attempted(what, make, "", told)
 
-    def drawn() -> dict[str, Any]:
-        (frame,) = frames_of(drawing_of(analysis.given))
-        return viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
+    shown = (analysis,) if before is None else (analysis, before[0])
 
-    data = attempted("The drawing", drawn, None, told)
+    def drawn() -> list[dict[str, Any]]:
+        frames = frames_of(*(drawing_of(each.given) for each in shown))
+        room = FEW_SHAPES if is_short else MOST_SHAPES
+        every = zip(shown, frames, (spaces, None), strict=False)
+        return [viewer_data(each, frame, space, room) for each, frame, space in every]
+
+    datas = attempted("The drawing", drawn, [], told)
+    data = datas[0] if datas else None
     every, words = warnings_of(analysis), str(verdict_in_words(analysis))
     name = file_name(analysis.name)
     source = analysis.given.source
@@ -504,9 +534,13 @@ def content_of(
         others = left_out(analysis, data)
         drawing = drawing_part(data, still, words, below, " ".join([*told, others]).strip())
         choices = choices_part(data, stuck_in(analysis), layers(data))
+    kind = "viewer"
+    if before is not None and len(datas) > 1:
+        kind, choices = "pair tried", ""
+        drawing = _beside(analysis, datas, before, " ".join(told))
     body = (
         verdict(analysis, name, advice, held),
-        '<main class="viewer">',
+        f'<main class="{kind}">',
         drawing,
         '<div class="side">',
         choices,
@@ -518,6 +552,22 @@ def content_of(
     )
     title = f"{name or 'model'}: {verdict_word(analysis)}"
     return Content(title, "\n".join(body))
+
+
+def _beside(
+    analysis: Result, datas: Sequence[dict[str, Any]], before: tuple[Result, str], told: str
+) -> str:
+    """The drawing of a mechanism on the right of that before a step, with one set of controls."""
+    after = f'<header class="verdict {kind_of(analysis)[0]}"><p class="which"><b>Tried:</b> '
+    note = f'<p class="note">{text(told)}</p>' if told else ""
+    return (
+        '<section class="shared" aria-label="Both drawings" hidden>'
+        f"{toolbar(*datas)}</section>{note}"
+        + result_side(analysis, datas[0], "after-", f"{after}{text(before[1])}</p></header>")
+        + result_side(before[0], datas[1], "before-", verdict_of_side(before[0], "<b>Before:</b>"))
+        + '<section class="shared" aria-label="In both drawings" hidden>'
+        f"{layers(*datas)}{keys(datas[0])}</section>"
+    )
 
 
 def broken_content(error: Exception, name: str) -> Content:

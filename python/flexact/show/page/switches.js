@@ -39,8 +39,23 @@ const Switches = (() => {
       const side = root.querySelector(".side");
       if (side) side.prepend(this.section);
       for (const name of ["flexact-click", "click"]) root.addEventListener(name, this.listening);
+      this.offerSteps();
       this.refocus();
       this.renew();
+    }
+
+    /** Buttons that do the steps of the advice; the drawing before one may be hidden. */
+    offerSteps() {
+      for (const each of this.root.querySelectorAll("li[data-step]")) {
+        const { step } = each.dataset;
+        const act = button("Try", () => this.ask({ do: "try", step }, "undo"), "try");
+        act.setAttribute("aria-label", `Try: ${step}`);
+        act.dataset.key = `try ${each.value}`;
+        each.append(" ", act);
+      }
+      const pair = this.root.querySelector(".tried"), before = pair && pair.querySelector(".before-side .which");
+      if (!before) return;
+      before.append(" ", button("Hide", () => pair.classList.add("alone")));
     }
 
     /** Leave the scene, which is renewed or goes. */
@@ -276,6 +291,10 @@ const Switches = (() => {
       this.part("made").hidden = !edits.length;
       this.part("edits").replaceChildren(...edits.map(({ words, place }) => {
         const item = element("li");
+        if (!place) {
+          item.append(element("span", words));
+          return item;
+        }
         const away = button("Remove", () => this.ask(
           { do: "set", set: [{ ...place, to: "given" }] }, "undo"));
         away.setAttribute("aria-label", `Remove: ${words}`);
