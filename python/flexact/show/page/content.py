@@ -30,6 +30,7 @@ from ...analysis.verdict_words import (
     decision,
     declared_in_words,
     margin_line,
+    verdict_in_short,
     verdict_word,
     warnings_of,
 )
@@ -513,8 +514,8 @@ def content_of(
     advice = attempted("What can be done", lambda: advised(analysis), Advised(), told)
     held = made("How often each body is held", lambda: held_part(analysis))
     moving = sum(each["kind"] == "motion" for each in ([] if data is None else data["movements"]))
+    ways = advice_part(advice)
     tables: tuple[str, ...] = (
-        advice_part(advice),
         section("notes", "Notes", *map(_note, warnings)),
         made("The table of motions", lambda: motions_part(analysis, moving)),
         made("The table of self-stresses", lambda: stresses_part(analysis)),
@@ -525,7 +526,7 @@ def content_of(
         origin_part(raw, name, analysis, is_written) if has_origin else "",
     )
     if is_short:
-        tables = (folded("What can be done, tables, decision", *tables),)
+        tables, ways = (folded("What can be done, tables, decision", ways, *tables),), ""
         origin = (folded("Deck and versions", *origin),)
     drawing = "".join(f'<p class="note">{text(each)}</p>' for each in told)
     choices = ""
@@ -543,6 +544,7 @@ def content_of(
         f'<main class="{kind}">',
         drawing,
         '<div class="side">',
+        ways,
         choices,
         *tables,
         "</div>",
@@ -558,14 +560,25 @@ def _beside(
     analysis: Result, datas: Sequence[dict[str, Any]], before: tuple[Result, str], told: str
 ) -> str:
     """The drawing of a mechanism on the right of that before a step, with one set of controls."""
-    after = f'<header class="verdict {kind_of(analysis)[0]}"><p class="which"><b>Tried:</b> '
+
+    def headed(result: Result, words: str) -> str:
+        kind = kind_of(result)[0]
+        return f'<header class="verdict {kind}"><p class="which">{words}</p></header>'
+
+    heads = (
+        headed(analysis, f"<span><b>Tried:</b> {text(before[1])}</span>"),
+        headed(
+            before[0],
+            f'<b>Before: <span class="says">{text(verdict_in_short(before[0]))}</span></b>',
+        ),
+    )
     note = f'<p class="note">{text(told)}</p>' if told else ""
     return (
         '<section class="shared" aria-label="Both drawings" hidden>'
         f"{toolbar(*datas)}</section>{note}"
-        + result_side(analysis, datas[0], "after-", f"{after}{text(before[1])}</p></header>")
-        + result_side(before[0], datas[1], "before-", verdict_of_side(before[0], "<b>Before:</b>"))
-        + '<section class="shared" aria-label="In both drawings" hidden>'
+        f"{result_side(analysis, datas[0], 'after-', heads[0])}"
+        f"{result_side(before[0], datas[1], 'before-', heads[1])}"
+        '<section class="shared" aria-label="In both drawings" hidden>'
         f"{layers(*datas)}{keys(datas[0])}</section>"
     )
 
