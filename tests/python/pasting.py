@@ -221,7 +221,7 @@ def analysis_pasted(given: Model | str, result: flexact.Analysis) -> Iterator[Pa
     whole = (result.under_constrained and result.with_internal_declared) or result
     counts = whole.under_constrained, whole.over_constrained
     before: list[str] = []
-    for line in describe(result, width=1_000_000).splitlines():
+    for line in describe(result, width=1_000_000, verbose=True).splitlines():
         for head in _INSIDE:
             if line.startswith(head):
                 rest = line.removeprefix(head).split("; ")

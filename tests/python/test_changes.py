@@ -65,7 +65,7 @@ TOLD = ResultSummary(
     ("change", "words"),
     [
         ({"margin": "margin 2 mm"}, "margin 1 mm → 2 mm"),
-        ({"margin": "no small margin"}, "margin 1 mm → no small margin"),
+        ({"margin": "only in exact alignment"}, "margin 1 mm → only in exact alignment"),
         ({"stresses": ("a", "c")}, "1 of 2 self-stresses is another"),
         ({"stresses": ("d", "c")}, "2 of 2 self-stresses are others"),
         ({"stresses": ("b", "a")}, "nothing has changed that the analysis sees"),

@@ -232,7 +232,7 @@ def test_of_random_mechanisms_all_can_be_pasted(seed: int, planar: bool) -> None
 def test_json_and_page_print_the_same_statements(name: str, tmp_path: Path) -> None:
     model = made(name)
     result = flexact.analyse(model)
-    known = {*notes_in(describe(result)), *notes_in(advised(result.advice(), None))}
+    known = {*notes_in(describe(result, verbose=True)), *notes_in(advised(result.advice(), None))}
     for each in json.loads(result.to_json())["advice"]:
         assert not each["calls"] or ", ".join(each["calls"]) in known
     page = tmp_path / "page.html"
@@ -311,7 +311,8 @@ def test_a_body_stands_for_the_point_that_was_given_first() -> None:
     assert again.point("table").place == (0, 0, 0)
     result = flexact.analyse(model)
     assert [each.label for each in result.freedoms] == ["table x"]
-    assert "the table along x" in result.describe() and "stage 1 along x" not in result.describe()
+    words = result.describe(verbose=True)
+    assert "the table along x" in words and "stage 1 along x" not in words
 
 
 @pytest.mark.parametrize("first", range(5))
@@ -327,7 +328,7 @@ def test_the_first_point_of_a_body_is_the_one_given_first(first: int) -> None:
 
 
 def test_an_intermediate_stage_is_named_as_a_designer_does() -> None:
-    words = flexact.analyse(compound_guide()).describe()
+    words = flexact.analyse(compound_guide()).describe(verbose=True)
     assert "the outer stage along x" in words and "ground 1 along" not in words
 
 

@@ -18,9 +18,9 @@ from flexact import Model
 @pytest.mark.parametrize("name", NAMES)
 def test_a_result_is_told_in_the_same_words(name: str) -> None:
     data = flexact.read_text(text_of(name), name).data
-    words = without_notes(flexact.analyse(Model.from_data(plain(data))).describe())
+    words = without_notes(flexact.analyse(Model.from_data(plain(data))).describe(verbose=True))
     for seed in range(2):
         result = flexact.analyse(turned(data, seed))
         model = Model.from_data(result.given)
-        assert without_notes(result.describe()) == words
+        assert without_notes(result.describe(verbose=True)) == words
         assert [each for each in analysis_pasted(model, result) if not each.is_right] == []

@@ -119,17 +119,36 @@ def _safe(text: str) -> str:
     return _COMMAND.sub(lambda found: f"{found[1]} {found[2]}", text)
 
 
+#: Where the statements or calls begin that do what a sentence says.
+_STATEMENTS = re.compile(r" \((?:[A-Z]{3,} \d|model\.)")
+
+
+def _without_statements(text: str) -> str:
+    """A sentence without its statements of a deck or calls of Python, which stand in brackets."""
+    while found := _STATEMENTS.search(text):
+        depth, quoted, end = 0, False, found.start()
+        for end in range(found.start() + 1, len(text)):
+            quoted ^= text[end] == '"'
+            depth += 0 if quoted else (text[end] == "(") - (text[end] == ")")
+            if not depth:
+                break
+        text = text[: found.start()] + text[end + 1 :]
+    return text
+
+
 def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str:
-    """A section as rows; of a sentence the first ones."""
+    """A section as rows; of a sentence the first ones, if need be without its statements."""
     rows = []
     for told in section:
         if isinstance(told, list):
-            made = table(told, width)
-        else:
-            is_numbered = plain(told.head).startswith("  ")
-            made = filled(told, hanging=is_numbered, width=width)
-        lines = made.split("\n")
-        if most is not None and len(lines) > most and not isinstance(told, list):
+            rows += table(told, width).split("\n")
+            continue
+        hanging = plain(told.head).startswith("  ")
+        lines = filled(told, hanging=hanging, width=width).split("\n")
+        if most is not None and len(lines) > most and not told.items:
+            shorter = line_of(_without_statements(plain(told.head)))
+            lines = filled(shorter, hanging=hanging, width=width).split("\n")
+        if most is not None and len(lines) > most:
             lines = [*lines[: most - 1], f"{lines[most - 1][: width - 4].rstrip(' ;,.')} ..."]
         rows += lines
     return "\n".join(rows)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from itertools import islice
 
@@ -16,8 +17,8 @@ from ..util.partial import attempted
 from ..util.text import TIE, harmless
 from .step import Step
 
-#: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find.
-_MOST_TO_ADVISE = 1.0e6
+#: Of a D(c) with more rows or columns than this a step takes more than some 0.3 s to find.
+_MOST_TO_ADVISE = 300
 
 
 def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
@@ -34,7 +35,7 @@ def first_steps(result: Result, most: int) -> tuple[Step, ...] | None:
     """The first steps of the advice, none where none is needed; None where that takes long."""
     if result.verdict is Verdict.EXACT:
         return ()
-    if float(result.rows) * result.columns * min(result.rows, result.columns) > _MOST_TO_ADVISE:
+    if max(result.rows, result.columns) > _MOST_TO_ADVISE:
         return None
     # Vectors of any length may stand in a model.
     with np.errstate(all="ignore"):
@@ -51,7 +52,7 @@ def do_this(result: Result, steps: Sequence[Step] | None) -> Line | None:
     if steps is None:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
-            where = f"flexact advise {harmless(result.name)}".replace(" ", TIE)
+            where = f"flexact advise {shlex.quote(harmless(result.name))}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
     if not steps:
         return None

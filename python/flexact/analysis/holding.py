@@ -204,9 +204,10 @@ def holding_of(
     if len(carriers) > _MOST_BODIES:
         return Holding((), (), _TOO_MUCH)
     try:
-        return _Found(result, carriers, freedoms, motions).holding()
-    except AnalysisError:
-        return Holding((), (), _TOO_MUCH)
+        with np.errstate(over="raise", invalid="raise"):
+            return _Found(result, carriers, freedoms, motions).holding()
+    except (AnalysisError, FloatingPointError, np.linalg.LinAlgError):
+        return Holding((), (), "How often each body is held could not be counted.")
 
 
 class _Carrier(NamedTuple):
@@ -551,14 +552,16 @@ class _Found:
         if not (carrier.orientations.size and turning and is_aside):
             return {"": ", ".join(told)} if told else {}
         at = in_words(frame.at, self.length)[1:-1].split(", ")
+        made = {}
         if self.result.given.planar:
-            return {"rz": f"about the point ({', '.join(at[:2])}) m"}
-        if len(turning) > 1:
-            return {"": ", ".join((*told, f"rotations about the point ({', '.join(at)}) m"))}
-        if not told:
-            at["xyz".index(turning[0][1])] = "*"
-        line = {turning[0]: f"about the line through ({', '.join(at)}) m"}
-        return {**line, "": ", ".join(told)} if told else line
+            made["rz"] = f"about the point ({', '.join(at[:2])}) m"
+        elif len(turning) > 1:
+            told.append(f"rotations about the point ({', '.join(at)}) m")
+        else:
+            if not told:
+                at["xyz".index(turning[0][1])] = "*"
+            made[turning[0]] = f"about the line through ({', '.join(at)}) m"
+        return {**made, "": ", ".join(told)} if told else made
 
     # Points and axes --------------------------------------------------------
 
@@ -644,23 +647,11 @@ class _Found:
         if carrier.orientations.size and loads.size:
             middle, values = self._centre(carrier), self.result.data.arrays.node_value[:3]
             tried = [values[:, n] - middle for n in carrier.positions[:_MOST_PLACES]]
-            tried += self._crossings(loads)
             for each in tried:
                 step = first + along @ (along.T @ (each - first))
                 if all(np.linalg.norm(step - other) > HELD * self.length for other in made):
                     made.append(step)
         return made
-
-    def _crossings(self, loads: FloatArray) -> Iterator[FloatArray]:
-        """The point nearest to the lines of all forces, from the middle, if all pass it."""
-        force, moment = (
-            loads[:, rows].transpose(0, 2, 1).reshape(-1, 3) for rows in (_MOVED, _TURNED)
-        )
-        if np.linalg.norm(force, axis=1).max(initial=0.0) > self.least:
-            # Of step x force = moment the normal equations.
-            matrix = (force**2).sum() * np.eye(3) - force.T @ force
-            wanted = np.cross(force, moment * self.length).sum(axis=0)
-            yield np.linalg.lstsq(matrix, wanted, rcond=self.least)[0]
 
     def _axes(
         self,

@@ -236,7 +236,7 @@ def held_bodies(result: Result) -> list[Entries] | None:
             "declared": list(body.declared),
             "free": list(body.free),
         }
-        if body.where:
+        if body.where or not np.array_equal(body.axes, np.eye(3)):
             entry |= {"at": quantity(body.at.tolist(), "m"), "axes": body.axes.T.tolist()}
         if body.together:
             entry["together"] = [
