@@ -510,7 +510,7 @@ def _renewed(
         is_new = dict(statements_of(after)) != dict(statements_of(before))
         words = "The file says so itself now"
     except (KeyError, FlexactError):
-        is_new, words = False, "Dropped, as it cannot be done in the file as it is now"
+        is_new, words = False, "Dropped, as what it changes is not in the file any more"
     assert isinstance(step, StepEdit)
     said[edits] = said[below[:-1]] + (() if is_new else (f"{words}: {step.words}",))
     return (*made, step) if is_new else made

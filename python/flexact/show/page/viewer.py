@@ -273,7 +273,7 @@ def held_data(analysis: Result) -> list[dict[str, Any]]:
     numbers = analysis.given.arrays.element_number
     return [
         {
-            "words": harmless(f"{each.words[:1].upper()}{each.words[1:]}."),
+            "words": harmless(f"{each.words}."),
             body_named(analysis, each).kind: body_named(analysis, each).number,
             "own": numbers[list(each.of.elements)].tolist() if isinstance(each.of, Part) else [],
             "by": numbers[[k for part in each.by for k in part.elements]].tolist(),
