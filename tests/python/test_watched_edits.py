@@ -369,9 +369,7 @@ def test_a_step_is_tried_beside_what_was_before_and_undone(
 
 
 def test_a_step_leaves_a_part_out_and_is_written(browser: Browser, watch: Watching) -> None:
-    three = (
-        Path(__file__).resolve().parents[2] / "input_decks/flexures/planar_guide_three_sheets.dat"
-    )
+    three = ROOT / "input_decks" / "flexures" / "planar_guide_three_sheets.dat"
     page = Page(browser, watch("three.dat", three.read_text()))
     names = "return new Set(flexact.data.members.names).has('middle sheet')"
     assert browser.run(names)
