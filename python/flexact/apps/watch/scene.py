@@ -17,6 +17,7 @@ from ...analysis.naming import plain
 from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.verdict import Certainty
 from ...analysis.verdict_words import margin_in_short, verdict_in_short, verdict_word
+from ...costs.quick_cost import quick_curve
 from ...deck.diagnostics import Diagnostic, Source
 from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
 from ...show.page.assets import text
@@ -143,12 +144,13 @@ def shown_of(
         is_edited: Whether it is not that of the file.
         before: The result before the last step of the advice, and the step in words.
     """
-    body = content_of(result, has_origin=not is_edited, before=before).body
+    misaligned = attempted("", lambda: quick_curve(result), None, None)
+    content = content_of(result, has_origin=not is_edited, before=before, misaligned=misaligned)
     title = verdict_word(result)
     given = result.given
     problems = given.problems
     words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, body, summary, which, words, files)
+    return Shown(title, content.body, summary, which, words, files)
 
 
 @dataclass(frozen=True)

@@ -474,6 +474,7 @@ def content_of(
     is_short: bool = False,
     missing: Sequence[str] = (),
     before: tuple[Result, str] | None = None,
+    misaligned: dict[str, Any] | None = None,
 ) -> Content:
     """What the page of a result holds; what of it cannot be made is left out, and told.
 
@@ -486,6 +487,9 @@ def content_of(
         missing: Sentences on what is left out already.
         before: The result of the mechanism before a step of the advice was done, which is drawn
             beside it, and the step in words.
+        misaligned: What one misalignment does, to be switched on by a slider: its "words" and
+            "unit"; the "name" of what falls, in "hertz" or in parts; its "measure" at "values"
+            [m, rad]; "elements" and the "peaks" of their stress [Pa] at an error of 1.
     """
     require_kind(analysis, Result, "a page is that of a result")
     told = list(missing)
@@ -503,6 +507,8 @@ def content_of(
 
     datas = attempted("The drawing", drawn, [], told)
     data = datas[0] if datas else None
+    if data is not None and misaligned is not None:
+        data["misaligned"] = misaligned
     every, words = warnings_of(analysis), str(verdict_in_words(analysis))
     name = file_name(analysis.name)
     source = analysis.given.source
@@ -628,9 +634,10 @@ def page(
     still: bytes | None = None,
     spaces: Spaces | None = None,
     missing: Sequence[str] = (),
+    misaligned: dict[str, Any] | None = None,
 ) -> str:
     """The page of a result; arguments as those of `content_of`."""
-    content = content_of(analysis, still, spaces, missing=missing)
+    content = content_of(analysis, still, spaces, missing=missing, misaligned=misaligned)
     return filled(content.title, content.body, SCRIPTS)
 
 

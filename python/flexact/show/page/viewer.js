@@ -16,6 +16,7 @@ const Viewer = (() => {
       this.peers = []; // viewers that look from the same side, and play in step
       this.changed = () => {}; // called when something else is shown
       this.held = null; // what was clicked: its mark stays
+      this.error = 0; // size of the misalignment that is shown [m, rad]
       this.pose = Tracks.reference(data);
       this.movement = this.stress = this.space = null;
       this.quantity = "";
@@ -148,7 +149,32 @@ const Viewer = (() => {
       return made;
     }
 
+    /** Show the stress of a misalignment of a size [m, rad]; of none what was shown before. */
+    misalign(size) {
+      this.error = size;
+      this.paint();
+      this.refresh();
+    }
+
+    /** What the misalignment does at its size, and at most; stresses in MPa by rows of members. */
+    get misaligned() {
+      const { elements, peaks, values, measure } = this.data.misaligned, last = values.length - 1;
+      const at = Math.max(1, values.findIndex((each) => each >= this.error));
+      const share = (this.error - values[at - 1]) / (values[at] - values[at - 1]);
+      const most = Math.max(...peaks) * 1e-6;
+      const stress = new Float32Array(2 * this.members.plan.count);
+      elements.forEach((number, k) => {
+        const row = this.memberOf.get(number), own = peaks[k] * 1e-6 * Math.abs(this.error);
+        if (row !== undefined) stress.fill(own, 2 * row, 2 * row + 2);
+      });
+      return {
+        stress, peak: most * Math.abs(this.error), largest: most * Math.max(-values[0], values[last]),
+        measure: measure[at - 1] + share * (measure[at] - measure[at - 1]), rest: measure[values.indexOf(0)],
+      };
+    }
+
     showStress(which) {
+      this.error = 0;
       this.stress = this.data.stresses[which] || null;
       this.showLayers();
       this.presses.move(this.pose);
@@ -177,7 +203,11 @@ const Viewer = (() => {
 
     paint() {
       const { stress, quantity } = this;
-      if (!stress) {
+      if (this.error) {
+        const { stress: values, largest } = this.misaligned;
+        this.members.paintValues(values, largest);
+        this.hinges.paintOwn();
+      } else if (!stress) {
         this.members.paintOwn();
         this.hinges.paintOwn();
       } else {
@@ -201,10 +231,19 @@ const Viewer = (() => {
 
     legend() {
       const { stress, quantity, data } = this;
-      this.part("legend").hidden = !stress;
+      const stops = this.error ? data.stops.slice((data.stops.length - 1) / 2) : data.stops;
+      this.part("legend").hidden = !stress && !this.error;
+      this.part("legend-bar").style.background = PageData.gradient(stops);
+      this.part("legend-low").nextElementSibling.hidden = Boolean(this.error);
+      if (this.error) {
+        this.part("legend-name").textContent = "largest normal stress [MPa]";
+        this.part("legend-low").textContent = "0";
+        this.part("legend-high").textContent = Words.number(this.misaligned.largest);
+        this.part("legend-note").textContent = "in proportion to the misalignment";
+        return;
+      }
       if (!stress) return;
       const largest = stress.largest[quantity] || 0;
-      this.part("legend-bar").style.background = PageData.gradient(data.stops);
       this.part("legend-name").textContent = quantity
         ? `${data.names[quantity]} [${Words.unitOf(data, quantity)}]` : "";
       this.part("legend-low").textContent = largest ? Words.number(-largest) : "";
