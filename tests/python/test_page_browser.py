@@ -12,6 +12,7 @@ from reference_decks import NAMES, ROOT
 
 import flexact
 from flexact.advice.describe import verdict_in_words
+from flexact.costs.quick_cost import quick_cost, quick_curve
 from flexact.show.page import broken_page, page
 
 pytestmark = pytest.mark.dear(5)
@@ -39,6 +40,7 @@ def test_pages_of_the_paper_load_from_disk_alone(
 ) -> None:
     analysis, text = paged(ROOT / "input_decks" / f"{name}.dat")
     path = write(tmp_path / "page.html", text)
+    assert path.stat().st_size < 1_200_000
     browser.open(path)
     assert browser.requests() == [path.as_uri()]
     browser.run("flexact.play(false); flexact.layer('symbols', false)")
@@ -49,6 +51,126 @@ def test_pages_of_the_paper_load_from_disk_alone(
     head = browser.run("return document.querySelector('header').innerText")
     assert str(verdict_in_words(analysis)) in " ".join(head.split())
     assert Path(name).name in head
+
+
+def test_what_can_be_done_begins_with_the_steps_of_the_advice(
+    browser: Browser, tmp_path: Path
+) -> None:
+    analysis = browser.show(ROOT / "input_decks/flexures/double_parallel_guide.dat", tmp_path)
+    steps = browser.run(
+        "return Array.from(document.querySelectorAll('#remedies > ol > li'), e => e.textContent)"
+    )
+    assert steps == [step.statement for step in analysis.advice()[:3]]
+    assert not browser.run("return document.querySelector('#remedies details').open")
+    todo = browser.run("return document.querySelector('.todo').textContent")
+    assert todo.startswith("Do this, and the mechanism is exactly constrained: cut the inner left")
+
+
+#: Calls to mark members in the drawing.
+MARKED = """
+    window.marked = [];
+    const { members } = flexact, mark = members.mark.bind(members);
+    members.mark = (rows) => {
+      marked.push(rows.map((row) => members.data.members.names[row]));
+      mark(rows);
+    };
+"""
+
+
+def test_a_body_lights_up_what_holds_it_and_tells_how_often(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """The stage hangs on both inner sheets, which stop its rotation about x twice."""
+    browser.show(ROOT / "input_decks/flexures/double_parallel_guide.dat", tmp_path)
+    line = browser.run(
+        "return Array.from(document.querySelectorAll('.held li'), e => e.textContent)"
+        ".find((each) => each.startsWith('stage'))"
+    )
+    assert line == "stage: rx held twice; y, z, ry, rz once; x declared."
+    browser.run(MARKED)
+    holding = {"inner left, intermediate to stage", "inner right, intermediate to stage"}
+    link = "Array.from(document.querySelectorAll('.held .link')).find(e => e.innerText === 'stage')"
+    enter = f"{link}.dispatchEvent(new PointerEvent('pointerenter')); return marked.at(-1)"
+    assert set(browser.run(enter)) == holding
+    assert browser.run("return flexact.bodies.marks[0].visible")
+    browser.run(f"{link}.dispatchEvent(new PointerEvent('pointerleave'))")
+    assert browser.run("return marked.at(-1)") == []
+    # The same where the body itself is pointed at, away from its nodes.
+    browser.run("flexact.showStress(-1)")
+    browser.run("document.querySelector('.stage').scrollIntoView({ behavior: 'instant' })")
+    browser.drawn()
+    spot = browser.run(
+        "const { stage, data, bodies, pointing } = flexact;"
+        "const body = data.bodies.names.indexOf('stage');"
+        "const found = [];"
+        "for (let x = 5; x < stage.width; x += 7) for (let y = 5; y < stage.height; y += 7) {"
+        "  const { kind, row } = pointing.look(x, y) || {};"
+        "  if (kind === 'body' && row === body) found.push([x, y]); }"
+        "return found[found.length >> 1]"
+    )
+    browser.point(*spot)
+    assert set(browser.run("return marked.at(-1)")) == holding
+    tip = browser.run("return document.querySelector('.tip').innerText").splitlines()
+    assert tip == ["stage", "rigid body", line.removeprefix("stage: ")]
+    assert browser.run("return document.querySelectorAll('.held .link.lit').length") == 1
+    assert browser.console() == []
+
+
+def test_folds_are_folded_away_in_the_list_of_motions(browser: Browser, tmp_path: Path) -> None:
+    """Of six motions five are folds, which turn while nothing else moves."""
+    deck = ROOT / "input_decks/flexures/five_folded_sheets_undeclared.dat"
+    assert browser.show(deck, tmp_path).under_constrained == 6
+    seen = "return Array.from(document.querySelectorAll('#motions .mode')).filter("
+    seen += "(each) => each.checkVisibility()).length"
+    assert browser.run(seen) == 1
+    folded = "document.querySelector('#motions .folded')"
+    assert browser.run(f"return {folded}.querySelector('summary').innerText") == "+ 5 folds"
+    browser.run(f"{folded}.open = true")
+    assert browser.run(seen) == 6
+    browser.press("#motions .folded .show")
+    assert "fold" in browser.run(
+        "return document.querySelector('#motions .folded .parts').innerText"
+    )
+    assert browser.run("return flexact.movement.title").startswith("Motion ")
+
+
+def test_a_misalignment_colours_the_sheets_and_lowers_the_frequency(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """As `flexact cost` says: 48.7 um lower the first frequency by 5 %, at 130.8 um it buckles."""
+    analysis = flexact.analyse(ROOT / "input_decks" / "paper" / "six_folded_sheets.dat")
+    made = page(analysis, misaligned=quick_curve(analysis))
+    browser.open(write(tmp_path / "page.html", made))
+    tightest = flexact.cost(flexact.read(analysis.name)).tightest
+    assert tightest is not None
+    size, critical = tightest.tightest.value, tightest.critical.value
+    told = "return document.querySelector('.misaligned output').textContent"
+    assert browser.run(told).endswith("(100 %), up to 0 MPa")
+
+    def slide(to: float) -> str:
+        browser.run(
+            "const slider = document.querySelector('.misaligned input');"
+            "slider.value = arguments[0];"
+            "slider.dispatchEvent(new Event('input', { bubbles: true }))",
+            to,
+        )
+        browser.drawn()
+        return str(browser.run(told))
+
+    before = browser.pixels()
+    words = slide(size)
+    assert "first frequency" in words and "(95 %)" in words
+    (stress,) = re.findall(r"up to ([\d.]+) MPa", words)
+    assert f"with {float(stress):.1f} MPa" in quick_cost(analysis)
+    assert changed(before, browser.pixels()) > 1000
+    assert browser.run("return flexact.stress === null")
+    legend = browser.run("return document.querySelector('.legend').innerText").splitlines()
+    assert legend[:2] == ["largest normal stress [MPa]", "0"]
+    assert float(legend[2]) == pytest.approx(float(stress) * abs(critical) / size, rel=0.01)
+    assert "it buckles" in slide(1.0)
+    browser.press('[name="stress"][value="0"]')
+    assert browser.run(told).startswith("0 ")
+    assert browser.console() == []
 
 
 def test_a_broken_deck_has_a_page(browser: Browser, tmp_path: Path) -> None:

@@ -67,6 +67,8 @@ def test_nothing_lies_over_anything(script: Path, browser: Browser, tmp_path: Pa
         if width == 360:
             assert browser.run(_SMALL) == []
     # Without axes and scale the strip is bare: the mechanism, however near, stays above it.
+    browser.run("document.querySelector('.stage').scrollIntoView({behavior: 'instant'})")
+    browser.drawn()
     browser.run("flexact.overlay.context.clearRect(0, 0, 9999, 9999)")
     stage = browser.pixels()[-round(foot) + 3 : -3, 4:-4]
     assert np.ptp(stage.reshape(-1, 3), axis=0).max() <= 8

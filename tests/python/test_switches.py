@@ -14,12 +14,14 @@ from known_models import guide
 from reference_decks import NAMES, ROOT
 
 import flexact
+from flexact.analysis.naming import plain
 from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.editable_model import (
     Board,
     Edit,
     EditedDeck,
     Place,
+    RefusedError,
     edited,
     states_of,
 )
@@ -277,6 +279,79 @@ def test_whatever_is_clicked_can_be_undone(seed: int) -> None:
         assert session.history.now == state
         session.ask({"do": "undo"})
     assert same(session.model(), board.given)
+
+
+#: Folds and a waist; parts that move; a part that is left out; insides of divided sheets.
+STEPPED = (
+    "paper/folded_sheet_clamped",
+    "paper/five_folded_sheets_symmetric",
+    "paper/twelve_trusses",
+    "flexures/planar_guide_three_sheets",
+    "flexures/cross_hinge_four_beams_undeclared",
+)
+
+
+@pytest.mark.parametrize("name", STEPPED)
+def test_steps_are_those_of_the_advice_and_the_deck_does_what_they_say(name: str) -> None:
+    analysis = flexact.analyse(path_of(name))
+    session = session_of(path_of(name))
+    advised = analysis.advice()[:3]
+    assert [one.words for one in session.steps()] == [plain(one.pieces) for one in advised]
+    for step in advised:
+        assert changes(session, "try", step=plain(step.pieces))
+        made = flexact.analyse(flexact.read_text(session.deck().text.decode()))
+        counts = (made.verdict, made.under_constrained, made.over_constrained)
+        assert counts == step.after[:3]
+        assert changes(session, "undo")
+    assert same(session.model(), analysis.given)
+
+
+def test_what_a_step_has_made_is_switched_further() -> None:
+    session = session_of(path_of("paper/twelve_trusses"))
+    declared = "Declare E along y and leave out the leg AE (DYNX 5 2, without TRUSS 1)."
+    assert changes(session, "try", step=declared)
+    session.analysed(flexact.analyse(flexact.Model.from_data(session.model())))
+    with pytest.raises(RefusedError, match="there is no element 1"):
+        session.ask({"do": "look", "element": 1})
+    with pytest.raises(RefusedError, match="another state"):
+        session.ask({"do": "try", "step": declared})
+    assert switched(session, {"node": 5, "coordinate": "y", "to": "free"})
+    first, second = session.told()["edits"]
+    assert first == {"words": declared}
+    assert second["words"] == "E along y: independent \N{RIGHTWARDS ARROW} free"
+    made = flexact.analyse(flexact.read_text(session.deck().text.decode()))
+    # Four joints of three coordinates, and one bar of twelve left out.
+    assert (made.columns, made.rows) == (12, 11)
+    assert changes(session, "undo") and changes(session, "undo")
+    assert same(session.model(), session.board.given) and session.told()["edits"] == []
+
+
+def test_steps_stay_when_the_file_is_saved_and_go_when_it_says_them() -> None:
+    for name, why in zip(STEPPED[:3], ("The file says so itself now", "", "Dropped"), strict=True):
+        session = session_of(path_of(name))
+        step = session.steps()[name.endswith("trusses")]
+        assert changes(session, "try", step=step.words)
+        assert session.renew(flexact.analyse(path_of(name))) == ()
+        assert session.history.now == (step,)
+        if why:
+            text = session.deck().text.decode()
+            (said,) = session.renew(flexact.analyse(flexact.read_text(text)))
+            assert said.startswith(why) and step.words in said
+            assert session.history.now == ()
+
+
+def test_a_step_in_python_is_a_call_that_does_it() -> None:
+    model = guide()
+    session = session_of(model, Path("guide.py"))
+    session.model_name = "guide"
+    assert changes(session, "try", step=session.steps()[0].words)
+    (call,) = session.told()["calls"]
+    assert call == "guide = flexact.analyse(guide).advice()[0].apply()"
+    names = {"flexact": flexact, "guide": model}
+    exec(call, names)
+    made = names["guide"]
+    assert isinstance(made, flexact.Model) and same(made.data, session.model(), CLASSES)
+    assert flexact.analyse(made).verdict is flexact.Verdict.EXACT
 
 
 @pytest.mark.parametrize("name", [n for n in NAMES if "grid" not in n])

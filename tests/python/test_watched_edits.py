@@ -12,9 +12,12 @@ from urllib.parse import urlsplit
 
 import pytest
 from browser import Browser
+from reference_decks import ROOT
+from test_page_looks import overlapping
 from watched import Watched, until, watching
 
 import flexact
+from flexact.analysis.naming import plain
 
 pytestmark = pytest.mark.dear(4)
 
@@ -315,6 +318,75 @@ def test_everything_goes_by_keyboard(browser: Browser, watch: Watching) -> None:
     page.settled(0)
 
 
+#: Boxes of what is read and pressed, of which none may lie over another.
+BOXES = """
+    return Array.from(document.querySelectorAll('.which > *, .stage, .shown, .legend, .chip, '
+      + '.check, .toolbar button, .toolbar label, .try, .held li, .todo, .margin, #theme, '
+      + '.switches > *')).filter((each) => each.checkVisibility())
+      .map((each) => each.getBoundingClientRect()).map((b) => [b.left, b.top, b.right, b.bottom]);
+"""
+
+
+def test_a_step_is_tried_beside_what_was_before_and_undone(
+    browser: Browser, watch: Watching
+) -> None:
+    page = Page(browser, watch("guide.dat", DECK))
+    advised = flexact.analyse(flexact.read_text(DECK)).advice()[:3]
+    items = "return Array.from(document.querySelectorAll('li[data-step]'), e => e.textContent)"
+    assert browser.run(items) == [f"{step.statement} Try" for step in advised]
+    page.click("try 1")
+    page.sees("verdict", "Over-constrained by 1 \N{RIGHTWARDS ARROW} exactly constrained")
+    page.settled(1)
+    which = (
+        "return Array.from(document.querySelectorAll('.which > :first-child'), e => e.innerText)"
+    )
+    words = plain(advised[0].pieces)
+    assert browser.run(which) == [f"Tried: {words}", "Before: over-constrained by 1"]
+    assert browser.run("return drawings.map((each) => each.data.stresses.length)") == [0, 1]
+    at = "const at = (side) => document.querySelector(side).getBoundingClientRect();"
+    assert browser.run(f"{at} return at('.before-side').right <= at('.after-side').left")
+    page.sees("edits", words)
+    page.sees("lines", "RLSE")
+    for width, theme in product((1280, 360), ("light", "dark")):
+        browser.prefer(prefers_color_scheme=theme)
+        browser.resize(width, 900)
+        assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
+        assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
+    browser.resize(1280, 900)
+    browser.run("document.querySelector('.before-side .which button').click()")
+    assert not browser.run("return document.querySelector('.before-side').checkVisibility()")
+    browser.run("document.querySelector('.after-side .which button').click()")
+    page.sees("verdict", "Exactly constrained \N{RIGHTWARDS ARROW} over-constrained by 1")
+    page.settled(0)
+    assert browser.run("return document.querySelector('.tried')") is None
+    assert "Over-constrained" in browser.run("return document.querySelector('h1').innerText")
+    for width, theme in product((1280, 360), ("light", "dark")):
+        browser.prefer(prefers_color_scheme=theme)
+        browser.resize(width, 900)
+        assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
+        assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
+    assert browser.console() == []
+
+
+def test_a_step_leaves_a_part_out_and_is_written(browser: Browser, watch: Watching) -> None:
+    three = ROOT / "input_decks" / "flexures" / "planar_guide_three_sheets.dat"
+    page = Page(browser, watch("three.dat", three.read_text()))
+    names = "return new Set(flexact.data.members.names).has('middle sheet')"
+    assert browser.run(names)
+    page.click("try 1")
+    page.sees("verdict", "exactly constrained")
+    page.settled(1)
+    assert not browser.run(names)
+    page.type("name", "three_tried.dat")
+    page.click("save")
+    page.sees("said", "Written to three_tried.dat")
+    written = page.watched.file.with_name("three_tried.dat")
+    made = flexact.analyse(written)
+    assert made.verdict is flexact.Verdict.EXACT
+    assert "middle sheet" not in {part.name for part in made.parts.all}
+    written.unlink()
+
+
 def test_proposals_are_switches(browser: Browser, watch: Watching) -> None:
     page = Page(browser, watch("guide.dat", DECK))
     page.sees("proposals", "To remove the self-stress, release one of")
@@ -341,7 +413,7 @@ def test_edits_stay_when_the_deck_is_saved_or_broken(browser: Browser, watch: Wa
     page.sees("verdict", "xactly constrained")
     save(watched, file, DECK.replace("BEAM 3", "BEAN 3"))
     page.sees("off", "The file has errors")
-    assert page.hides("card") and page.hides("proposals")
+    assert page.hides("card") and page.hides("singles")
     status, answer = send(watched, b'{"do": "undo"}')
     assert status == 409 and "errors" in answer["error"]  # type: ignore[index]
     save(watched, file, DECK.replace("RLSE 1 2 5 6", "RLSE 1 2 3 5 6"))

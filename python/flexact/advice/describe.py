@@ -157,11 +157,11 @@ def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str
 
 
 #: How many bodies that are held alike are named, but for those whose numbers follow each other.
-_BODIES = 3
+MOST_ALIKE = 3
 
 
 def _together(names: Sequence[str]) -> str:
-    return plain(together_in_words([Named("element", 0, each) for each in names], _BODIES))
+    return plain(together_in_words([Named("element", 0, each) for each in names], MOST_ALIKE))
 
 
 def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:

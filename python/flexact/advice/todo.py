@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
@@ -22,29 +25,46 @@ _MOST_TO_ADVISE, _MOST_TO_REPAIR = 1.0e6, 1.0e8
 
 def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
     """What is best done, then what over-constraint costs, where that is known."""
-    lines = [attempted("What is best done", lambda: do_this(result), None, None)]
+
+    def found() -> Line | None:
+        return do_this(result, first_steps(result, 1))
+
+    lines = [attempted("What is best done", found, None, None)]
     return tuple(line for line in (*lines, line_of(costs)) if line is not None and plain(line.head))
 
 
-def do_this(result: Result) -> Line | None:
-    """The first step of the advice, and what the mechanism is then; None where none is needed."""
+def first_steps(result: Result, most: int) -> tuple[Step, ...] | None:
+    """The first steps of the advice, none where none is needed; None where that takes long.
+
+    Of large mechanisms they are repairs of few statements.
+    """
     if result.verdict is Verdict.EXACT:
-        return None
+        return ()
     size = float(result.rows) * result.columns * min(result.rows, result.columns)
-    step: Step | None = None
+    if size > _MOST_TO_REPAIR:
+        return None
+    advice = load("flexact.advice.advice").advice_of(result)
     # Vectors of any length may stand in a model.
     with np.errstate(all="ignore"):
-        if size <= _MOST_TO_REPAIR:
-            advice = load("flexact.advice.advice").advice_of(result)
-            steps = advice.numbered() if size <= _MOST_TO_ADVISE else iter(advice.repairs)
-            step = next(steps, None)
-    if step is None and size > _MOST_TO_ADVISE:
+        if size > _MOST_TO_ADVISE:
+            return tuple(replace(one, number=k) for k, one in enumerate(advice.repairs, 1)) or None
+        return tuple(islice(advice.numbered(), most))
+
+
+def do_this(result: Result, steps: Sequence[Step] | None) -> Line | None:
+    """The first step, and what the mechanism is then; None where none is needed.
+
+    Args:
+        result: The result.
+        steps: The first steps of its advice, as `first_steps` gives them.
+    """
+    if steps is None:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
             where = f"flexact advise {shlex.quote(harmless(result.name))}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
-    if step is None:
+    if not steps:
         return None
-    pieces, outcome = ended(step.words()), step.after.outcome
+    pieces, outcome = ended(steps[0].words()), steps[0].outcome
     then = "" if outcome in plain(pieces) else f", and the mechanism is {outcome}"
     return line_of(f"Do this{then}: ", *pieces)

@@ -104,6 +104,8 @@ class BodyHolding(Frozen):
         axes: (3, 3) its axes x, y and z as columns.
         where: What is said of the point and the axes behind a motion, or in brackets behind all,
             under an empty name; empty for the middle of the body and the axes of the model.
+        of: The body, or the point.
+        by: The parts that hold it.
     """
 
     name: str
@@ -115,6 +117,8 @@ class BodyHolding(Frozen):
     at: FloatArray
     axes: FloatArray
     where: dict[str, str]
+    of: Part | Joint
+    by: tuple[Part, ...]
 
     @property
     def words(self) -> str:
@@ -478,13 +482,15 @@ class _Found:
         ways = self.ways if carrier.orientations.size else [w for w in self.ways if w < 3]
         centre = self._centre(carrier)
         frame = self._frame(carrier, sides, loads, (free, movable), ways)
+        whose = carrier.of, tuple(dict.fromkeys(part for side in sides for part in side))
         if frame is None:
             count, surplus = len(ways) - movable.shape[1], loads.shape[2]
             rest = (Together(("others",), count + surplus, count),) if count + surplus else ()
             declared = self._screws(carrier, movable.shape[1] - free.shape[1], is_declared=True)
             undeclared = self._screws(carrier, free.shape[1], is_declared=False)
             return BodyHolding(
-                *(carrier.name, {}, declared, undeclared, rest, {}, centre, np.eye(3), {})
+                *(carrier.name, {}, declared, undeclared, rest, {}, centre, np.eye(3), {}),
+                *whose,
             )
         there = [self._seen(each, frame.at - centre, frame.axes) for each in (movable, free)]
         moves = _diagonal(there[0]) > 0.5
@@ -521,6 +527,7 @@ class _Found:
             frame.at,
             frame.axes,
             self._where(frame, centre, carrier, moving, held),
+            *whose,
         )
 
     def _others(self, carrier: _Carrier, sides: Sequence[tuple[Part, ...]]) -> tuple[str, ...]:

@@ -109,19 +109,21 @@ def in_a_row(sentences: Iterable[Pieces]) -> str:
     return " ".join(filter(None, map(plain, sentences)))
 
 
-def row_of(items: Sequence[Pieces], most: int | None = None) -> Pieces:
+def row_of(items: Sequence[Pieces], most: int | None = None, last: str = "and") -> Pieces:
     """Items such as "a, b and c"; of more than `most` the first, and how many more there are."""
     shown = list(items[:most])
     if len(items) > len(shown):
         shown.append((f"{len(items) - len(shown)} more",))
     made: list[Piece] = []
     for k, item in enumerate(shown):
-        made += [""] if not k else [" and "] if k == len(shown) - 1 else [", "]
+        made += [""] if not k else [f" {last} "] if k == len(shown) - 1 else [", "]
         made += item
     return tuple(piece for piece in made if piece)
 
 
-def together_in_words(parts: Sequence[Named], most: int = _MOST_TOGETHER) -> Pieces:
+def together_in_words(
+    parts: Sequence[Named], most: int = _MOST_TOGETHER, last: str = "and"
+) -> Pieces:
     """Names, such as "sheets 2, 4 and 6" or "left arms 2 to 6"; of many without a number the first.
 
     Numbers of names that begin alike are put together.
@@ -139,8 +141,8 @@ def together_in_words(parts: Sequence[Named], most: int = _MOST_TOGETHER) -> Pie
         for run in runs.values():
             short = [numbered[k][1]._replace(words=numbered[k][0]) for k in run]
             ends += [(short[0], " to ", short[-1])] if len(run) > 2 else [(each,) for each in short]
-        items.append((f"{_plural(head)} ", *row_of(ends)))
-    return row_of(items, most)
+        items.append((f"{_plural(head)} ", *row_of(ends, last=last)))
+    return row_of(items, most, last)
 
 
 def _plural(head: str) -> str:

@@ -7,6 +7,7 @@ import shlex
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,9 +21,10 @@ from ..elasticity.tolerance import MISMATCH
 from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
+from ..util.records import cached_property
 from ..util.text import TIE, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
-from .elastic_design import ElasticDesign, Level, tolerances_of
+from .elastic_design import ElasticDesign, Level, curve_against, tolerances_of
 from .request import SHIFT
 from .resolve import Places
 from .words import costs, costs_nothing, off
@@ -44,14 +46,62 @@ def quick_cost(result: Result) -> str:
     first line of `flexact cost`, with the stress at that error and where it buckles; of a model
     that would take longer the stress that a small error causes, to first order.
     """
-    data = result.given
-    too_large = data.arrays.element_number.size > _MOST
-    if not result.over_constrained or too_large or not data.has_stiffness:
+    if not _is_quick(result):
         return ""
     try:
         return _QuickCost(result).sentence()
     except FlexactError:
         return ""
+
+
+class QuickCurve(NamedTuple):
+    """What the error that matters most does in the directions in which it can be off."""
+
+    words: str
+    """Such as "clamp 11 along x"."""
+    unit: str
+    """Of its size: m or rad."""
+    values: FloatArray
+    """(n,) sizes, ascending through 0."""
+    has_masses: bool
+    """Whether what is measured is the first frequency [Hz], else the lowest stiffness."""
+    measure: FloatArray
+    """(n,) of it; 0 where it buckles."""
+    elements: tuple[int, ...]
+    """Numbers of the flexures whose section is known."""
+    peaks: FloatArray
+    """(elements,) largest normal stress [Pa], of an error of size 1, in proportion to it."""
+
+    def data(self) -> dict[str, Any]:
+        """As pages take it: of no masses the measure is in parts of that without an error."""
+        rest = 1.0 if self.has_masses else float(self.measure[self.values == 0.0][0])
+        return {
+            "words": harmless(self.words),
+            "unit": self.unit,
+            "values": self.values.tolist(),
+            "name": FREQUENCY if self.has_masses else STIFFNESS,
+            "hertz": self.has_masses,
+            "measure": (self.measure / rest).tolist(),
+            "elements": list(self.elements),
+            "peaks": self.peaks.tolist(),
+        }
+
+
+def quick_curve(result: Result) -> dict[str, Any] | None:
+    """What the error that `quick_cost` tells does, as pages take it; None where it tells none."""
+    if not _is_quick(result):
+        return None
+    try:
+        curve = _QuickCost(result).curve()
+    except FlexactError:
+        return None
+    return None if curve is None else curve.data()
+
+
+def _is_quick(result: Result) -> bool:
+    data = result.given
+    is_small = data.arrays.element_number.size <= _MOST
+    return bool(result.over_constrained) and is_small and data.has_stiffness
 
 
 class _QuickCost:
@@ -62,18 +112,52 @@ class _QuickCost:
         self.places = Places(self.data, result.parts)
         self.errors = self.places.misalignments()
 
-    def sentence(self) -> str:
-        if not 0 < len(self.errors) <= _MOST_ERRORS:
-            return ""
+    @cached_property
+    def designs(self) -> tuple[ElasticDesign, ElasticDesign]:
+        """The design, and that with one beam a sheet."""
         drives = self.places.drives()
         node = drives[0][0] if drives else self.places.point(None).node
         model = elastic(Model.from_data(self.data))
         mechanism = ElasticDesign(model, self.data.node_index[node])
-        one = replace(mechanism, elastic=replace(model, beams=1))
-        order = self._in_order(one)
-        if not order:
+        return mechanism, replace(mechanism, elastic=replace(model, beams=1))
+
+    @cached_property
+    def order(self) -> list[Misalignment]:
+        """The errors that cost something, that which matters most first."""
+        is_glance = 0 < len(self.errors) <= _MOST_ERRORS
+        return self._in_order(self.designs[1]) if is_glance else []
+
+    @property
+    def is_too_much(self) -> bool:
+        """Whether to look at each error takes too long."""
+        elements = self.designs[0].levels[-1].solution.solver.elements
+        return len(self.errors) * elements > _MOST_LOOKED_AT
+
+    def curve(self) -> QuickCurve | None:
+        if not self.order or self.is_too_much:
+            return None
+        mechanism = self.designs[0]
+        found = self._tightest(mechanism, self.order)
+        if found is None:
+            return None
+        critical, size = found.critical, found.tightest.value
+        made = curve_against(mechanism, found, critical.value if critical.is_finite else 4.0 * size)
+        states = self._states(mechanism, found.misalignment, size)
+        known = self._known(mechanism, states[-1])
+        if not known:
+            return None
+        peaks, numbers = _of(states, known, _peak) / size, self.data.arrays.element_number
+        return QuickCurve(
+            *(found.misalignment.words, found.misalignment.unit, made.values),
+            *(mechanism.has_masses, made.measure.value),
+            *(tuple(numbers[known].tolist()), peaks.reshape(-1)),
+        )
+
+    def sentence(self) -> str:
+        if not (order := self.order):
             return ""
-        if len(self.errors) * mechanism.levels[-1].solution.solver.elements > _MOST_LOOKED_AT:
+        mechanism, one = self.designs
+        if self.is_too_much:
             words = off(order[0], Number(_SMALL))
             loads = self._loads(one, order[0], _SMALL)
             return f"It costs: {words} loads {loads}, to first order. {self._more()}"
@@ -145,24 +229,11 @@ class _QuickCost:
 
     def _loads(self, mechanism: ElasticDesign, each: Misalignment, size: float) -> str:
         """Such as "sheet 1 with 12 MPa": the flexure that an error stresses most, linearly."""
-        parts = self.result.parts
-        stiff = mechanism.elastic.policy.stiff.any(axis=0)
-        which = [
-            e
-            for e in np.flatnonzero(stiff).tolist()
-            if parts.of_element(e).kind is not PartKind.BODY
-        ]
-        states = [
-            level.solution.under(size * level.stresses((each,))[:, :, 0])
-            for level in mechanism.levels
-        ]
-        known = []
-        for e in which:
-            with suppress(ElasticError):
-                peak_of(states[-1], e)
-                known.append(e)
+        parts, which = self.result.parts, self._flexures(mechanism)
+        states = self._states(mechanism, each, size)
+        known = self._known(mechanism, states[-1])
         if known:
-            values, unit = _of(states, known, lambda at, e: (peak_of(at, e),)), "Pa"
+            values, unit = _of(states, known, _peak), "Pa"
         else:
             values, unit = _of(states, which, _moment_and_force), "N m"
             values, unit = (values[:, 0], unit) if values[:, :1].any() else (values[:, 1], "N")
@@ -172,6 +243,32 @@ class _QuickCost:
         most = int(np.argmax(np.round(values / values.max(), 6)))
         what = part_words(parts.of_element((known or which)[most]))
         return f"{what} with {in_words(Number(float(f'{values[most]:.3g}')), unit)}"
+
+    def _flexures(self, mechanism: ElasticDesign) -> list[int]:
+        """Indices of elements that are no bodies and have a stiffness."""
+        stiff, parts = mechanism.elastic.policy.stiff.any(axis=0), self.result.parts
+        every = np.flatnonzero(stiff).tolist()
+        return [e for e in every if parts.of_element(e).kind is not PartKind.BODY]
+
+    def _states(self, mechanism: ElasticDesign, each: Misalignment, size: float) -> list[Solution]:
+        """Under an error of a size, of each number of beams."""
+        return [
+            level.solution.under(size * level.stresses((each,))[:, :, 0])
+            for level in mechanism.levels
+        ]
+
+    def _known(self, mechanism: ElasticDesign, at: Solution) -> list[int]:
+        """Those flexures whose section is known."""
+        known = []
+        for e in self._flexures(mechanism):
+            with suppress(ElasticError):
+                peak_of(at, e)
+                known.append(e)
+        return known
+
+
+def _peak(at: Solution, element: int) -> tuple[float]:
+    return (peak_of(at, element),)
 
 
 def _of(

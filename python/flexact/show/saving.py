@@ -68,16 +68,19 @@ def save(analysis: Result, path: Path, choice: dict[str, Any]) -> None:
     RESULTS.save(analysis, analysis.given, path, **chosen)
 
 
-def page_bytes(analysis: Result, place: str | None = None) -> bytes:
+def page_bytes(
+    analysis: Result, place: str | None = None, misaligned: dict[str, Any] | None = None
+) -> bytes:
     """The page of a result, with a still picture where the packages for it are installed.
 
     Args:
         analysis: The result.
         place: Path of the page beside an index, to which it has a link then.
+        misaligned: As of `content_of`.
     """
     missing: list[str] = []
     still = still_of(analysis, "The still picture", missing)
-    made = page(analysis, still, missing=missing)
+    made = page(analysis, still, missing=missing, misaligned=misaligned)
     return as_bytes(made if place is None else with_way_back(made, place))
 
 

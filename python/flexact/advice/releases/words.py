@@ -272,8 +272,8 @@ class Release(Step):
         """What is done, how, and where else symmetry makes it the same.
 
         Such as "cut sheet 1 to a waist at its clamp (in-plane bending free there) (RLSE 1 3);
-        likewise sheet 2", or "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2);
-        likewise F along x".
+        or instead sheet 2", or "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2);
+        or instead F along x".
         """
         outcome, purpose = outcome_as_given(self.analysis), self.purpose
         if purpose is Purpose.DECLARE and not self.change.deformations:
@@ -316,7 +316,7 @@ class Release(Step):
         if not (self.analysis.folds and nodes <= folds):
             pieces.append(f", or hold {it}{f' ({fixed})' if fixed else ''}")
         if more:
-            pieces += ["; likewise ", *_shortened(more, len(change.coordinates))]
+            pieces += ["; or instead ", *_shortened(more, len(change.coordinates))]
         return tuple(piece for piece in pieces if piece)
 
 
@@ -407,10 +407,13 @@ def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> 
     if len(phrases) > 1:
         sets = [row_of(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
     elif is_all_said:
-        return (f"; likewise{at} ", *together_in_words([each[0].part for each in others]))
+        return (
+            f"; or instead{at} ",
+            *together_in_words([each[0].part for each in others], last="or"),
+        )
     else:
         sets = [each[0].short for each in others]
-    return (f"; likewise{at} ", *_shortened(sets, len(phrases)))
+    return (f"; or instead{at} ", *_shortened(sets, len(phrases)))
 
 
 def _told(phrases: Sequence[Phrase]) -> Pieces:
@@ -427,7 +430,7 @@ def _told(phrases: Sequence[Phrase]) -> Pieces:
 def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
     """Alternatives, one behind the other; of many the first."""
     if size == 1:
-        return row_of(sets, _MOST_NAMED)
+        return row_of(sets, _MOST_NAMED, "or")
     made: list[Piece] = []
     for k, each in enumerate(sets[:_MOST_SETS]):
         made += ["; or " if k else "", *each]

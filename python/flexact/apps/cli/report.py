@@ -13,6 +13,7 @@ from pathlib import Path
 from ...analysis.differences import Side, SideError, broken_side, change_of, side_of, stored_side
 from ...analysis.result import Result
 from ...analysis.verdict_words import verdict_word
+from ...costs.quick_cost import quick_curve
 from ...deck.rendering import ProblemsError
 from ...show.page import (
     Entry,
@@ -79,7 +80,8 @@ def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
         indexed: Whether there is an index, which has a picture of each page.
     """
     with unwinding():
-        content = page_bytes(result, place if indexed else None)
+        misaligned = attempted("", lambda: quick_curve(result), None, None)
+        content = page_bytes(result, place if indexed else None, misaligned)
     with unwinding():
         picture = small_picture(result) if indexed else None
     return content, entry_of(result, place, f"{place}.html", picture)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ...analysis.verdict_words import verdict_word
+from ...costs.quick_cost import quick_curve
 from ...show.page import page
 from ...show.saving import page_bytes
 from ...show.window import opens, page_path, write_page
@@ -14,6 +15,7 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file
+from ...util.partial import attempted
 from ...util.text import harmless
 from .decks import ACCURACY_AND_BEYOND, DECISION, foreseen, read_and_analysed, take
 from .parser import Verb, argument
@@ -39,7 +41,12 @@ def _step(deck: DeckFile, chosen: argparse.Namespace) -> Outcome:
             with unwinding():
                 # A still picture takes a while; it is for browsers elsewhere.
                 kept = chosen.output is not None
-                content = page_bytes(analysis) if kept else as_bytes(page(analysis))
+                misaligned = attempted("", lambda: quick_curve(analysis), None, None)
+                content = (
+                    page_bytes(analysis, misaligned=misaligned)
+                    if kept
+                    else as_bytes(page(analysis, misaligned=misaligned))
+                )
     except BatchError:
         raise
     except Exception as unforeseen:

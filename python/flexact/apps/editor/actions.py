@@ -82,7 +82,7 @@ def _touched(change: Change) -> set[Key]:
 
 
 def _remedy(step: Step, choice: int, change: Change) -> Remedy:
-    alike = harmless(plain(step.pieces)).partition("; likewise")[0].rstrip(".")
+    alike = harmless(plain(step.pieces)).partition("; or instead")[0].rstrip(".")
     if choice > 1:
         named = ", ".join([f"{kind} {number}" for kind, number in sorted(_touched(change))][:4])
         alike = f"{alike}: likewise at {named}"

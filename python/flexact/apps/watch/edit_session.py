@@ -11,25 +11,28 @@ from http import HTTPStatus
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ...analysis.result import Result, result_of
+from ...advice.todo import first_steps
+from ...analysis.result import Result
 from ...analysis.verdict_words import margin_in_short, verdict_in_short
 from ...deck.rendering import ProblemsError
 from ...model.data import ModelData
-from ...model.reading import read_bytes
+from ...model.writing import statements_of
 from ...show.page.assets import text
-from ...show.page.content import kind_of
+from ...show.page.content import STEPS, kind_of
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import why
 from ...util.text import harmless
 from .editable_model import (
+    AllEdits,
     Board,
+    Boards,
     Edit,
     EditedDeck,
     Edits,
     Place,
     RefusedError,
     Renewal,
-    edited,
+    StepEdit,
     free_name,
     state_word,
     states_of,
@@ -46,7 +49,7 @@ from .offers import (
     proposals,
     target_named,
 )
-from .scene import Answer, Broken, ResultSummary, Shown, Stage, shown_of, summary_of
+from .scene import Answer, Broken, ResultSummary, Shown, Stage, shown_of, steps_in, summary_of
 
 #: How many steps can be undone.
 _MOST_EDITS = 200
@@ -55,15 +58,15 @@ _MOST_EDITS = 200
 class History(NamedTuple):
     """The states of the edits, and which of them holds."""
 
-    states: tuple[Edits, ...] = ((),)
+    states: tuple[AllEdits, ...] = ((),)
     at: int = 0
 
     @property
-    def now(self) -> Edits:
+    def now(self) -> AllEdits:
         """The edits that hold."""
         return self.states[self.at]
 
-    def taken(self, edits: Edits) -> History:
+    def taken(self, edits: AllEdits) -> History:
         """With a new state; what was undone is gone."""
         if edits == self.now:
             return self
@@ -74,9 +77,9 @@ class History(NamedTuple):
         """At the state before (-1) or behind (1), if there is one; else where it is."""
         return self._replace(at=min(max(self.at + step, 0), len(self.states) - 1))
 
-    def renewed(self, change: Callable[[Edits], Edits]) -> History:
+    def renewed(self, change: Callable[[AllEdits], AllEdits]) -> History:
         """With every state changed; neighbours that are the same then are one."""
-        states: list[Edits] = []
+        states: list[AllEdits] = []
         at = 0
         for k, state in enumerate(map(change, self.states)):
             if not states or state != states[-1]:
@@ -103,10 +106,11 @@ class Session:
         """
         self.watched, self.stage, self.model_name = watched, stage or Stage(watched.name), model
         self.history = History()
-        self._board: Board | None = None
+        self._boards: Boards | None = None
         self._now: Result | None = None
+        self._steps: tuple[StepEdit, ...] | None = None
         self._proposed: list[Json] | None = None
-        self._deck: tuple[Edits, EditedDeck] | None = None
+        self._deck: tuple[AllEdits, EditedDeck] | None = None
         self._is_broken = False
         self._said: tuple[str, ...] = ()
         self._lock = threading.Lock()
@@ -117,13 +121,18 @@ class Session:
 
     @property
     def board(self) -> Board:
-        """The mechanism as given.
+        """The mechanism as given, or as the last step of the advice has made it.
 
         Raises:
             RefusedError: There is none yet, or the file has errors now.
         """
-        if self._board is not None and not self._is_broken:
-            return self._board
+        return self.boards.of(self.history.now)
+
+    @property
+    def boards(self) -> Boards:
+        """The mechanism as given, and what steps have made of it; raises as `board` does."""
+        if self._boards is not None and not self._is_broken:
+            return self._boards
         words = "the file is still being analysed"
         if self._is_broken:
             words = "nothing can be changed while the file has errors: mend them first"
@@ -147,7 +156,7 @@ class Session:
                 # The file may say all of it itself now.
                 if not self.history.now:
                     return self.stage.put(answer)
-                shown = self._with_edits(now, summary_of(now))
+                shown = self._with_edits(now, summary_of(now), self._before())
             except (FlexactError, MemoryError) as error:
                 # The edits cannot be analysed with the file as it is now.
                 self.history = History()
@@ -173,14 +182,15 @@ class Session:
             Sentences on edits that are dropped, as their element or node is gone or the file
             says the same now.
         """
-        old, self._board = self._board, Board(base)
-        self._proposed, self._deck = None, None
+        old, self._boards = self._boards, Boards(base)
+        self._proposed = self._deck = self._steps = None
         self._now, self._is_broken, self._said = None, False, ()
         if old is not None:
             before = self.history
-            renewal = Renewal(old, self._board)
-            self.history = before.renewed(renewal.edits)
-            self._said = tuple(_dropped(renewal, before.now, self.history.now))
+            said: dict[AllEdits, tuple[str, ...]] = {}
+            renewed = {edits: _renewed(old, self._boards, edits, said) for edits in before.states}
+            self.history = before.renewed(renewed.__getitem__)
+            self._said = said[before.now]
         return self._said
 
     def _take(self) -> None:
@@ -204,19 +214,15 @@ class Session:
     @property
     def now(self) -> Result:
         """The analysis of the mechanism with all edits; as given where that was not made."""
-        return self.board.base if self._now is None else self._now
+        return self.boards.base if self._now is None else self._now
 
     def model(self) -> ModelData:
-        """The mechanism with all edits, of a deck as reading its changed text gives it."""
-        if not self.history.now:
-            return self.board.given
-        if self.board.given.source is None:
-            return self.board.model(self.history.now)
-        return read_bytes(self.deck().text, self.board.given.name)
+        """The mechanism with all edits."""
+        return self.boards.model(self.history.now)
 
     def analysed(self, now: Result) -> None:
         """Take the analysis of the mechanism with all edits."""
-        self._now, self._proposed = now, None
+        self._now, self._proposed, self._steps = now, None, None
 
     def _analysed(self) -> Result:
         """The analysis with all edits.
@@ -225,18 +231,27 @@ class Session:
             FlexactError: The mechanism cannot be analysed.
             MemoryError: It is too large.
         """
-        base = now = self.board.base
-        if self.history.now:
-            now = result_of(self.model(), base.asked, base.name, kind=Result)
+        now = self._result_of(self.history.now)
         self.analysed(now)
         return now
+
+    def _result_of(self, edits: AllEdits) -> Result:
+        """The analysis with some edits; behind a step it is there already."""
+        below, top = self.boards.split(edits)
+        return self.boards.analysed(self.boards.model(edits)) if top else self.boards.of(below).base
 
     def deck(self) -> EditedDeck:
         """The deck with all edits, and the lines that differ."""
         edits = self.history.now
         if self._deck is None or self._deck[0] != edits:
-            self._deck = (edits, edited(self.board.given, self.board.model(edits)))
+            self._deck = (edits, self.boards.deck(self.boards.model(edits)))
         return self._deck[1]
+
+    def steps(self) -> tuple[StepEdit, ...]:
+        """The first steps of the advice for the mechanism as it is now."""
+        if self._steps is None:
+            self._steps = steps_in(first_steps(self.now, STEPS) or ())
+        return self._steps
 
     def proposals(self) -> list[Json]:
         """What the advice proposes for the mechanism as it is now."""
@@ -271,8 +286,8 @@ class Session:
     def _show(self, now: Result) -> None:
         """Show a result, unless another one comes meanwhile."""
         self._number += 1
-        number = self._number
-        if now is self.board.base and self._file is not None:
+        number, before = self._number, self._before()
+        if not self.history.now and self._file is not None:
             self.stage.put(self._file)
             return
 
@@ -283,7 +298,7 @@ class Session:
                     if number != self._number:
                         return
                     self.stage.judge(summary)
-                shown: Answer = self._with_edits(now, summary)
+                shown: Answer = self._with_edits(now, summary, before)
             except Exception as error:
                 words = _in_short(error)
                 shown = Broken(text(words), text(words), words, ())
@@ -293,13 +308,22 @@ class Session:
 
         threading.Thread(target=show, daemon=True).start()
 
-    def _with_edits(self, now: Result, summary: ResultSummary) -> Shown:
+    def _before(self) -> tuple[Result, str] | None:
+        """The analysis before the last step of the advice, if that was the last edit; its words."""
+        last = self.history.now[-1] if self.history.now else None
+        if not isinstance(last, StepEdit):
+            return None
+        return self._result_of(self.history.now[:-1]), last.words
+
+    def _with_edits(
+        self, now: Result, summary: ResultSummary, before: tuple[Result, str] | None
+    ) -> Shown:
         """What the page shows of a result with edits."""
         assert self._file is not None
         count = len(self.history.now)
         changes = f"with {count} change{'s' * (count > 1)} that the file does not have"
         which = f"{self._file.which}, {changes}" if self._file.which else changes
-        return shown_of(now, summary, which, self._file.files, is_edited=True)
+        return shown_of(now, summary, which, self._file.files, is_edited=True, before=before)
 
     def answered(self, body: bytes) -> tuple[HTTPStatus, Json]:
         """Do what the body of a request says; what it cannot is told in words, as "error"."""
@@ -316,8 +340,8 @@ class Session:
         """Do what a request says; what is answered.
 
         Args:
-            request: A JSON object; "do" is one of "set", "undo", "redo", "reset", "look",
-                "save" and "tell".
+            request: A JSON object; "do" is one of "set", "try", "undo", "redo", "reset",
+                "look", "save" and "tell".
 
         Raises:
             RefusedError: It is not understood, or cannot be done; then nothing has changed.
@@ -326,6 +350,7 @@ class Session:
             raise RefusedError('a JSON object with "do" is wanted')
         actions: dict[str, Callable[[Mapping[str, Any]], Json]] = {
             "set": self._set,
+            "try": self._try,
             **dict.fromkeys(("undo", "redo", "reset"), self._step),
             "look": self._look,
             "save": self._save,
@@ -353,7 +378,16 @@ class Session:
         if not isinstance(given, list) or len(given) > _MOST_SWITCHES:
             raise RefusedError('"set" must be a list of what is switched')
         new = [self._edit(each) for each in given]
-        self.history = self.history.taken(self.board.edited(self.history.now, new))
+        below, top = self.boards.split(self.history.now)
+        self.history = self.history.taken((*below, *self.board.edited(top, new)))
+        return {}
+
+    def _try(self, request: Mapping[str, Any]) -> Json:
+        """Do a step of the advice, which is known by its words."""
+        step = next((one for one in self.steps() if one.words == request.get("step")), None)
+        if step is None:
+            raise RefusedError("this step is of another state of the mechanism: take one of now")
+        self.history = self.history.taken((*self.history.now, step))
         return {}
 
     def _look(self, request: Mapping[str, Any]) -> Json:
@@ -368,7 +402,8 @@ class Session:
         for key, panel in (("element", panel_of_element), ("node", panel_of_node)):
             if key in request:
                 number = _number(request, key)
-                return {"panel": panel(self.board, self.history.now, number, wanted)}
+                _, top = self.boards.split(self.history.now)
+                return {"panel": panel(self.board, top, number, wanted)}
         raise RefusedError('"element", "node" or "name" is wanted')
 
     def _save(self, request: Mapping[str, Any]) -> Json:
@@ -400,18 +435,15 @@ class Session:
 
     def told(self) -> Json:
         """All that the page shows of the session."""
-        if self._board is None or self._is_broken:
+        if self._boards is None or self._is_broken:
             is_ = "broken" if self._is_broken else "none"
             return {"is": is_, "edits": [], "undo": False, "redo": False}
-        board, edits, now = self._board, self.history.now, self.now
+        board, now = self.board, self.now
         return {
             "is": "deck" if board.given.source is not None else "model",
             "verdict": _capital(verdict_in_short(now)),
             "margin": f"{_capital(margin_in_short(now))}.",
-            "edits": [
-                {"words": edit_in_words(board, each), "place": place_json(each.place)}
-                for each in edits
-            ],
+            "edits": list(self._edits()),
             "undo": self.history.moved(-1) != self.history,
             "redo": self.history.moved(1) != self.history,
             "proposals": self.proposals(),
@@ -423,13 +455,24 @@ class Session:
             "kind": kind_of(now)[0],
         }
 
+    def _edits(self) -> Iterator[Json]:
+        """Each edit in words; what is behind the last step, with its place, can be taken away."""
+        edits = self.history.now
+        below, _ = self.boards.split(edits)
+        for k, each in enumerate(edits):
+            if isinstance(each, StepEdit):
+                yield {"words": each.words}
+                continue
+            place = {"place": place_json(each.place)} if k >= len(below) else {}
+            yield {"words": edit_in_words(self.boards.of(edits[:k]), each), **place}
+
     def _how(self) -> Json:
         """The lines of the deck or the calls of Python that do it, and the text to be copied."""
         edits, made = self.history.now, {"lines": [], "calls": [], "copy": "", "note": ""}
         if not edits:
             return made
         if self.board.given.source is None:
-            calls = [call.in_words(self.model_name) for call in self.board.calls(edits)]
+            calls = self.boards.calls(edits, self.model_name)
             return {**made, "calls": calls, "copy": "\n".join(calls)}
         deck = self.deck()
         note = ""
@@ -444,6 +487,33 @@ class Session:
             "copy": "\n".join(each.to_copy() for each in deck.statements),
             "note": note,
         }
+
+
+def _renewed(
+    old: Boards, new: Boards, edits: AllEdits, said: dict[AllEdits, tuple[str, ...]]
+) -> AllEdits:
+    """Edits of a mechanism as those of the one in its place; `said` gets what is dropped."""
+    if not edits:
+        said[edits] = ()
+        return ()
+    below, top = old.split(edits)
+    if top:
+        made = _renewed(old, new, below, said)
+        renewal = Renewal(old.of(below), new.of(made))
+        kept = renewal.edits(top)
+        said[edits] = (*said[below], *_dropped(renewal, top, kept))
+        return (*made, *kept)
+    step = below[-1]
+    made = _renewed(old, new, below[:-1], said)
+    try:
+        after, before = new.of((*made, step)).given, new.model(made)
+        is_new = dict(statements_of(after)) != dict(statements_of(before))
+        words = "The file says so itself now"
+    except (KeyError, FlexactError):
+        is_new, words = False, "Dropped, as what it changes is not in the file any more"
+    assert isinstance(step, StepEdit)
+    said[edits] = said[below[:-1]] + (() if is_new else (f"{words}: {step.words}",))
+    return (*made, step) if is_new else made
 
 
 def _dropped(renewal: Renewal, before: Edits, after: Edits) -> Iterator[str]:

@@ -23,7 +23,7 @@ from ...analysis.calls import MOST_TRIED, Call, coordinate_call, deformation_cal
 from ...analysis.change import Change
 from ...analysis.decomposition import Decomposition
 from ...analysis.places import part_of, role_of
-from ...analysis.result import Result
+from ...analysis.result import Result, result_of
 from ...core.elements import AXES, Class, NodeKind, Role, coordinate_name, element_kinds
 from ...deck.diagnostics import decode
 from ...model.data import ModelData
@@ -31,6 +31,7 @@ from ...model.deformations import AT_P, classes_of_division
 from ...model.editing import edited_to_the_letter
 from ...model.parts.chains import Chain
 from ...model.parts.parts import Parts
+from ...model.reading import read_bytes
 from ...model.writing import deck_of, statements_of
 from ...util.decks import SUFFIX
 from ...util.errors import FlexactError
@@ -113,8 +114,19 @@ def index_of(known: Mapping[int, int], kind: str, number: int) -> int:
     return known[number]
 
 
-#: Edits, in the order in which they were made.
+class StepEdit(NamedTuple):
+    """A step of the advice, done as a whole, of the mechanism with all that was edited before."""
+
+    words: str
+    number: int
+    """Its number in the advice."""
+    change: Change
+
+
+#: Edits of single places, in the order in which they were made.
 Edits = tuple[Edit, ...]
+#: Edits of single places and whole steps, in the order in which they were made.
+AllEdits = tuple[Edit | StepEdit, ...]
 
 
 class Board:
@@ -245,6 +257,67 @@ class Board:
             words = (calls for calls in ways if _is_same(made(given, calls), wanted))
             self._calls[edits] = (*before, *next(words, _by_numbers(given, wanted)))
         return self._calls[edits]
+
+
+class Boards:
+    """A mechanism as given, and what steps of the advice have made of it, each with its edits."""
+
+    def __init__(self, base: Result) -> None:
+        """Keep the analysis of the mechanism as given."""
+        self.base = base
+        self._known: dict[AllEdits, Board] = {(): Board(base)}
+
+    @staticmethod
+    def split(edits: AllEdits) -> tuple[AllEdits, Edits]:
+        """Edits up to the last step, and the edits of single places behind it."""
+        last = max((k for k, one in enumerate(edits) if isinstance(one, StepEdit)), default=-1)
+        return edits[: last + 1], tuple(one for one in edits[last + 1 :] if isinstance(one, Edit))
+
+    def of(self, edits: AllEdits) -> Board:
+        """The mechanism on which edits behind the last step are made.
+
+        Raises:
+            KeyError: A step names what is not there any more.
+            FlexactError: What a step makes of it cannot be analysed.
+        """
+        below, _ = self.split(edits)
+        if below not in self._known:
+            step = below[-1]
+            assert isinstance(step, StepEdit)
+            changed = step.change.apply(self.model(below[:-1])).data
+            self._known[below] = Board(self.analysed(changed))
+        return self._known[below]
+
+    def model(self, edits: AllEdits) -> ModelData:
+        """The mechanism with all edits."""
+        return self.of(edits).model(self.split(edits)[1])
+
+    def deck(self, changed: ModelData) -> EditedDeck:
+        """The deck of a changed mechanism, and what differs from that as given."""
+        return edited(self.base.given, changed)
+
+    def analysed(self, changed: ModelData) -> Result:
+        """The analysis of a changed mechanism, of a deck as reading its changed text gives it.
+
+        Raises:
+            FlexactError: It cannot be analysed.
+            MemoryError: It is too large.
+        """
+        base = self.base
+        if base.given.source is not None:
+            changed = read_bytes(self.deck(changed).text, base.given.name)
+        return result_of(changed, base.asked, base.name, kind=Result)
+
+    def calls(self, edits: AllEdits, name: str) -> list[str]:
+        """The calls of Python that make all edits of the model of this name."""
+        below, top = self.split(edits)
+        made = [call.in_words(name) for call in self.of(edits).calls(top)]
+        if not below:
+            return made
+        step = below[-1]
+        assert isinstance(step, StepEdit)
+        done = f"{name} = flexact.analyse({name}).advice()[{step.number - 1}].apply()"
+        return [*self.calls(below[:-1], name), done, *made]
 
 
 _BENDINGS = {

@@ -11,17 +11,20 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from typing import Any
 
+from ...advice.step import Step
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
 from ...analysis.naming import plain
 from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.verdict import Certainty
 from ...analysis.verdict_words import margin_in_short, verdict_in_short, verdict_word
+from ...costs.quick_cost import quick_curve
 from ...deck.diagnostics import Diagnostic, Source
 from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
 from ...show.page.assets import text
 from ...show.page.content import content_of
 from ...util.partial import attempted, why
-from ...util.text import file_name
+from ...util.text import file_name, harmless
+from .editable_model import StepEdit
 
 #: What a script ends with; anything else is a deck.
 SCRIPT = ".py"
@@ -117,6 +120,11 @@ class Shown:
     model: str = ""
 
 
+def steps_in(steps: Sequence[Step]) -> tuple[StepEdit, ...]:
+    """Steps of the advice as edits, known by their words as the page has them."""
+    return tuple(StepEdit(harmless(plain(each.pieces)), each.number, each.change) for each in steps)
+
+
 def shown_of(
     result: Result,
     summary: ResultSummary,
@@ -124,6 +132,7 @@ def shown_of(
     files: tuple[str, ...],
     *,
     is_edited: bool = False,
+    before: tuple[Result, str] | None = None,
 ) -> Shown:
     """A result as the page shows it.
 
@@ -133,13 +142,15 @@ def shown_of(
         which: Which model it is, in words.
         files: What it was made of.
         is_edited: Whether it is not that of the file.
+        before: The result before the last step of the advice, and the step in words.
     """
-    body = content_of(result, has_origin=not is_edited).body
+    misaligned = attempted("", lambda: quick_curve(result), None, None)
+    content = content_of(result, has_origin=not is_edited, before=before, misaligned=misaligned)
     title = verdict_word(result)
     given = result.given
     problems = given.problems
     words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, body, summary, which, words, files)
+    return Shown(title, content.body, summary, which, words, files)
 
 
 @dataclass(frozen=True)

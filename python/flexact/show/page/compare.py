@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from ...advice.describe import verdict_in_words
 from ...advice.spaces.spaces import Spaces
 from ...analysis.naming import Line, Pieces
 from ...analysis.result import Result
@@ -27,10 +26,10 @@ from .assets import (
     text,
 )
 from .charts import series_css
-from .content import SWITCH, verdict_of_side
+from .content import SWITCH, result_side, verdict_of_side
 from .controls import choices_part, keys, layers, toolbar
 from .drawing import drawing_part, frames_of
-from .viewer import Shaped, left_out, shapes_data, stuck_in, viewer_data
+from .viewer import Shaped, shapes_data, viewer_data
 
 
 def before_and_after(
@@ -76,8 +75,8 @@ def before_and_after(
         '<main class="pair">',
         f'<section class="shared" aria-label="Both drawings" hidden>{toolbar(one, two)}</section>',
         section("changes", "What changed", changes),
-        _result_side(before, one, "before-", heads[0], stills[0]),
-        _result_side(after, two, "after-", heads[1], stills[1]),
+        result_side(before, one, "before-", verdict_of_side(before, heads[0]), stills[0]),
+        result_side(after, two, "after-", verdict_of_side(after, heads[1]), stills[1]),
         f'<section class="shared" aria-label="In both drawings" hidden>{layers(one, two)}'
         f"{keys(one)}</section>",
         section("advice", "What can be done", paragraphs(told)),
@@ -85,17 +84,6 @@ def before_and_after(
     )
     styles = ("style.css", "index.css", "compare.css") if changes else ("style.css",)
     return filled(title, "\n".join(body), SCRIPTS, styles)
-
-
-def _result_side(
-    analysis: Result, data: dict[str, Any], mark: str, which: str, still: bytes | None
-) -> str:
-    words = str(verdict_in_words(analysis))
-    return (
-        f'<div class="viewer half">{verdict_of_side(analysis, which)}'
-        f"{drawing_part(data, still, words, left_out=left_out(analysis, data), mark=mark)}"
-        f"{choices_part(data, stuck_in(analysis), mark=mark)}</div>"
-    )
 
 
 class Side(NamedTuple):

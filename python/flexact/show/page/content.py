@@ -13,20 +13,24 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...advice.describe import (
+    MOST_ALIKE,
     VerdictInWords,
     lines_on_motions,
     lines_on_self_stresses,
     verdict_in_words,
 )
 from ...advice.spaces.spaces import Spaces
+from ...advice.step import Step
+from ...advice.todo import do_this, first_steps
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.naming import Line, Named, Pieces
+from ...analysis.naming import Line, Named, Pieces, counted, plain, together_in_words
 from ...analysis.result import Result
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import (
     decision,
     declared_in_words,
     margin_line,
+    verdict_in_short,
     verdict_word,
     warnings_of,
 )
@@ -34,6 +38,7 @@ from ...deck.diagnostics import Diagnostic, decode
 from ...deck.rendering import ProblemsError
 from ...model.writing import deck_of
 from ...util.errors import require_kind
+from ...util.groups import grouped
 from ...util.loading import VERSION
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
@@ -60,7 +65,7 @@ from .assets import (
 )
 from .controls import choices_part, keys, layers, toolbar
 from .drawing import drawing_part, frames_of
-from .viewer import left_out, stuck_in, viewer_data
+from .viewer import body_named, left_out, stuck_in, viewer_data
 
 #: A deck of so many lines is shown at once.
 _SHORT = 40
@@ -186,13 +191,26 @@ _OPEN = 2
 
 
 def motions_part(analysis: Result, drawn: int) -> str:
-    """The motions, a row for all that moves as one; the first `drawn` are in the drawing."""
-    parts = []
-    for k, motion in enumerate(analysis.motions[:MOST_MODES]):
+    """The motions, a row for all that moves as one; the first `drawn` are in the drawing.
+
+    Folds and what is inside of sheets and wires are folded away where anything else moves.
+    """
+    parts: dict[bool, list[str]] = {False: [], True: []}
+    told = list(zip(analysis.motions[:MOST_MODES], analysis.are_between_ends, strict=False))
+    is_apart = not all(is_between for _, is_between in told)
+    inner = 0
+    for k, (motion, is_between) in enumerate(told):
         rows = [_row(pieces) for pieces in motion_in_parts(motion, MOST_PARTS)[:MOST_PARTS]]
         content = table(("what moves", "how"), rows, kind="parts")
-        parts.append(_mode(f"Motion {k + 1}", f"movement {k}" if k < drawn else "", content, k))
-    return _modes("Motion", "s", analysis.under_constrained, parts)
+        shown_by = f"movement {k}" if k < drawn else ""
+        mine = parts[is_between and is_apart]
+        mine.append(_mode(f"Motion {k + 1}", shown_by, content, len(mine)))
+        inner += is_between and is_apart and motion.is_internal
+    folds = len(parts[True]) - inner
+    words = [counted(folds, "fold", "", "s")] * (folds > 0)
+    words += [counted(inner, "inner motion", "", "s")] * (inner > 0)
+    away = folded(f"+ {' and '.join(words)}", *parts[True])
+    return _modes("Motion", "s", analysis.under_constrained, [*parts[False], away])
 
 
 def stresses_part(analysis: Result) -> str:
@@ -259,14 +277,6 @@ MARGINAL = ("marginal", "\N{ALMOST EQUAL TO}")
 BROKEN = ("broken", "\N{MULTIPLICATION X}")
 
 
-#: How many ways to fix it stand in the head.
-_WAYS = 2
-
-
-#: What can be done about motions and about self-stresses, the best first.
-Advised = tuple[tuple[Line, ...], tuple[Line, ...]]
-
-
 def kind_of(analysis: Result) -> tuple[str, str]:
     """Class of the page and sign of a result."""
     if analysis.verdict is Verdict.EXACT and analysis.has_small_margin:
@@ -274,18 +284,57 @@ def kind_of(analysis: Result) -> tuple[str, str]:
     return KINDS[analysis.verdict]
 
 
+#: How many steps of the advice are told.
+STEPS = 3
+
+
+class Advised(NamedTuple):
+    """What can be done about a result.
+
+    Attributes:
+        steps: The first steps of its advice; None where it takes long to find them.
+        about_motions: Single changes that leave fewer motions.
+        about_stresses: Single changes that leave fewer self-stresses.
+    """
+
+    steps: tuple[Step, ...] | None = ()
+    about_motions: tuple[Line, ...] = ()
+    about_stresses: tuple[Line, ...] = ()
+
+
 def advised(analysis: Result) -> Advised:
     """What can be done; nothing where nothing need be."""
-    return lines_on_motions(analysis), lines_on_self_stresses(analysis)
+    singles = lines_on_motions(analysis), lines_on_self_stresses(analysis)
+    return Advised(first_steps(analysis, STEPS), *singles)
 
 
-def head(
-    kind: str, sign: str, verdict: VerdictInWords, about: str, margin: str = "", todo: str = ""
-) -> str:
+#: Of more bodies what holds them is folded away.
+_MOST_BODIES = 4
+
+
+def held_part(analysis: Result) -> str:
+    """A line on each body: how often its motions are held; equal ones are said once.
+
+    Each name lights up the body and what holds it.
+    """
+    alike = grouped((one.words, one) for one in analysis.bodies)
+    lines: list[Pieces] = []
+    for words, same in alike.items():
+        who = together_in_words([body_named(analysis, one) for one in same], MOST_ALIKE)
+        lines.append((*who, f"{', each' * (len(same) > 1)}: {words}."))
+    lines += [(str(each),) for each in analysis.holding.inside]
+    rows = [f"<li>{linked(pieces)}</li>" for pieces in lines]
+    shown = _MOST_BODIES if len(rows) > _MOST_BODIES + 1 else len(rows)
+    first, rest = ("".join(each) for each in (rows[:shown], rows[shown:]))
+    away = folded(f"+ {len(rows) - shown} more", f"<ul>{rest}</ul>") if rest else ""
+    return f'<div class="held"><ul>{first}</ul>{away}</div>' if rows else ""
+
+
+def head(kind: str, sign: str, verdict: VerdictInWords, about: str, summary: str = "") -> str:
     """The first lines of the page; all but the sign and the verdict are HTML."""
     return (
-        f'<header class="verdict {kind}">{_headline("h1", sign, verdict)}{margin}'
-        f'<p class="about">{about}</p>{todo}{SWITCH}</header>'
+        f'<header class="verdict {kind}">{_headline("h1", sign, verdict)}{summary}'
+        f'<p class="about">{about}</p>{SWITCH}</header>'
     )
 
 
@@ -300,12 +349,16 @@ def _headline(level: str, sign: str, verdict: VerdictInWords) -> str:
     )
 
 
-def verdict(analysis: Result, name: str, advice: Advised) -> str:
-    """The head of the page of a result: what is wrong, by how much, how sure, and what helps."""
+def verdict(analysis: Result, name: str, advice: Advised, held: str) -> str:
+    """The head of the page of a result: what is wrong, what helps, by how much, how sure."""
     kind, sign, margin, about = _judged(analysis)
     if name:
         about = f'<span class="name">{text(name)}</span> {about}'
-    return head(kind, sign, verdict_in_words(analysis), about, margin, _todo(advice))
+    line = do_this(analysis, advice.steps)
+    todo = ""
+    if line is not None:
+        todo = f'<p class="todo">{flowing(line).replace("Do this", "<b>Do this</b>", 1)}</p>'
+    return head(kind, sign, verdict_in_words(analysis), about, held + todo + margin)
 
 
 def verdict_of_side(analysis: Result, which: str) -> str:
@@ -315,6 +368,26 @@ def verdict_of_side(analysis: Result, which: str) -> str:
         f'<header class="verdict {kind}"><p class="which">{which}</p>'
         f"{_headline('h2', sign, verdict_in_words(analysis))}{margin}"
         f'<p class="about">{about}</p></header>'
+    )
+
+
+def result_side(
+    analysis: Result, data: dict[str, Any], mark: str, header: str, still: bytes | None = None
+) -> str:
+    """One of several drawings of a page, with its header and what is shown of it.
+
+    Args:
+        analysis: The result.
+        data: Of its drawing.
+        mark: What tells its names from those of the others.
+        header: HTML.
+        still: A picture as PNG, for browsers without scripts or WebGL.
+    """
+    words = str(verdict_in_words(analysis))
+    return (
+        f'<div class="viewer half {mark}side">{header}'
+        f"{drawing_part(data, still, words, left_out=left_out(analysis, data), mark=mark)}"
+        f"{choices_part(data, stuck_in(analysis), mark=mark)}</div>"
     )
 
 
@@ -346,24 +419,23 @@ def _certainty(analysis: Result) -> str:
     return f'<a class="sure doubt" href="#decision">rank doubtful{other}</a>'
 
 
-def _todo(advice: Advised) -> str:
-    """The first ways to fix it, and where the others are."""
-    shown = "".join(
-        f"<li>{kind if all(advice) else ''}{flowing(sentences[0].shortened(_WAYS))}</li>"
-        for kind, sentences in zip(("<b>Motion:</b> ", "<b>Self-stress:</b> "), advice, strict=True)
+def advice_part(advice: Advised) -> str:
+    """What can be done: the first steps of the advice; single changes are folded away."""
+    steps = "".join(
+        # What it then is stands behind what is done.
+        f'<li value="{step.number}" data-step="{text(plain(step.pieces))}">{linked(step.pieces)}'
+        f"{text(step.statement.removeprefix(plain(step.pieces)))}</li>"
+        for step in advice.steps or ()
+    )
+    both = advice.about_motions, advice.about_stresses
+    singles = "".join(
+        (f"<h3>{kind}</h3>" if all(both) else "") + paragraphs(sentences)
+        for kind, sentences in zip(("About motions", "About self-stresses"), both, strict=True)
         if sentences
     )
-    return f'<ul class="todo">{shown}</ul>' if shown else ""
-
-
-def advice_part(advice: Advised) -> str:
-    """All that can be done."""
-    parts = [
-        (f"<h3>{kind}</h3>" if all(advice) else "") + paragraphs(sentences)
-        for kind, sentences in zip(("About motions", "About self-stresses"), advice, strict=True)
-        if sentences
-    ]
-    return section("remedies", "What can be done", *parts)
+    if steps:
+        singles = folded("Single changes", singles)
+    return section("remedies", "What can be done", f"<ol>{steps}</ol>" * bool(steps), singles)
 
 
 def decision_part(analysis: Result) -> str:
@@ -397,6 +469,8 @@ def content_of(
     has_origin: bool = True,
     is_short: bool = False,
     missing: Sequence[str] = (),
+    before: tuple[Result, str] | None = None,
+    misaligned: dict[str, Any] | None = None,
 ) -> Content:
     """What the page of a result holds; what of it cannot be made is left out, and told.
 
@@ -407,6 +481,11 @@ def content_of(
         has_origin: Whether it is told of what it was made, and how it is made again.
         is_short: Whether tables and deck are folded away, as among other things.
         missing: Sentences on what is left out already.
+        before: The result of the mechanism before a step of the advice was done, which is drawn
+            beside it, and the step in words.
+        misaligned: What one misalignment does, to be switched on by a slider: its "words" and
+            "unit"; the "name" of what falls, in "hertz" or in parts; its "measure" at "values"
+            [m, rad]; "elements" and the "peaks" of their stress [Pa] at an error of 1.
     """
     require_kind(analysis, Result, "a page is that of a result")
     told = list(missing)
@@ -414,11 +493,18 @@ def content_of(
     def made(what: str, make: Callable[[], str]) -> str:
         return attempted(what, make, "", told)
 
-    def drawn() -> dict[str, Any]:
-        (frame,) = frames_of(drawing_of(analysis.given))
-        return viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
+    shown = (analysis,) if before is None else (analysis, before[0])
 
-    data = attempted("The drawing", drawn, None, told)
+    def drawn() -> list[dict[str, Any]]:
+        frames = frames_of(*(drawing_of(each.given) for each in shown))
+        room = FEW_SHAPES if is_short else MOST_SHAPES
+        every = zip(shown, frames, (spaces, None), strict=False)
+        return [viewer_data(each, frame, space, room) for each, frame, space in every]
+
+    datas = attempted("The drawing", drawn, [], told)
+    data = datas[0] if datas else None
+    if data is not None and misaligned is not None:
+        data["misaligned"] = misaligned
     every, words = warnings_of(analysis), str(verdict_in_words(analysis))
     name = file_name(analysis.name)
     source = analysis.given.source
@@ -427,10 +513,11 @@ def content_of(
     )
     warnings = [item for item in every if item.line == 0]
     in_deck = [item for item in every if item.line > 0]
-    advice = attempted("What can be done", lambda: advised(analysis), ((), ()), told)
+    advice = attempted("What can be done", lambda: advised(analysis), Advised(), told)
+    held = made("How often each body is held", lambda: held_part(analysis))
     moving = sum(each["kind"] == "motion" for each in ([] if data is None else data["movements"]))
+    ways = advice_part(advice)
     tables: tuple[str, ...] = (
-        advice_part(advice),
         section("notes", "Notes", *map(_note, warnings)),
         made("The table of motions", lambda: motions_part(analysis, moving)),
         made("The table of self-stresses", lambda: stresses_part(analysis)),
@@ -441,7 +528,7 @@ def content_of(
         origin_part(raw, name, analysis, is_written) if has_origin else "",
     )
     if is_short:
-        tables = (folded("What can be done, tables, decision", *tables),)
+        tables, ways = (folded("What can be done, tables, decision", ways, *tables),), ""
         origin = (folded("Deck and versions", *origin),)
     drawing = "".join(f'<p class="note">{text(each)}</p>' for each in told)
     choices = ""
@@ -450,11 +537,16 @@ def content_of(
         others = left_out(analysis, data)
         drawing = drawing_part(data, still, words, below, " ".join([*told, others]).strip())
         choices = choices_part(data, stuck_in(analysis), layers(data))
+    kind = "viewer"
+    if before is not None and len(datas) > 1:
+        kind, choices = "pair tried", ""
+        drawing = _beside(analysis, datas, before, " ".join(told))
     body = (
-        verdict(analysis, name, advice),
-        '<main class="viewer">',
+        verdict(analysis, name, advice, held),
+        f'<main class="{kind}">',
         drawing,
         '<div class="side">',
+        ways,
         choices,
         *tables,
         "</div>",
@@ -464,6 +556,33 @@ def content_of(
     )
     title = f"{name or 'model'}: {verdict_word(analysis)}"
     return Content(title, "\n".join(body))
+
+
+def _beside(
+    analysis: Result, datas: Sequence[dict[str, Any]], before: tuple[Result, str], told: str
+) -> str:
+    """The drawing of a mechanism on the right of that before a step, with one set of controls."""
+
+    def headed(result: Result, words: str) -> str:
+        kind = kind_of(result)[0]
+        return f'<header class="verdict {kind}"><p class="which">{words}</p></header>'
+
+    heads = (
+        headed(analysis, f"<span><b>Tried:</b> {text(before[1])}</span>"),
+        headed(
+            before[0],
+            f'<b>Before: <span class="says">{text(verdict_in_short(before[0]))}</span></b>',
+        ),
+    )
+    note = f'<p class="note">{text(told)}</p>' if told else ""
+    return (
+        '<section class="shared" aria-label="Both drawings" hidden>'
+        f"{toolbar(*datas)}</section>{note}"
+        f"{result_side(analysis, datas[0], 'after-', heads[0])}"
+        f"{result_side(before[0], datas[1], 'before-', heads[1])}"
+        '<section class="shared" aria-label="In both drawings" hidden>'
+        f"{layers(*datas)}{keys(datas[0])}</section>"
+    )
 
 
 def broken_content(error: Exception, name: str) -> Content:
@@ -511,9 +630,10 @@ def page(
     still: bytes | None = None,
     spaces: Spaces | None = None,
     missing: Sequence[str] = (),
+    misaligned: dict[str, Any] | None = None,
 ) -> str:
     """The page of a result; arguments as those of `content_of`."""
-    content = content_of(analysis, still, spaces, missing=missing)
+    content = content_of(analysis, still, spaces, missing=missing, misaligned=misaligned)
     return filled(content.title, content.body, SCRIPTS)
 
 

@@ -24,6 +24,15 @@ const Controls = (() => {
           });
         }
       }
+      this.error = this.root.querySelector(".misaligned input");
+      if (this.error) {
+        this.error.addEventListener("input", ({ target }) => {
+          const size = Number(target.value);
+          // It has colours of its own.
+          if (viewer.stress) this.choose("stress", "");
+          viewer.misalign(size);
+        });
+      }
       for (const button of this.root.querySelectorAll("button[data-show]")) {
         button.addEventListener("click", () => {
           const [name, value] = button.dataset.show.split(" ");
@@ -63,6 +72,19 @@ const Controls = (() => {
         input.disabled = !stress || !quantities.includes(input.value);
         input.checked = Boolean(stress) && input.value === quantity;
       }
+      if (this.error) this.tellError();
+    }
+
+    /** What the misalignment does, in words. */
+    tellError() {
+      const { error, misaligned: { measure, rest, peak }, data } = this.viewer;
+      const { unit, name, hertz } = data.misaligned;
+      const size = unit === "rad" ? `${Words.number(1e3 * error)} mrad` : `${Words.number(1e6 * error)} \u00b5m`;
+      const part = `${Math.round((100 * measure) / rest)} %`;
+      const falls = hertz ? `${Words.number(measure)} Hz (${part})` : part;
+      this.error.value = error;
+      this.error.nextElementSibling.textContent =
+        `${size}: ${name} ${measure > 1e-6 * rest ? falls : "0: it buckles"}, up to ${Words.number(peak)} MPa`;
     }
   }
 

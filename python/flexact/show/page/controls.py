@@ -94,8 +94,21 @@ def choices_part(
         + _radios(mark, "stress", "Self-stress", stresses, "None")
         + _radios(mark, "quantity", "Coloured by", quantities)
         + _radios(mark, "space", "Freedom and constraint", spaces, "None")
+        + _slider(data.get("misaligned"))
         + below
         + "</section>"
+    )
+
+
+def _slider(misaligned: dict[str, Any] | None) -> str:
+    """The size of a misalignment, whose stress colours the drawing; nothing without one."""
+    if misaligned is None:
+        return ""
+    first, *_, last = misaligned["values"]
+    return (
+        f'<fieldset class="misaligned"><legend>Misalignment of {text(misaligned["words"])}</legend>'
+        f'<input type="range" min="{first}" max="{last}" step="any" value="0" '
+        'aria-label="Size of the misalignment"><output></output></fieldset>'
     )
 
 

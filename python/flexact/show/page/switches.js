@@ -39,8 +39,30 @@ const Switches = (() => {
       const side = root.querySelector(".side");
       if (side) side.prepend(this.section);
       for (const name of ["flexact-click", "click"]) root.addEventListener(name, this.listening);
+      this.offerSteps();
       this.refocus();
       this.renew();
+    }
+
+    /** Buttons that do the steps of the advice; what was before one may be hidden. */
+    offerSteps() {
+      const steps = this.root.querySelectorAll("li[data-step]");
+      for (const each of steps) {
+        const { step } = each.dataset;
+        const act = button("Try", () => this.ask({ do: "try", step }, "undo"), "try");
+        act.setAttribute("aria-label", `Try: ${step}`);
+        act.dataset.key = `try ${each.value}`;
+        each.append(" ", act);
+      }
+      // Single changes are here, with buttons.
+      const singles = steps.length && this.root.querySelector("#remedies .folded");
+      if (singles) singles.remove();
+      this.part("singles").open ||= !steps.length;
+      const pair = this.root.querySelector(".tried");
+      if (!pair) return;
+      pair.querySelector(".after-side .which").append(button("Undo", () => this.ask({ do: "undo" })));
+      pair.querySelector(".before-side .which").append(
+        button("Hide", () => pair.classList.add("alone")));
     }
 
     /** Leave the scene, which is renewed or goes. */
@@ -174,7 +196,7 @@ const Switches = (() => {
       // Said again it would be read out again.
       if (part.textContent !== `${this.words}${words[1]}`) part.replaceChildren(...words);
       const off = is === "none" || is === "broken";
-      for (const name of ["find", "card", "proposals"]) this.part(name).hidden = off;
+      for (const name of ["find", "card", "singles"]) this.part(name).hidden = off;
       this.part("off").hidden = !off;
       this.part("off").textContent = is === "broken" ? BROKEN : off ? SOON : "";
     }
@@ -257,6 +279,7 @@ const Switches = (() => {
         return part;
       });
       this.part("proposals").replaceChildren(...made);
+      this.part("singles").hidden = !made.length;
     }
 
     jump({ words, element: number, node }, key) {
@@ -276,6 +299,10 @@ const Switches = (() => {
       this.part("made").hidden = !edits.length;
       this.part("edits").replaceChildren(...edits.map(({ words, place }) => {
         const item = element("li");
+        if (!place) {
+          item.append(element("span", words));
+          return item;
+        }
         const away = button("Remove", () => this.ask(
           { do: "set", set: [{ ...place, to: "given" }] }, "undo"));
         away.setAttribute("aria-label", `Remove: ${words}`);
@@ -342,8 +369,10 @@ const Switches = (() => {
         find: element("form", "", "find"),
         card: element("div", "", "card-of-part"),
         made: this.makeEdits(),
-        proposals: element("div", "", "proposals"),
+        singles: element("details"),
       };
+      const proposals = part("div", "proposals", "proposals");
+      parts.singles.append(element("summary", "Single changes"), proposals);
       parts.head.id = "switches-head";
       for (const [name, part] of Object.entries(parts)) part.dataset.part = name;
       for (const [name, words] of [["undo", "Undo"], ["redo", "Redo"], ["reset", "Reset all"]]) {

@@ -16,6 +16,7 @@ const Viewer = (() => {
       this.peers = []; // viewers that look from the same side, and play in step
       this.changed = () => {}; // called when something else is shown
       this.held = null; // what was clicked: its mark stays
+      this.error = 0; // size of the misalignment that is shown [m, rad]
       this.pose = Tracks.reference(data);
       this.movement = this.stress = this.space = null;
       this.quantity = "";
@@ -88,6 +89,16 @@ const Viewer = (() => {
       this.memberOf = rows(this.data.members.number);
       this.hingeOf = rows(this.data.hinges.number);
       this.nodeOf = rows(this.data.nodes.number);
+      this.heldOf = new Map(); // what holds a body, by its elements, or its node
+      for (const held of this.data.held) {
+        for (const number of held.own) this.heldOf.set(number, held);
+        if (!held.own.length) this.heldOf.set(`node ${held.node}`, held);
+      }
+    }
+
+    /** What holds the body of an element, or a point, by their numbers; undefined of others. */
+    holding({ element, node }) {
+      return this.heldOf.get(element === undefined ? `node ${node}` : element);
     }
 
     /** Draw everything in the present pose. */
@@ -138,7 +149,32 @@ const Viewer = (() => {
       return made;
     }
 
+    /** Show the stress of a misalignment of a size [m, rad]; of none what was shown before. */
+    misalign(size) {
+      this.error = size;
+      this.paint();
+      this.refresh();
+    }
+
+    /** What the misalignment does at its size, and at most; stresses in MPa by rows of members. */
+    get misaligned() {
+      const { elements, peaks, values, measure } = this.data.misaligned, last = values.length - 1;
+      const at = Math.max(1, values.findIndex((each) => each >= this.error));
+      const share = (this.error - values[at - 1]) / (values[at] - values[at - 1]);
+      const most = Math.max(...peaks) * 1e-6;
+      const stress = new Float32Array(2 * this.members.plan.count);
+      elements.forEach((number, k) => {
+        const row = this.memberOf.get(number), own = peaks[k] * 1e-6 * Math.abs(this.error);
+        if (row !== undefined) stress.fill(own, 2 * row, 2 * row + 2);
+      });
+      return {
+        stress, peak: most * Math.abs(this.error), largest: most * Math.max(-values[0], values[last]),
+        measure: measure[at - 1] + share * (measure[at] - measure[at - 1]), rest: measure[values.indexOf(0)],
+      };
+    }
+
     showStress(which) {
+      this.error = 0;
       this.stress = this.data.stresses[which] || null;
       this.showLayers();
       this.presses.move(this.pose);
@@ -167,7 +203,11 @@ const Viewer = (() => {
 
     paint() {
       const { stress, quantity } = this;
-      if (!stress) {
+      if (this.error) {
+        const { stress: values, largest } = this.misaligned;
+        this.members.paintValues(values, largest);
+        this.hinges.paintOwn();
+      } else if (!stress) {
         this.members.paintOwn();
         this.hinges.paintOwn();
       } else {
@@ -191,10 +231,19 @@ const Viewer = (() => {
 
     legend() {
       const { stress, quantity, data } = this;
-      this.part("legend").hidden = !stress;
+      const stops = this.error ? data.stops.slice((data.stops.length - 1) / 2) : data.stops;
+      this.part("legend").hidden = !stress && !this.error;
+      this.part("legend-bar").style.background = PageData.gradient(stops);
+      this.part("legend-low").nextElementSibling.hidden = Boolean(this.error);
+      if (this.error) {
+        this.part("legend-name").textContent = "largest normal stress [MPa]";
+        this.part("legend-low").textContent = "0";
+        this.part("legend-high").textContent = Words.number(this.misaligned.largest);
+        this.part("legend-note").textContent = "in proportion to the misalignment";
+        return;
+      }
       if (!stress) return;
       const largest = stress.largest[quantity] || 0;
-      this.part("legend-bar").style.background = PageData.gradient(data.stops);
       this.part("legend-name").textContent = quantity
         ? `${data.names[quantity]} [${Words.unitOf(data, quantity)}]` : "";
       this.part("legend-low").textContent = largest ? Words.number(-largest) : "";
@@ -249,7 +298,10 @@ const Viewer = (() => {
       const named = target.element !== undefined || target.node !== undefined;
       const { element, node } = named ? target : this.held || {};
       const row = this.memberOf.get(element), body = this.bodies.bodyOf.get(row);
-      this.members.mark(row === undefined || body !== undefined ? [] : [row]);
+      const held = this.holding({ element, node });
+      const by = held ? held.by.map((number) => this.memberOf.get(number)) : [];
+      this.members.mark([...by, ...(body === undefined ? [row] : [])]
+        .filter((each) => each !== undefined));
       this.bodies.mark(body === undefined ? -1 : body);
       this.nodeMark.node = this.placeOf(element, node);
       this.nodeMark.move(this.pose);
@@ -277,9 +329,11 @@ const Viewer = (() => {
     }
 
     /** Lines about what is pointed at. */
-    describe({ kind, row }) {
-      if (kind === "node") return Words.node(this.data, row, this.pose, this.movement);
-      return Words[kind](this.data, row, this.stress);
+    describe(found) {
+      const { kind, row } = found, held = this.holding(this.targetOf(found));
+      const lines = kind === "node" ? Words.node(this.data, row, this.pose, this.movement)
+        : Words[kind](this.data, row, this.stress);
+      return held ? [...lines, held.words] : lines;
     }
 
     /** The number by which the tables know what is pointed at. */
@@ -287,7 +341,10 @@ const Viewer = (() => {
       const { nodes, members, hinges, bodies } = this.data;
       if (kind === "body") return this.targetOf({ kind: "member", row: bodies.rows[row][0] });
       const { number } = { node: nodes, member: members, hinge: hinges }[kind];
-      return { [kind === "node" ? "node" : "element"]: PageData.array(number)[row] };
+      const key = kind === "node" ? "node" : "element", found = PageData.array(number)[row];
+      const held = this.holding({ [key]: found });
+      // A body is known by its first element.
+      return { [key]: held ? held[key] : found };
     }
 
     /** The page has become light or dark. */

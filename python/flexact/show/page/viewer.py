@@ -14,13 +14,14 @@ import numpy as np
 
 from ...advice.spaces.spaces import Spaces
 from ...analysis.freedoms import Freedom
-from ...analysis.naming import freedom_in_words, plain
+from ...analysis.holding import BodyHolding
+from ...analysis.naming import Named, freedom_in_words, plain
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.configuration import Configuration
 from ...model.data import ModelData
-from ...model.parts.parts import Parts
+from ...model.parts.parts import Part, Parts
 from ...util.partial import attempted
 from ...util.rotations import euler_of
 from ...util.text import harmless
@@ -259,6 +260,28 @@ def _presses(presses: Sequence[Press], frame: Frame, length: float) -> dict[str,
     }
 
 
+def body_named(analysis: Result, holding: BodyHolding) -> Named:
+    """A body, or a point that flexures carry, by its first element or its node."""
+    of, arrays = holding.of, analysis.given.arrays
+    if isinstance(of, Part):
+        return Named("element", int(arrays.element_number[of.elements[0]]), holding.name)
+    return Named("node", int(arrays.node_number[of.nodes[0]]), holding.name)
+
+
+def held_data(analysis: Result) -> list[dict[str, Any]]:
+    """Of each body how often it is held, in words, and the numbers of elements that hold it."""
+    numbers = analysis.given.arrays.element_number
+    return [
+        {
+            "words": harmless(f"{each.words}."),
+            body_named(analysis, each).kind: body_named(analysis, each).number,
+            "own": numbers[list(each.of.elements)].tolist() if isinstance(each.of, Part) else [],
+            "by": numbers[[k for part in each.by for k in part.elements]].tolist(),
+        }
+        for each in analysis.bodies
+    ]
+
+
 #: Of more flexures what they hold is shown together alone.
 _MOST_HOLDS = 12
 
@@ -345,6 +368,7 @@ def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
         "movements": _fitting(_swings(shaped, tracks)),
         "stresses": [],
         "spaces": [],
+        "held": [],
         "first": [("movement", str(first))] if kinds else [],
     }
 
@@ -393,6 +417,7 @@ def viewer_data(
         "movements": _fitting(movements(analysis, tracks, missing)),
         "stresses": stresses(analysis, frame, missing),
         "spaces": shown + held,
+        "held": attempted("What holds each body", lambda: held_data(analysis), [], missing),
         **({"missing": missing} if missing else {}),
     }
     # What the verdict says: a motion, else a self-stress, else a degree of freedom.
