@@ -61,7 +61,7 @@ wording: .venv/ready-to-test
 	git diff --stat -- tests/python/golden tests/python/decks input_decks/broken README.md docs
 
 # Pages of the gallery, in results/gallery those that move, and pictures of other pages.
-gallery: .venv/ready-to-run
+gallery: .venv/ready-to-test
 	$(BIN)/python tools/gallery.py results/gallery
 	$(BIN)/python tools/element_pictures.py
 	$(BIN)/python tools/page_pictures.py

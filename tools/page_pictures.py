@@ -12,6 +12,7 @@ import shutil
 import sys
 import tempfile
 import textwrap
+import time
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,9 @@ from flexact.show.picture.subject import Chosen, subjects_of
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "python"))
+from browser import browsing  # noqa: E402
 from page_sessions import given_files, steps  # noqa: E402  # what a page gives and runs
+from watched import Watched  # noqa: E402
 
 DOCS = ROOT / "docs"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -53,24 +56,52 @@ def draw(page: str) -> None:
         os.chdir(ROOT)
 
 
-def draw_wrong_and_mended() -> None:
-    """Draw the guide of README as it is and as its first step mends it, side by side."""
+#: The window in which the watched page is shown, and the picture made of it.
+_WINDOW, _WIDTH = (1180, 760), 900
+#: Frames of the motion, how long each stands and how long the wrong guide does [ms].
+_FRAMES, _EACH, _BEFORE, _PRESSED = 22, 150, 2000, 700
+
+
+def film_the_watched_page() -> None:
+    """Show README's guide in `flexact watch`, press "Try" of its first step, and let it move."""
     (text,) = re.findall(r"(?:^    .*\n)+", README.partition("name [parts]")[2], re.MULTILINE)[:1]
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        Path("guide.dat").write_text(textwrap.dedent(text), encoding="utf-8")
-        for words in (
-            "advise guide.dat --apply 1 -o mended.dat",
-            "picture guide.dat -o left.png",
-            "picture mended.dat --freedom 1 -o right.png",
-        ):
-            flexact(words.split())
-        left, right = (Image.open(name).convert("RGB") for name in ("left.png", "right.png"))
-        both = Image.new("RGB", (left.width + right.width, left.height), "white")
-        both.paste(left, (0, 0))
-        both.paste(right, (left.width, 0))
-        both.save(DOCS / "wrong_and_mended.png", optimize=True)
-        os.chdir(ROOT)
+    with tempfile.TemporaryDirectory() as folder, browsing() as browser:
+        deck = Path(folder, "guide.dat")
+        deck.write_text(textwrap.dedent(text), encoding="utf-8")
+        watched = Watched(deck, Path(folder))
+
+        def taken() -> Image.Image:
+            shot = Image.open(io.BytesIO(browser.driver.get_screenshot_as_png())).convert("RGB")
+            return shot.resize((_WIDTH, _WIDTH * shot.height // shot.width), Image.LANCZOS)
+
+        try:
+            browser.resize(*_WINDOW)
+            browser.driver.get(watched.address)
+            time.sleep(5.0)
+            frames, stand = [taken()], [_BEFORE]
+            at = browser.run(
+                "const b = document.querySelector('.try').getBoundingClientRect();"
+                "return [(b.left + b.right) / 2, (b.top + b.bottom) / 2, innerWidth]"
+            )
+            x, y = (_WIDTH / at[2] * each for each in at[:2])
+            pressed = frames[0].copy()
+            ImageDraw.Draw(pressed).ellipse(
+                (x - 20, y - 20, x + 20, y + 20), outline="#d97706", width=4
+            )
+            frames.append(pressed)
+            stand.append(_PRESSED)
+            browser.press(".try")
+            time.sleep(4.0)
+            for _ in range(_FRAMES):
+                frames.append(taken())
+                stand.append(_EACH)
+        finally:
+            watched.process.terminate()
+    small = [frame.quantize(64, dither=Image.Dither.NONE) for frame in frames]
+    film = DOCS / "watched_page.gif"
+    small[0].save(
+        film, save_all=True, append_images=small[1:], duration=stand, loop=0, optimize=True
+    )
 
 
 def draw_one_body() -> None:
@@ -102,7 +133,7 @@ def draw_one_body() -> None:
 
 
 if __name__ == "__main__":
-    draw_wrong_and_mended()
+    film_the_watched_page()
     draw_one_body()
     for each in PICTURES:
         draw(each)

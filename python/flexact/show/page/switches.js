@@ -57,7 +57,9 @@ const Switches = (() => {
       // Single changes are here, with buttons.
       const singles = steps.length && this.root.querySelector("#remedies .folded");
       if (singles) singles.remove();
-      this.part("singles").open ||= !steps.length;
+      const folded = this.part("singles");
+      if (this.known !== steps.length) folded.open = !steps.length;
+      this.known = steps.length;
       const pair = this.root.querySelector(".tried");
       if (!pair) return;
       pair.querySelector(".after-side .which").append(button("Undo", () => this.ask({ do: "undo" })));

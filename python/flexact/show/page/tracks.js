@@ -41,6 +41,7 @@ const Tracks = (() => {
       this.speed = 0.5; // cycles a second
       this.playing = false;
       this.cycle = START;
+      this.last = null; // when the last step was [ms]
     }
 
     get phase() {
