@@ -89,6 +89,10 @@ def _without_labels(text: str, objects: list[dict[str, Any]]) -> str:
         for row in (each.get(key) for key in _ROWS):
             labels |= {label for label in row or () if isinstance(label, str)}
     known = {" ".join(label.split()) for label in labels if re.search(r"\d", label)}
+    # Several names of one kind stand together: "sheets 1 to 3 and 5".
+    for head in {label.rpartition(" ")[0] for label in known if label[-1].isdigit()}:
+        numbers = r"\d+(?:(?:, | and | to )\d+)*"
+        text = re.sub(rf"(?<!\w){re.escape(head)}(?:s|es) {numbers}", "LABELS", text)
     for label in sorted(known, key=len, reverse=True):
         text = re.sub(rf"(?<!\w){re.escape(label)}(?!\w)", "LABEL", text)
     return text

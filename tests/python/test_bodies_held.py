@@ -10,7 +10,7 @@ from json_schema import assert_valid
 
 import flexact
 from flexact.analysis.holding import MOTIONS, BodyHolding, times_in_words
-from flexact.analysis.places import names_words
+from flexact.analysis.naming import Named, plain, together_in_words
 
 ROOT = Path(__file__).parents[2]
 Limb = tuple[np.ndarray, np.ndarray, np.ndarray | None]
@@ -307,9 +307,13 @@ def test_json_has_bodies() -> None:
 
 
 def test_equal_bodies_are_said_once() -> None:
-    assert names_words([f"guide {k}" for k in range(1, 11)]) == "guides 1 to 10"
-    assert names_words(["guide 1", "guide 3", "guide 4"]) == "guide 1, guide 3 and guide 4"
-    assert names_words(["a", "b", "c", "d", "e"]) == "a, b and 3 more"
+    def named(names: list[str]) -> str:
+        return plain(together_in_words([Named("element", 1, each) for each in names]))
+
+    assert named([f"guide {k}" for k in range(1, 11)]) == "guides 1 to 10"
+    assert named(["guide 1", "guide 3", "guide 4"]) == "guides 1, 3 and 4"
+    # Not every word before a number has a plural.
+    assert named(["lower 30", "lower 150", "upper 90"]) == "lower 30, lower 150 and upper 90"
     assert [times_in_words(k) for k in (1, 2, 3, 12, 13)] == [
         *("once", "twice", "three times", "twelve times", "13 times"),
     ]

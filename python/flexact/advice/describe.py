@@ -17,6 +17,7 @@ from ..analysis.mode_words import (
 )
 from ..analysis.naming import (
     Line,
+    Named,
     Pieces,
     counted,
     counts_in_words,
@@ -25,8 +26,9 @@ from ..analysis.naming import (
     line_of,
     part_in_words,
     plain,
+    together_in_words,
 )
-from ..analysis.places import listed, names_words, part_words
+from ..analysis.places import listed, part_words
 from ..analysis.result import Result
 from ..analysis.verdict_words import (
     decision,
@@ -154,6 +156,14 @@ def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str
     return "\n".join(rows)
 
 
+#: How many bodies that are held alike are named, but for those whose numbers follow each other.
+_BODIES = 3
+
+
+def _together(names: Sequence[str]) -> str:
+    return plain(together_in_words([Named("element", 0, each) for each in names], _BODIES))
+
+
 def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
     """A line on each body: how often its motions are held, which are declared, and free.
 
@@ -166,7 +176,7 @@ def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
     holding = result.holding
     alike = grouped((body.words, body.name) for body in holding.bodies)
     lines = [
-        (f"{names_words(names)}{', each' * (len(names) > 1)}: {words}.", len(names))
+        (f"{_together(names)}{', each' * (len(names) > 1)}: {words}.", len(names))
         for words, names in alike.items()
     ]
     lines += [(str(each), 0) for each in holding.inside]

@@ -41,7 +41,7 @@ from .causes.lines import Limb as LimbOfParts
 from .causes.lines import Limbs
 from .causes.realignment import change_of
 from .releases.candidates import complete, fits
-from .releases.releases import TakenBack, coordinate_sets
+from .releases.releases import Called, TakenBack, called_of, called_of_place, coordinate_sets
 from .releases.words import (
     Release,
     coordinates_in_words,
@@ -237,7 +237,18 @@ def repairs_of(result: Result) -> Iterator[Repair]:
         reach, found = coordinate_sets(base)
         if not found:
             return
-        coordinates = together(reach.change(int(reach.index[i])) for i in found[0].members)
+        # Those of bodies come first, also where those of other points are ten times as clear; what
+        # a body has declared already is not said again of another point.
+        known = _declared_of_bodies(base)
+        best = min(
+            found,
+            key=lambda one: (
+                one.rank[0] > 1.0,
+                len(known.intersection(called_of(base, reach, one))),
+                *one.rank[1:],
+            ),
+        )
+        coordinates = together(reach.change(int(reach.index[i])) for i in best.members)
     declared = together((before, coordinates))
     is_left = declared != Change()
     purpose = Purpose.REPAIR if is_left else Purpose.RELEASE
@@ -358,24 +369,29 @@ def _turned_in_words(
 ) -> Pieces:
     """Such as "turn vees 1 to 3 by 90 degrees, each about the line along z through its point"."""
     outcome = limbs.outcome
-    names = [
-        Named("element", mine[0].parts[0].number, _shared_name([limb.name for limb in mine]))
-        for _, mine in orbit
-    ]
+    shared = [_shared_name([limb.name for limb in mine]) for _, mine in orbit]
+    each = "each"
+    if all(shared):
+        numbers = [mine[0].parts[0].number for _, mine in orbit]
+        names = [Named("element", *both) for both in zip(numbers, shared, strict=True)]
+    else:
+        every = [limb for _, mine in orbit for limb in mine]
+        names = [Named("element", limb.parts[0].number, limb.name) for limb in every]
+        each = "each pair" if len(every) == 2 * len(orbit) else "all at one point"
     axes = {axis_words(axis) for axis in turns if axis is not None}
     along = f" along {axes.pop()}" if len(axes) == 1 else " in the middle of its limbs"
     hub = outcome.parts.body_at.get(orbit[0][0])
     on = f" on {part_words(outcome.parts.of_body(hub))}" if hub is not None else ""
-    line = f" by 90 degrees, each about the line{along} through its point{on}"
+    line = f" by 90 degrees, {each} about the line{along} through its point{on}"
     return ("turn ", *together_in_words(names), line)
 
 
 def _shared_name(names: Sequence[str]) -> str:
-    """What names share: "vee 1" of "contact 1 of vee 1", "strut 2" of "strut 2, upper"."""
+    """What names share: "vee 1" of "contact 1 of vee 1", "strut 2" of "strut 2, upper"; or none."""
     for shared in ({n.rpartition(" of ")[2] for n in names}, {n.partition(",")[0] for n in names}):
         if len(shared) == 1:
             return shared.pop()
-    return " and ".join(names)
+    return ""
 
 
 def _if_exact(
@@ -416,6 +432,14 @@ def best_together(
     condition = max(each.condition for each in both)
     told, how = zip(*(each.in_short() for each in both), strict=True)
     return _if_exact(result, together(each.change for each in both), told, how, condition)
+
+
+def _declared_of_bodies(base: Result) -> set[Called]:
+    """What coordinates are called that are declared."""
+    nodes, axes = np.nonzero(base.data.arrays.coordinate_class.T == Class.INDEPENDENT)
+    return {
+        called_of_place(base, *place) for place in zip(nodes.tolist(), axes.tolist(), strict=True)
+    }
 
 
 def _one_beam_each(result: Result) -> tuple[Result | None, Change]:
@@ -594,7 +618,8 @@ class _Workshop:
                 Named(
                     "element",
                     limb.parts[0].number,
-                    _shared_name([part.name for part in limb.parts]),
+                    _shared_name([part.name for part in limb.parts])
+                    or " with ".join(part.name for part in limb.parts),
                 )
                 for limb in limbs
                 if len(limb.parts) > 1
@@ -607,7 +632,8 @@ class _Workshop:
             place_words(base.parts, one.positions[statement.end], one.part) for one in flexures
         ]
         by_place = grouped(zip(at_ends, named, strict=True))
-        if len(by_place) > _MOST_PLACES:
+        heads = {place.rpartition(" ")[0] for place in by_place}
+        if len(by_place) > _MOST_PLACES or len(heads) < len(by_place):
             where = {one.carriers[statement.end] for one in flexures}
             ends = f"the ends {('nearer to', 'farther from')[statement.end]} the ground"
             at = _CLAMPS[1] if where == {None} else ends

@@ -17,8 +17,9 @@ from ..util.partial import attempted
 from ..util.text import TIE, harmless
 from .step import Step
 
-#: Of a D(c) with more rows or columns than this a step takes more than some 0.3 s to find.
-_MOST_TO_ADVISE = 300
+#: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find; of
+#: more than this so does a repair of few statements.
+_MOST_TO_ADVISE, _MOST_TO_REPAIR = 1.0e6, 1.0e8
 
 
 def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
@@ -32,14 +33,21 @@ def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
 
 
 def first_steps(result: Result, most: int) -> tuple[Step, ...] | None:
-    """The first steps of the advice, none where none is needed; None where that takes long."""
+    """The first steps of the advice, none where none is needed; None where that takes long.
+
+    Of a large D(c) repairs alone, which have no numbers.
+    """
     if result.verdict is Verdict.EXACT:
         return ()
-    if max(result.rows, result.columns) > _MOST_TO_ADVISE:
+    size = float(result.rows) * result.columns * min(result.rows, result.columns)
+    if size > _MOST_TO_REPAIR:
         return None
     # Vectors of any length may stand in a model.
     with np.errstate(all="ignore"):
-        return tuple(islice(load("flexact.advice.advice").advice_of(result).numbered(), most))
+        advice = load("flexact.advice.advice").advice_of(result)
+        if size <= _MOST_TO_ADVISE:
+            return tuple(islice(advice.numbered(), most))
+        return tuple(advice.repairs[:most]) or None
 
 
 def do_this(result: Result, steps: Sequence[Step] | None) -> Line | None:

@@ -2,12 +2,14 @@
 """How often each motion of each body is held, and which are declared or free.
 
 What the parts that end at a body exert on it in the self-stresses is a subspace of R^(6P), six
-numbers for each of P parts. A motion d of the body is held once, and once more for each of the
-independent self-stresses that load the body along d: 1 + rank of the parts' loads along d. With
-the orthogonal projector on the subspace, two motions hang together where their P x P block of it
-is not zero; its trace over motions that hang together counts the self-stresses on them. What the
-body can do is a subspace of its twists: of the motions that nothing determines, and of those
-besides when nothing is declared. All of this is of subspaces: no basis of them is chosen.
+numbers for each of P parts; parts that lead to one other body are first taken together, as a
+guide, and then what they do within where they exert nothing together. A motion d of the body is
+held once, and once more for each of the independent self-stresses that load the body along d:
+1 + rank of the parts' loads along d. With the orthogonal projector on the subspace, two motions
+hang together where their P x P block of it is not zero; its trace over motions that hang together
+counts the self-stresses on them. What the body can do is a subspace of its twists: of the motions
+that nothing determines, and of those besides when nothing is declared. All of this is of
+subspaces: no basis of them is chosen.
 
 The motions are told along the axes and about the point in which what the body can do is spanned by
 single motions, and the loads fall apart into as many as can be; the axes of the model and the
@@ -243,7 +245,13 @@ def _carriers(result: Decomposition) -> list[_Carrier]:
         )
     ]
     bodies = [one for one in bodies if not _divides(result, one)] or bodies
-    bodies.sort(key=lambda one: natural(one.name))
+    # What is farthest from the ground is what the mechanism is for.
+    away, nodes_of = result.carriers.away, result.condensed.nodes
+    far = {
+        id(one): int(away[nodes_of[[*one.positions, *one.orientations]]].max(initial=0))
+        for one in bodies
+    }
+    bodies.sort(key=lambda one: (-far[id(one)], natural(one.name)))
     if bodies:
         return bodies
     joints = [joint for joint in result.carriers.joints if joint.position is not None]
@@ -348,16 +356,40 @@ class _Found:
             flat = loads.reshape(6 * len(loads), loads.shape[2])
             if float(flat.size) * min(flat.shape) > _MOST_WORK:
                 return Holding((), (), _TOO_MUCH)
-            left, values, right = np.linalg.svd(flat, full_matrices=False)
-            kept = values > self.least * max(1.0, float(values.max(initial=0.0)))
-            felt.append(right[kept])
-            told.append(
-                self._of_body(
-                    carrier, sides, left[:, kept].reshape(*loads.shape[:2], int(kept.sum()))
-                )
+            # Sides that lead to one body press as one; then what they do within.
+            bundles = self._bundles(carrier, sides)
+            summed = np.stack([loads[mine].sum(axis=0) for mine in bundles]) if bundles else loads
+            outer, first = self._felt(summed)
+            within = null_space(first, self.least)
+            inner, second = self._felt(loads @ within)
+            felt += [first, second @ within.T]
+            orthonormal_loads = np.zeros(
+                (len(outer) + len(inner), 6, outer.shape[2] + inner.shape[2])
             )
+            orthonormal_loads[: len(outer), :, : outer.shape[2]] = outer
+            orthonormal_loads[len(outer) :, :, outer.shape[2] :] = inner
+            bundled = [tuple(part for k in mine for part in sides[k]) for mine in bundles]
+            told.append(self._of_body(carrier, [*bundled, *sides], orthonormal_loads))
         rest = null_space(np.concatenate(felt), self.least)
         return Holding(tuple(told), tuple(self._inside(rest)))
+
+    def _felt(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(P, 6, r) orthonormal loads of (P, 6, k), and (r, k) in which self-stresses they are."""
+        flat = loads.reshape(6 * len(loads), loads.shape[2])
+        left, values, right = np.linalg.svd(flat, full_matrices=False)
+        kept = values > self.least * max(1.0, float(values.max(initial=0.0)))
+        return left[:, kept].reshape(*loads.shape[:2], int(kept.sum())), right[kept]
+
+    def _bundles(self, carrier: _Carrier, sides: Sequence[tuple[Part, ...]]) -> list[list[int]]:
+        """Which sides lead from a body to the same others."""
+        slots = self.result.given.arrays.element_node - 1
+
+        def beyond(side: tuple[Part, ...]) -> tuple[int, ...]:
+            nodes = {n for part in side for n in slots[:, list(part.elements)].ravel().tolist()}
+            at = {k for node in nodes for k in self.carried_at.get(node, ())}
+            return tuple(sorted(k for k in at if self.carriers[k] is not carrier))
+
+        return list(grouped((beyond(side), k) for k, side in enumerate(sides)).values())
 
     # One body ---------------------------------------------------------------
 
@@ -466,20 +498,24 @@ class _Found:
         held: dict[str, int] = {}
         together, against = [], {}
         for group in frame.groups:
-            for way in group:
+            # What hangs together with a motion that is held counts for that one.
+            stopped = [way for way in group if not moves[way]]
+            for way in stopped or group:
                 along = frame.loads[:, way]
                 values = np.linalg.svd(along, compute_uv=False)
                 n = int(np.count_nonzero(values > self.least))
-                if not moves[way] or n:
+                if stopped or n:
                     held[MOTIONS[way]] = 1 + n
-                if moves[way] and n:
+                if not stopped and n:
                     loaded = np.linalg.norm(along, axis=1) > self.least
                     those = [sides[k] for k in np.flatnonzero(loaded).tolist()]
                     against[MOTIONS[way]] = self._others(carrier, those)
-            if len(group) > 1:
-                n = round(float(np.sum(frame.loads[:, list(group)] ** 2)))
-                names = tuple(MOTIONS[way] for way in group)
-                together.append(Together(names, len(group) + n, len(group)))
+            n = round(float(np.sum(frame.loads[:, list(group)] ** 2)))
+            if len(stopped) == 1:
+                held[MOTIONS[stopped[0]]] = 1 + n
+            if len(stopped or group) > 1:
+                names = tuple(MOTIONS[way] for way in stopped or group)
+                together.append(Together(names, len(names) + n, len(names)))
         moving = [way for k, way in enumerate(MOTIONS) if moves[k]]
         return BodyHolding(
             carrier.name,

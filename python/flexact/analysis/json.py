@@ -19,9 +19,9 @@ from .calls import calls_of
 from .decomposition import row_duals, row_factors
 from .freedoms import Freedom
 from .limits import LEFT_OUT
-from .mode_words import moments_at_ends
+from .mode_words import moments_at_ends, side_in_words
 from .naming import freedom_in_words, node_name, part_in_words, plain, unit_of_coordinate
-from .part_stresses import PartStress
+from .part_stresses import PartStress, Rivalry
 from .places import deformation_word, place_words
 from .result import Result
 from .screws import Screw, ScrewKind, Wrench
@@ -301,13 +301,7 @@ def of_self_stress(result: Result, index: int) -> Entries:
         "conflicts": [
             {
                 "on": str(conflict.on),
-                "over": None
-                if (over := conflict.over) is None
-                else {
-                    "kind": over.kind.value,
-                    "direction": over.direction.tolist(),
-                    "point": quantity(over.point.tolist(), "m"),
-                },
+                "over": _over(conflict.over),
                 "loads": [
                     {"part": None if load.part is None else load.part.name, **_wrench(load.wrench)}
                     for load in conflict.loads
@@ -315,6 +309,34 @@ def of_self_stress(result: Result, index: int) -> Entries:
             }
             for conflict in stress.conflicts
         ],
+        "sides": None if stress.rivalry is None else _sides(result, stress.rivalry),
+    }
+
+
+def _sides(result: Result, rivalry: Rivalry) -> Entries:
+    """On what the sides of a loop press, and over what."""
+    return {
+        "on": str(rivalry.on),
+        "over": _over(rivalry.over),
+        "sides": [
+            {
+                "words": plain(side_in_words(result, side)),
+                "parts": [part.name for part in side.parts],
+                "through": [body.name for body in side.through],
+                **_wrench(side.wrench),
+            }
+            for side in rivalry.sides
+        ],
+    }
+
+
+def _over(over: Wrench | None) -> Entries | None:
+    if over is None:
+        return None
+    return {
+        "kind": over.kind.value,
+        "direction": over.direction.tolist(),
+        "point": quantity(over.point.tolist(), "m"),
     }
 
 

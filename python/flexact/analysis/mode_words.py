@@ -198,7 +198,7 @@ def conflict_in_words(stress: SelfStress) -> Pieces:
     else:
         where = named_element(outcome, int(arrays.element_number[on.elements[0]]))
     if over is None or len(names) > _MODE_WORDS_MOST_NAMES:
-        if isinstance(on, Joint) and len(names) > _MODE_WORDS_MOST_NAMES:
+        if isinstance(on, Joint) and len(stress.parts) > _MODE_WORDS_MOST_NAMES:
             return ()
         single = [each[0] for each in names if isinstance(each[0], Named) and len(each) == 1]
         all_of = (

@@ -121,7 +121,7 @@ def row_of(items: Sequence[Pieces], most: int | None = None) -> Pieces:
     return tuple(piece for piece in made if piece)
 
 
-def together_in_words(parts: Sequence[Named]) -> Pieces:
+def together_in_words(parts: Sequence[Named], most: int = _MOST_TOGETHER) -> Pieces:
     """Names, such as "sheets 2, 4 and 6" or "left arms 2 to 6"; of many without a number the first.
 
     Numbers of names that begin alike are put together.
@@ -140,7 +140,7 @@ def together_in_words(parts: Sequence[Named]) -> Pieces:
             short = [numbered[k][1]._replace(words=numbered[k][0]) for k in run]
             ends += [(short[0], " to ", short[-1])] if len(run) > 2 else [(each,) for each in short]
         items.append((f"{_plural(head)} ", *row_of(ends)))
-    return row_of(items, _MOST_TOGETHER)
+    return row_of(items, most)
 
 
 def _plural(head: str) -> str:

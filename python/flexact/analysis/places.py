@@ -47,24 +47,6 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-#: A name that ends with a number.
-_NUMBERED = re.compile(r"(.*\D)(\d+)$")
-
-
-def names_words(names: Sequence[str], most: int = _MOST_NAMED) -> str:
-    """Such as "guides 1 to 10", or "a, b and 3 more"."""
-    found = [_NUMBERED.match(name) for name in names]
-    stems = {each[1] if each else "" for each in found}
-    numbers = sorted(int(each[2]) for each in found if each)
-    stem = next(iter(stems))
-    is_plain = len(stems) == 1 and stem.endswith(" ") and stem[:-2].isalpha()
-    if is_plain and len(names) > _MOST_NAMED and numbers[-1] - numbers[0] == len(names) - 1:
-        return f"{stem.strip()}s {numbers[0]} to {numbers[-1]}"
-    if len(names) > most + 1:
-        return listed([*names[:most], f"{len(names) - most} more"])
-    return listed(names)
-
-
 def parts_words(parts: Sequence[Part], most: int = _MOST_NAMED) -> str:
     """Such as "sheet 1, sheet 2 and 3 more"."""
     if len(parts) > most + 1:

@@ -11,7 +11,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from ..advice.releases.releases import releases_of
-from ..advice.step import tried
+from ..advice.repairs import repairs_of
+from ..advice.step import Step, tried
 from ..analysis.change import Change
 from ..analysis.decomposition import asked_for
 from ..analysis.locate import deformations_of
@@ -84,7 +85,10 @@ def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
     if not result.over_constrained:
         return ()
     made = []
-    sets = releases_of(result, with_bodies=bodies).sets
+    sets: list[Step] = [each for each in repairs_of(result) if _is_of_releases(each.change)]
+    known = {frozenset(each.change.deformations) for each in sets}
+    found = releases_of(result, with_bodies=bodies).sets
+    sets += [each for each in found if frozenset(each.change.deformations) not in known]
     index, kinds = result.given.element_index, result.given.arrays.element_kind
     is_link = member_table()[kinds] == Member.LINK
     of_members = [
@@ -98,6 +102,13 @@ def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
         released = _released(result, proposal.change)
         made.append(Candidate(released, alike, after.under_constrained, after.over_constrained))
     return tuple(made)
+
+
+def _is_of_releases(change: Change) -> bool:
+    """Whether a change does nothing but release deformations."""
+    return change == Change(change.deformations) and all(
+        to is Class.DEPENDENT for _, _, to in change.deformations
+    )
 
 
 def given(result: Result, asked: ReleaseRequest) -> Candidate:

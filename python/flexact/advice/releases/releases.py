@@ -430,15 +430,28 @@ def coordinate_sets(source: Result) -> tuple[Reach, list[Candidate]]:
 
     # Of sets that are called the same, and of those that differ in what is inside of sheets and
     # wires alone, the best.
-    axes = (source.raw.column_label[1, reach.index] - 1).tolist()
-    called = [
-        (source.parts.body_at.get(node, -1 - node), bool(turns[k]), axes[k])
-        for k, node in enumerate(given.tolist())
-    ]
     first: dict[tuple[object, ...], Candidate] = {}
     for one in candidates(reach, ranking, tiers):
-        first.setdefault(tuple(sorted(called[i] for i in one.members if tiers[i] < LINK)), one)
+        shown = one._replace(members=tuple(i for i in one.members if tiers[i] < LINK))
+        first.setdefault(tuple(sorted(called_of(source, reach, shown))), one)
     return reach, list(first.values())
+
+
+#: What a coordinate is called by: its body or point, whether it turns, and its axis.
+Called = tuple[int, bool, int]
+
+
+def called_of(source: Result, reach: Reach, one: Candidate) -> list[Called]:
+    """What the coordinates of a set are called by."""
+    labels = source.raw.column_label[:, reach.index[list(one.members)]].T - 1
+    return [called_of_place(source, *label) for label in labels.tolist()]
+
+
+def called_of_place(source: Result, node: int, axis: int) -> Called:
+    """The same of a coordinate, by the index of its node as analysed and its axis."""
+    given = int(source.condensed.nodes[node])
+    turns = bool(source.data.arrays.node_kind[node] > NodeKind.POSITION)
+    return source.parts.body_at.get(given, -1 - given), turns, axis
 
 
 def _tiers_of_nodes(source: Result, reach: Reach) -> FloatArray:
