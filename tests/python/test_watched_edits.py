@@ -350,6 +350,8 @@ def test_a_step_is_tried_beside_what_was_before_and_undone(
     for width, theme in product((1280, 360), ("light", "dark")):
         browser.prefer(prefers_color_scheme=theme)
         browser.resize(width, 900)
+        # What stays in sight lies over what is scrolled below it.
+        browser.run("window.scrollTo({ top: 0, behavior: 'instant' })")
         assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
         assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
     browser.resize(1280, 900)
@@ -363,6 +365,8 @@ def test_a_step_is_tried_beside_what_was_before_and_undone(
     for width, theme in product((1280, 360), ("light", "dark")):
         browser.prefer(prefers_color_scheme=theme)
         browser.resize(width, 900)
+        # What stays in sight lies over what is scrolled below it.
+        browser.run("window.scrollTo({ top: 0, behavior: 'instant' })")
         assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
         assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
     assert browser.console() == []

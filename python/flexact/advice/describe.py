@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..analysis.calls import calls_of
 from ..analysis.mode_words import (
@@ -41,6 +41,9 @@ from ..analysis.verdict_words import (
 from ..analysis.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 from ..util.groups import grouped
 from ..util.text import TIE, USUAL, harmless, table
+
+if TYPE_CHECKING:
+    from ..analysis.holding import BodyHolding
 
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
 MOST_MODES = 12
@@ -157,14 +160,12 @@ def _block(section: Iterable[_Told], width: int, most: int | None = None) -> str
 
 
 #: How many bodies that are held alike are named, but for those whose numbers follow each other.
-MOST_ALIKE = 3
+_BODIES = 3
 
 
-def _together(names: Sequence[str]) -> str:
-    return plain(together_in_words([Named("element", 0, each) for each in names], MOST_ALIKE))
-
-
-def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
+def held_lines(
+    result: Result, most: int | None = 8, named: Callable[[BodyHolding], Named] | None = None
+) -> Iterator[Line]:
     """A line on each body: how often its motions are held, which are declared, and free.
 
     Equal ones are said once; then what is held too often between its ends and no body feels.
@@ -172,18 +173,21 @@ def held_lines(result: Result, most: int | None = 8) -> Iterator[Line]:
     Args:
         result: The result.
         most: How many lines at most; None for all.
+        named: By what a body is linked with a drawing; None where there is none.
     """
     holding = result.holding
-    alike = grouped((body.words, body.name) for body in holding.bodies)
-    lines = [
-        (f"{_together(names)}{', each' * (len(names) > 1)}: {words}.", len(names))
-        for words, names in alike.items()
-    ]
-    lines += [(str(each), 0) for each in holding.inside]
+    alike = grouped((body.words, body) for body in holding.bodies)
+    lines: list[tuple[Pieces, int]] = []
+    for words, bodies in alike.items():
+        names = [Named("element", 0, one.name) if named is None else named(one) for one in bodies]
+        each = ", each" * (len(names) > 1)
+        lines.append(((*together_in_words(names, _BODIES), f"{each}: {words}."), len(names)))
+    lines += [((str(each),), 0) for each in holding.inside]
     if holding.left_out:
-        lines = [(holding.left_out, 0)]
+        lines = [((holding.left_out,), 0)]
     shown = len(lines) if most is None or len(lines) <= most else most - 1
-    yield from (line_of(harmless(words)) for words, _ in lines[:shown])
+    for pieces, _ in lines[:shown]:
+        yield line_of(harmless(plain(pieces))) if named is None else Line(pieces)
     if rest := sum(count for _, count in lines[shown:]):
         yield line_of(f"... and {counted(rest, 'more bod', 'y', 'ies')} (-v).")
 

@@ -47,7 +47,8 @@ def first_steps(result: Result, most: int) -> tuple[Step, ...] | None:
     # Vectors of any length may stand in a model.
     with np.errstate(all="ignore"):
         if size > _MOST_TO_ADVISE:
-            return tuple(replace(one, number=k) for k, one in enumerate(advice.repairs, 1)) or None
+            made = (replace(one, number=k) for k, one in enumerate(advice.repairs[:most], 1))
+            return tuple(made) or None
         return tuple(islice(advice.numbered(), most))
 
 

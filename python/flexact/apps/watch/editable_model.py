@@ -118,8 +118,8 @@ class StepEdit(NamedTuple):
     """A step of the advice, done as a whole, of the mechanism with all that was edited before."""
 
     words: str
-    number: int
-    """Its number in the advice."""
+    which: str
+    """Which of the advice it is, as Python has it, such as "[0]"."""
     change: Change
 
 
@@ -316,7 +316,7 @@ class Boards:
             return made
         step = below[-1]
         assert isinstance(step, StepEdit)
-        done = f"{name} = flexact.analyse({name}).advice()[{step.number - 1}].apply()"
+        done = f"{name} = flexact.analyse({name}).advice(){step.which}.apply()"
         return [*self.calls(below[:-1], name), done, *made]
 
 

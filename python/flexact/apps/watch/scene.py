@@ -122,7 +122,14 @@ class Shown:
 
 def steps_in(steps: Sequence[Step]) -> tuple[StepEdit, ...]:
     """Steps of the advice as edits, known by their words as the page has them."""
-    return tuple(StepEdit(harmless(plain(each.pieces)), each.number, each.change) for each in steps)
+    return tuple(
+        StepEdit(
+            harmless(plain(each.pieces)),
+            f"[{each.number - 1}]" if each.number else f".repairs[{k}]",
+            each.change,
+        )
+        for k, each in enumerate(steps)
+    )
 
 
 def shown_of(

@@ -8,13 +8,14 @@ import platform
 import shlex
 from collections import defaultdict
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...advice.describe import (
-    MOST_ALIKE,
     VerdictInWords,
+    held_lines,
     lines_on_motions,
     lines_on_self_stresses,
     verdict_in_words,
@@ -23,7 +24,7 @@ from ...advice.spaces.spaces import Spaces
 from ...advice.step import Step
 from ...advice.todo import do_this, first_steps
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.naming import Line, Named, Pieces, counted, plain, together_in_words
+from ...analysis.naming import Line, Named, Pieces, counted, plain
 from ...analysis.result import Result
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import (
@@ -38,7 +39,6 @@ from ...deck.diagnostics import Diagnostic, decode
 from ...deck.rendering import ProblemsError
 from ...model.writing import deck_of
 from ...util.errors import require_kind
-from ...util.groups import grouped
 from ...util.loading import VERSION
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
@@ -317,13 +317,8 @@ def held_part(analysis: Result) -> str:
 
     Each name lights up the body and what holds it.
     """
-    alike = grouped((one.words, one) for one in analysis.bodies)
-    lines: list[Pieces] = []
-    for words, same in alike.items():
-        who = together_in_words([body_named(analysis, one) for one in same], MOST_ALIKE)
-        lines.append((*who, f"{', each' * (len(same) > 1)}: {words}."))
-    lines += [(str(each),) for each in analysis.holding.inside]
-    rows = [f"<li>{linked(pieces)}</li>" for pieces in lines]
+    lines = held_lines(analysis, None, partial(body_named, analysis))
+    rows = [f"<li>{flowing(line)}</li>" for line in lines]
     shown = _MOST_BODIES if len(rows) > _MOST_BODIES + 1 else len(rows)
     first, rest = ("".join(each) for each in (rows[:shown], rows[shown:]))
     away = folded(f"+ {len(rows) - shown} more", f"<ul>{rest}</ul>") if rest else ""
@@ -423,7 +418,7 @@ def advice_part(advice: Advised) -> str:
     """What can be done: the first steps of the advice; single changes are folded away."""
     steps = "".join(
         # What it then is stands behind what is done.
-        f'<li value="{step.number}" data-step="{text(plain(step.pieces))}">{linked(step.pieces)}'
+        f'<li data-step="{text(plain(step.pieces))}">{linked(step.pieces)}'
         f"{text(step.statement.removeprefix(plain(step.pieces)))}</li>"
         for step in advice.steps or ()
     )

@@ -47,13 +47,13 @@ const Switches = (() => {
     /** Buttons that do the steps of the advice; what was before one may be hidden. */
     offerSteps() {
       const steps = this.root.querySelectorAll("li[data-step]");
-      for (const each of steps) {
+      steps.forEach((each, k) => {
         const { step } = each.dataset;
         const act = button("Try", () => this.ask({ do: "try", step }, "undo"), "try");
         act.setAttribute("aria-label", `Try: ${step}`);
-        act.dataset.key = `try ${each.value}`;
+        act.dataset.key = `try ${k + 1}`;
         each.append(" ", act);
-      }
+      });
       // Single changes are here, with buttons.
       const singles = steps.length && this.root.querySelector("#remedies .folded");
       if (singles) singles.remove();
