@@ -74,6 +74,12 @@ _NEEDED: dict[str, dict[str, Any]] = {
     "body": {"points": ["a", "c"]},
     "cross_hinge": {"ground": ["a", "c"], "moving": ["d", "b"], "width": "y", **_SHEET},
     "parallel_guide": {"p": "a", "q": "b", "offset": (0.2, 0, 0), **_SHEET},
+    "infinity_hinge": {"p": "a", "q": "b", "width": "y", **_SHEET},
+    "folded_hinge": {"radius": 0.1, **_SHEET},
+    "vee": {"at": "a", "groove": "x", "length": 0.01},
+    "kinematic_mount": {"radius": 0.1, "length": 0.01},
+    **{name: {"outer": 0.1, "inner": 0.02, **_SHEET} for name in ("spider", "diaphragm")},
+    "frame": {},
     "hexapod": {"base": 0.1, "platform": 0.1, "height": 0.1},
     "made_of": {"target": "s", "material": "steel", **_SHEET},
     "look": {"target": "s"},
@@ -129,7 +135,10 @@ def test_a_unit_of_another_kind_is_refused_in_words(name: str, argument: str) ->
     if name == "pattern" and argument in ("at", "step"):
         words.pop("axis" if argument == "step" else "step", None)
     with pytest.raises(flexact.ModelError, match="is wanted") as caught:
-        getattr(model, name)(**words)
+        made = getattr(model, name)(**words)
+        if name == "frame":
+            with made:
+                model.node(0, 0, 0)
     assert "3 K m" in str(caught.value)
 
 

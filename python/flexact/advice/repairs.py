@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from itertools import chain
@@ -32,6 +32,7 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, Role, role_table
 from ..deck.tokens import DeckComments
 from ..model.deformations import AT_P, AT_Q
+from ..model.editing import edited_to_the_letter
 from ..model.parts.forms import PLANAR, XZ
 from ..model.parts.parts import Part, PartKind, natural, surplus_of
 from ..model.writing import dynamics_of, statements_of
@@ -47,7 +48,8 @@ from .releases.words import (
     coordinates_in_words,
     outcome_as_given,
     released,
-    statements_in_words,
+    statements_of_change,
+    written,
 )
 from .step import Purpose, Step, after, analysed, together
 
@@ -65,8 +67,6 @@ _CLEARLY = 1.0e-2
 _MOST_SETS, _MOST_OPERATIONS, _ENOUGH = 6_000, 6.0e8, 24
 #: Of an orbit of more parts the outermost are changed one by one.
 _MOST_SINGLES = 8
-#: Statements or calls that are written out.
-_MOST_WRITTEN = 24
 
 
 class Hardware(IntEnum):
@@ -149,25 +149,27 @@ class Repair(Step):
 
     Attributes:
         told: What each statement does, within a sentence.
-        how: Statements of a deck, or calls, that do it.
+        how: Statements of a deck, or calls, that do it; empty where there are none for all of it.
         note: What else does the same, as a sentence without its full stop.
         effect: What is released and declared, also where limbs are left out.
     """
 
     told: tuple[Pieces, ...] = ()
-    how: tuple[str, ...] = ()
+    how: str = ""
     note: str = ""
     effect: frozenset[Place] = frozenset()
 
     def words(self) -> Pieces:
         """Such as "declare the inner stage along y and cut sheets 1 and 3 to a waist each"."""
-        how = ", ".join(filter(None, self.how))
         note = f". {self.note}" if self.note else ""
-        return (*row_of(self.told), f" ({how})" if how else "", note)
+        return (*row_of(self.told), f" ({self.how})" if self.how else "", note)
 
 
-def _inside_in_words(result: Result) -> Iterator[tuple[Pieces, str]]:
-    """What declares insides and folds, and the statements or calls that do."""
+def _inside_in_words(result: Result, left_out: Collection[int]) -> Iterator[tuple[str, list[str]]]:
+    """What declares insides and folds, and the statements or calls that do.
+
+    Not of elements that are left out.
+    """
     is_deck, whole = result.given.source is not None, result
     numbers = result.given.arrays.element_number
     if result.with_internal_declared is not None:
@@ -175,40 +177,40 @@ def _inside_in_words(result: Result) -> Iterator[tuple[Pieces, str]]:
         inside = [
             " ".join(map(str, (int(numbers[element]), *mine)))
             for element, mine in surplus_of(result.given)
+            if int(numbers[element]) not in left_out
         ]
         made = [f"DYNE {each} instead of RLSE {each}" for each in inside]
-        how = _written(made) if is_deck else "model.declare_internal_motions()"
-        yield ("declare what is inside the divided parts",), how
+        how = made if is_deck else ["model.declare_internal_motions()"]
+        if how:
+            yield "declare what is inside the divided parts", how
     for way in on_motions(whole) if whole.folds else ():
         if way.step is Way.DECLARE_FOLDS:
-            made = [f"DYNE {each.operands} instead of RLSE {each.operands}" for each in way.parts]
+            parts = [each for each in way.parts if int(each.operands.split()[0]) not in left_out]
+            made = [f"DYNE {each.operands} instead of RLSE {each.operands}" for each in parts]
             if not is_deck:
-                made = [call for part in way.parts for call in calls_of(whole, way, part)]
-            yield ("declare the folds",), _written(made)
+                made = [call for part in parts for call in calls_of(whole, way, part)]
+            if made:
+                yield "declare the folds", made
 
 
-def _written(made: Sequence[str], before: str = "") -> str:
-    """Statements or calls; of many how many there are."""
-    if len(made) > _MOST_WRITTEN:
-        return f"{len(made)} more: apply() of the step, or --apply, does it"
-    return before + ", ".join(made) if made else ""
+def _gone(result: Result, left_out: Sequence[int]) -> list[str] | None:
+    """How elements are left out: statements of a deck that go, or calls.
 
-
-def _without(result: Result, left_out: Sequence[int]) -> str:
-    """How elements are left out: of a deck without their statements, in Python by calls."""
-    if not left_out:
-        return ""
+    None where the deck speaks of them elsewhere, too, as a picture block does.
+    """
     given = result.given
     if given.source is not None:
         changed = Change(left_out=tuple(left_out)).apply(given).data
+        if edited_to_the_letter(given, changed) is None:
+            return None
         before, behind = (
             [*dict(statements_of(each)).values(), *dynamics_of(each, DeckComments())]
             for each in (given, changed)
         )
         gone = (words.split() for words in before if words not in set(behind))
-        return _written([" ".join(words[:2]) for words in gone], "without ")
+        return [" ".join(words[:2]) for words in gone]
     parts = dict.fromkeys(result.parts.of_element(given.element_index[n]) for n in left_out)
-    names = [part.name for part in result.parts.all]
+    names = [*(part.name for part in result.parts.all), *given.node_names]
     unique = {part: part.name for part in parts if part.is_named and names.count(part.name) == 1}
     numbers = given.arrays.element_number
     calls = [
@@ -216,7 +218,20 @@ def _without(result: Result, left_out: Sequence[int]) -> str:
         for part in parts
         for each in ([f'"{unique[part]}"'] if part in unique else numbers[list(part.elements)])
     ]
-    return _written([f"model.delete({each}, ends=True)" for each in calls])
+    return [f"model.delete({each}, ends=True)" for each in calls]
+
+
+def _how(result: Result, pieces: Sequence[list[str]], left_out: Sequence[int]) -> str:
+    """Statements or calls that do it; empty where there are none for a piece of it."""
+    if not all(pieces):
+        return ""
+    made = list(chain.from_iterable(pieces))
+    gone = _gone(result, left_out) if left_out else []
+    if gone is None:
+        return "--apply does it"
+    if gone and result.given.source is not None:
+        gone[0] = f"without {gone[0]}"
+    return written([*made, *gone], result)
 
 
 #: Statements, and the inverse of the smallest singular value of their rows.
@@ -287,18 +302,19 @@ def _tried(
     """The repair that statements are; None where it does not leave it exactly constrained."""
     change = together((*declared, *(workshop.change_of(each) for each in plan)))
     outcome, coordinates = outcome_as_given(result), declared[1]
-    inside = list(_inside_in_words(result))
-    told, how = [each for each, _ in inside], [each for _, each in inside]
+    inside = list(_inside_in_words(result, change.left_out))
+    told: list[Pieces] = [(each,) for each, _ in inside]
+    pieces = [each for _, each in inside]
     if coordinates.coordinates:
         told.append(("declare ", *coordinates_in_words(outcome, coordinates)))
-        how.append(statements_in_words(outcome, coordinates, "DYNX"))
+        pieces.append(statements_of_change(outcome, coordinates, "DYNX"))
     told += [workshop.words_of(each) for each in workshop.merged(plan)]
     released = together(replace(workshop.change_of(each), left_out=()) for each in plan)
-    how += [
-        statements_in_words(outcome_as_given(workshop.base), released, "RLSE"),
-        _without(result, change.left_out),
-    ]
-    made = _if_exact(result, change, tuple(told), tuple(how), condition)
+    if released.deformations:
+        base = outcome_as_given(workshop.base)
+        pieces.append(statements_of_change(base, released, "RLSE"))
+    how = _how(result, pieces, change.left_out)
+    made = _if_exact(result, change, tuple(told), how, condition)
     if not made:
         return None
     note = next(filter(None, map(workshop.note_on, plan)), "")
@@ -398,7 +414,7 @@ def _if_exact(
     result: Result,
     change: Change,
     told: tuple[Pieces, ...],
-    how: tuple[str, ...] = (),
+    how: str = "",
     condition: float = 1.0,
 ) -> tuple[Repair, ...]:
     """What a change is as a repair, if it makes the mechanism exactly constrained."""
@@ -431,7 +447,8 @@ def best_together(
         return ()
     condition = max(each.condition for each in both)
     told, how = zip(*(each.in_short() for each in both), strict=True)
-    return _if_exact(result, together(each.change for each in both), told, how, condition)
+    statements = ", ".join(how) if all(how) else ""
+    return _if_exact(result, together(each.change for each in both), told, statements, condition)
 
 
 def _declared_of_bodies(base: Result) -> set[Called]:

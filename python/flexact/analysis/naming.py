@@ -17,6 +17,8 @@ from .ways import Coordinate, Part
 _INDENT = "     "
 #: How many names and runs of names stand together.
 _MOST_TOGETHER = 11
+#: Numbers of more digits are names.
+_DIGITS = 10
 #: Nouns that stand in the plural where names of parts are put together.
 _NOUNS = frozenset(
     (
@@ -132,7 +134,9 @@ def together_in_words(
     by_head = grouped((head, (number, mine[0])) for (head, number), mine in heads.items())
     items: list[Pieces] = []
     for head, numbered in by_head.items():
-        numbers = [int(n) if n.isascii() and n.isdigit() else -1 for n, _ in numbered]
+        numbers = [
+            int(n) if n.isascii() and n.isdigit() and len(n) < _DIGITS else -1 for n, _ in numbered
+        ]
         if len(numbers) == 1 or min(numbers) < 0 or not _plural(head):
             items += [(part,) for _, part in numbered]
             continue

@@ -7,7 +7,7 @@ against a constraint, which makes a self-stress, are taken back.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
@@ -418,15 +418,18 @@ def coordinate_sets(source: Result) -> tuple[Reach, list[Candidate]]:
     nodes = source.raw.column_label[0, reach.index] - 1
     tiers = _tiers_of_nodes(source, reach)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
-    # Coordinates that are called after a body come before those of its other points.
-    given = source.condensed.nodes[nodes]
-    is_first = (turns > 0.0) | np.isin(given, source.parts.first_points)
-    late = tiers + 0.5 * ((tiers < BODY) & ~is_first)
+    owner = [source.parts.body_at.get(int(n), -1) for n in source.condensed.nodes[nodes]]
+
+    def points(members: Sequence[int]) -> int:
+        """How many points of bodies are named besides one of each."""
+        own = {(owner[i], int(nodes[i])) for i in members if owner[i] >= 0 and not turns[i]}
+        return len(own) - len({body for body, _ in own})
 
     def ranking(sets: Places, condition: FloatArray) -> FloatArray:
-        of_sets = np.sort(late[sets], axis=1)[:, ::-1]
+        of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
+        several = np.array([[points(each)] for each in sets.tolist()], float)
         turning = turns[sets].sum(axis=1)[:, None]
-        return np.concatenate([decades(condition), of_sets, turning], axis=1)
+        return np.concatenate([decades(condition), of_sets, several, turning], axis=1)
 
     # Of sets that are called the same, and of those that differ in what is inside of sheets and
     # wires alone, the best.

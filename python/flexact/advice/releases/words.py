@@ -261,7 +261,7 @@ def _can_go(outcome: Decomposition, part: Part) -> bool:
 #: How many alternatives of several parts each are named, and how many of one part.
 _MOST_SETS, _MOST_NAMED = 3, 11
 #: Of more statements or calls it is told how many there are.
-_MOST_STATEMENTS = 24
+MOST_STATEMENTS_WRITTEN = 24
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -442,15 +442,27 @@ def statements_in_words(
     outcome: Decomposition, change: Change, keyword: str, before: str = ""
 ) -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
+    return written(statements_of_change(outcome, change, keyword), outcome, before, keyword)
+
+
+def statements_of_change(outcome: Decomposition, change: Change, keyword: str) -> list[str]:
+    """Statements of a deck that begin with a keyword, or calls of Python that do the same."""
     if outcome.given.source is not None:
-        statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
-        if len(statements) > _MOST_STATEMENTS:
-            return "" if keyword == "FIX" else f"{len(statements)} statements: --apply does it"
-        return f"{before}{', '.join(statements)}"
-    calls = [each.in_words() for each in calls_of_change(outcome, change, method_of(keyword))]
-    if len(calls) > _MOST_STATEMENTS:
-        return "" if keyword == "FIX" else f"{len(calls)} calls: apply() of the step does it"
-    return ", ".join(calls)
+        return [f"{keyword} {operands}" for operands in _operands(outcome, change)]
+    return [each.in_words() for each in calls_of_change(outcome, change, method_of(keyword))]
+
+
+def written(
+    made: Sequence[str], outcome: Decomposition, before: str = "", keyword: str = ""
+) -> str:
+    """Statements or calls in a row; of many how many there are, but of what may be held."""
+    if len(made) <= MOST_STATEMENTS_WRITTEN:
+        return before + ", ".join(made) if made else ""
+    if keyword == "FIX":
+        return ""
+    if outcome.given.source is not None:
+        return f"{len(made)} statements: --apply does it"
+    return f"{len(made)} calls: apply() of the step does it"
 
 
 def _operands(outcome: Decomposition, change: Change) -> list[str]:
