@@ -151,3 +151,18 @@ def test_decks_of_the_repository_keep_their_comments(name: str) -> None:
     again = flexact.read_text(made).data
     for one in ("deformation_class", "coordinate_class", "node_value", "element_vector"):
         assert np.array_equal(getattr(again.arrays, one), getattr(model.data.arrays, one))
+
+
+def test_what_is_said_of_an_element_that_is_left_out_goes_with_it() -> None:
+    """Stiffness and mass of a wire, its clamp and its ends, and nothing else of the deck."""
+    text = (
+        "BEAM 1  1 2 3 4\nBEAM 2  5 6 3 4   % the other\nX 3  0.1 0 0\nX 5  0.2 0.1 0\n"
+        "FIX 1\nFIX 2\nFIX 5\nFIX 6\nRLSE 1  2 3\nEND\nHALT\n% stiffness\nESTIFF 1  1 2 3 4\n"
+        "ESTIFF 2  5 6 7 8\nEM 2  0.1\nXM 3  0.5\nEND\n"
+    )
+    given = flexact.read_text(text).data
+    edited = edited_deck(given, Change(left_out=(2,)).apply(given).data).decode()
+    assert edited == (
+        "BEAM 1  1 2 3 4\n% the other\nX 3  0.1 0 0\nFIX 1\nFIX 2\nRLSE 1  2 3\nEND\nHALT\n"
+        "% stiffness\nESTIFF 1  1 2 3 4\nXM 3  0.5\nEND\n"
+    )

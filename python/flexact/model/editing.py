@@ -43,10 +43,19 @@ def edited_to_the_letter(given: ModelData, changed: ModelData) -> bytes | None:
         for key in dict.fromkeys((*old, *new))
         if old.get(key) != new.get(key)
     }
+    # With an element or a node goes what is said of its stiffness, mass and loads.
+    of_old, of_new = (_keys_of(dynamics_of(data, DeckComments())) for data in (given, changed))
+    edited |= dict.fromkeys(of_old - of_new, "")
     # Every byte is a character, so that whatever the deck holds stays.
     lines = _lines(Tokens(source.text.decode("latin-1")), edited)
     text = "\n".join(lines).encode("latin-1")
     return text if _says(text, changed) else None
+
+
+def _keys_of(statements: Iterable[str]) -> set[Key]:
+    """Keyword and number of statements that have both."""
+    words = (each.split()[:2] for each in statements)
+    return {(each[0], int(each[1])) for each in words if len(each) == 2 and each[1].isdigit()}
 
 
 def _says(text: bytes, wanted: ModelData) -> bool:
@@ -74,7 +83,7 @@ def _lines(tokens: Tokens, edited: dict[Key, str]) -> Iterable[str]:
     lines = iter(tokens)
     for line in lines:
         if line.ends or line.block is Block.PICTURE:
-            rest = [line.text, *(other.text for other in lines)]
+            rest = [line.text, *(text for other in lines for text in _kept(other, left))]
             break
         key = key_of(line)
         if key is None or key not in edited:
@@ -94,6 +103,15 @@ def _lines(tokens: Tokens, edited: dict[Key, str]) -> Iterable[str]:
     # Behind the last line there is nothing, or the end of the text.
     is_open = not rest and made and not made[-1]
     return [*made[:-1], *behind, ""] if is_open else [*made, *behind, *rest]
+
+
+def _kept(line: Line, edited: dict[Key, str]) -> Iterator[str]:
+    """A line behind the kinematics, unless its statement goes."""
+    key = None if line.block is Block.PICTURE else key_of(line)
+    if key is not None and edited.get(key) == "":
+        yield from _written(line, "")
+    else:
+        yield line.text
 
 
 def _written(line: Line, statement: str) -> Iterator[str]:
