@@ -242,7 +242,9 @@ def test_counts_of_the_paper() -> None:
     # Nobody has asked yet.
     told = made.to_dict()
     assert told["releases"]["count"] is told["declarations"]["count"] is None
+    assert "There are" not in made.describe()
     assert made.count()[:2] == (12, 4)
+    assert "There are 12 sets of 1 release.\nThere are 4 sets of 1 declaration." in made.describe()
     told = made.to_dict()
     assert (told["releases"]["count"], told["declarations"]["count"]) == (12, 4)
     assert analyse(flexact.read_text(GUIDE)).advice().count()[:2] == (5, 2)

@@ -419,6 +419,7 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
         advice.made("a pair", lambda: _both(advice), ()),
         *_steps(advice, most),
     ]
+    made.append(tuple(_counted(advice)))
     # What has failed until now is among it.
     if missing := tuple((each,) for each in advice.left_out):
         made.append(((Line(("Left out: ",), missing), False),))
@@ -484,6 +485,15 @@ def _modes(
     if of_all:
         words = in_a_row(of_all)
         yield _said(f"  Each of them: {words[0].lower()}{words[1:]}", hangs=True)
+
+
+def _counted(advice: Advice) -> Iterator[Told]:
+    """How many smallest sets there are, where they were counted."""
+    for sets, what in ((advice.releases, "release"), (advice.declarations, "declaration")):
+        if sets.is_counted and sets.size and sets.count is not None:
+            many = counted(sets.count, "set", "", "s")
+            of = counted(sets.size, what, "", "s")
+            yield _said(f"There {'is' if sets.count == 1 else 'are'} {many} of {of}.")
 
 
 def _both(advice: Advice) -> Section:
