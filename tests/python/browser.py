@@ -182,8 +182,17 @@ def chromium() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def browser(chromium: Browser) -> Browser:
-    """The browser as it was at first."""
+def browser(chromium: Browser) -> Iterator[Browser]:
+    """The browser as it was at first, and nothing in it afterwards."""
     chromium.prefer()
     chromium.resize(1280, 900)
-    return chromium
+    yield chromium
+    # A page that watches would go on asking for a server that has ended.
+    driver = chromium.driver
+    first, *others = driver.window_handles
+    for other in others:
+        driver.switch_to.window(other)
+        driver.close()
+    driver.switch_to.window(first)
+    driver.get("about:blank")
+    chromium.console()

@@ -269,8 +269,7 @@ const Stage = (() => {
         let more = false;
         for (const step of this.before) more = step(time) || more;
         this.lighten(this.slow);
-        // A processor has no time for shadows while something plays.
-        this.draw(!(more && this.software));
+        this.draw();
         if (this.slow) this.rest();
         if (more) this.request();
       });
@@ -301,11 +300,12 @@ const Stage = (() => {
       this.lightened(on);
     }
 
-    draw(shaded = true) {
+    draw() {
       this.frames += 1;
       this.drawn = performance.now();
       this.renderer.render(this.scene, this.camera);
-      if (this.shadow && shaded && !this.light) this.shadow.draw(this);
+      // A processor has no time for shadows.
+      if (this.shadow && !this.light && !this.software) this.shadow.draw(this);
       for (const step of this.after) step();
     }
   }

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 #: How far round a place is looked for room: distances [px], and so many directions.
-_FAR = np.arange(14.0, 190.0, 8.0)
+_FAR = np.concatenate((np.arange(14.0, 190.0, 8.0), np.arange(190.0, 480.0, 24.0)))
 _WAYS = 16
 
 
