@@ -173,9 +173,6 @@ _INNER, _DEEP = np.linspace(0.25, 0.75, 9), 0.3
 _EDGE_RADIUS, _ROUNDEST, _STEP, _FINE_STEP = 0.2, 0.8, np.pi / 6, np.pi / 24
 #: Points that fill less of the plate round them are drawn as their hull.
 _FULL = 0.4
-#: What a body may be drawn as; "" is what fits it.
-SHAPES = ("", "disc", "box", "hull")
-
 #: Corners (v, 3) of a solid [m], outward unit vectors there (v, 3), and its surface.
 Rounded = tuple[FloatArray, FloatArray, Hull]
 
@@ -192,7 +189,7 @@ def solid_of(
 
     Args:
         points: (n, 3) that lie within it [m].
-        shape: One of `SHAPES`.
+        shape: "disc", "box", "hull", or "" for what fits.
         thickness: Of a plate, a disc or a box, and of what is round a hull [m]; 0: as thick as
             the points need.
         least: How thick it is at least; half of it is round the points [m]; 0: a part of their
