@@ -163,7 +163,7 @@ def _turned(points: FloatArray, triangle: np.ndarray, inside: FloatArray) -> np.
 #: body's own extent, which it does not exceed.
 _THICK, _LIMIT = 0.034, 0.4
 #: Of more points, of bodies in drawings of more members, the links are drawn.
-_MOST_POINTS, _MOST_MEMBERS = 120, 1500
+_MOST_POINTS, MOST_MEMBERS = 120, 1500
 #: An axis fits a body better than another one by so much.
 _BETTER = 1.0e-6
 #: Places along other members, and how deep within a hull one may not lie, parts of the thickness.
@@ -394,7 +394,7 @@ def solids_of(data: ModelData, members: Members, size: float, position: FloatArr
         size: Of the drawing [m].
         position: (nodes, 3) of the nodes in the reference [m].
     """
-    if len(members) > _MOST_MEMBERS or not np.any(members.form == Form.RIGID):
+    if len(members) > MOST_MEMBERS or not np.any(members.form == Form.RIGID):
         return []
     row_of = dict(zip(members.index.tolist(), range(len(members)), strict=True))
     made = []
