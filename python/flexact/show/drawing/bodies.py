@@ -164,6 +164,9 @@ def _turned(points: FloatArray, triangle: np.ndarray, inside: FloatArray) -> np.
 _THICK, _LIMIT = 0.034, 0.4
 #: Of more points, of bodies in drawings of more members, the links are drawn.
 _MOST_POINTS, MOST_MEMBERS = 120, 1500
+#: Shapes of a body, and whether upright alone, in the order in which they are tried: where one
+#: swallows others the next may not.
+_TRIES = (("", False), ("", True), ("hull", False))
 #: An axis fits a body better than another one by so much.
 _BETTER = 1.0e-6
 #: Places along other members, and how deep within a hull one may not lie, parts of the thickness.
@@ -400,8 +403,7 @@ def solids_of(data: ModelData, members: Members, size: float, position: FloatArr
     made = []
     for body in bodies_of(data.arrays):
         rows = [row_of[i] for i in body.elements if i in row_of]
-        # Where a plate swallows others an upright one or the hull may not.
-        for shape, upright in (("", False), ("", True), ("hull", False)):
+        for shape, upright in _TRIES:
             solid = _solid(data, members, body, rows, size, shape, upright)
             if solid is not None and not _swallows(members, solid, position, size):
                 made.append(solid)
