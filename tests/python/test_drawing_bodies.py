@@ -362,6 +362,29 @@ def test_arrows_on_bodies_are_what_parts_press_on_them(name: str) -> None:
                 np.testing.assert_allclose(both[1], load.wrench.moment, atol=4 * least)
 
 
+def test_a_page_shows_what_presses_with_its_self_stress(browser: Browser, tmp_path: Path) -> None:
+    """The same arrows, those of moments with two heads, while they are switched on."""
+    analysis = browser.show(runpy.run_path(str(GALLERY / "parallel_guide.py"))["model"], tmp_path)
+    drawing = drawing_of(analysis.given)
+    presses = presses_of(drawing, analysis.self_stresses[0])
+    assert presses and all(press.is_moment for press in presses)
+    state = "return [flexact.presses.group.visible, flexact.presses.endOn()]"
+    shown, arrows = browser.run(state)
+    assert shown and len(arrows) == 2 * len(presses)
+    start = [(press.start - drawing.centre) / drawing.size for press in presses]
+    found = np.array([arrow["at"] for arrow in arrows])
+    np.testing.assert_allclose(found, np.repeat(start, 2, axis=0), atol=1e-6)
+    assert "two heads" in browser.run("return flexact.part('shown').textContent")
+    violet, seen = (64, 5, 97), []
+    for switch in ("", '[data-layer="presses"]'):
+        if switch:
+            browser.press(switch)
+        seen.append((np.abs(browser.pixels().astype(int) - violet).max(axis=-1) < 40).sum())
+    assert seen[0] > seen[1] + 60
+    assert browser.run(state)[0] is False
+    assert browser.console() == []
+
+
 def sheet_that_releases(*which: tuple[str, str]) -> Members:
     """A clamped sheet along x, 10 mm wide along z and 0.5 mm thick, whose far end is free."""
     model = flexact.Model(name="strip")

@@ -94,3 +94,18 @@ def test_what_is_hidden_is_known() -> None:
     assert visible([facets(stack, np.zeros((4, 3)))], SIZE, SIZE).tolist() == [1, 0, 1, 0]
     point = facets([[[30.0, 30.0, 0.0]] * 4], np.zeros((1, 3)))
     assert not visible([point], SIZE, SIZE).any()
+
+
+def test_a_soft_shadow_lies_beside_what_is_nearer() -> None:
+    """Of two slanting squares the one behind is darker near the other one, and nowhere else."""
+    both = facets([square(2, 58, 0, 28), square(30, 50, 20, 30)], np.array([RED, GREEN]))
+    plain, shaded = (painted([both], SIZE, SIZE, reach=reach) for reach in (0.0, 8.0))
+    row = slice(20, 40)
+    red = shaded[row, 3:30, 0].astype(int)
+    assert np.all(plain[row, 3:30, 0] == 255)
+    # Neither the slope nor the nearer one is darker.
+    assert np.all(red[:, :17] == 255) and np.all(shaded[row, 38:42] == plain[row, 38:42])
+    assert np.all(red[:, -2] < 230) and np.all(np.diff(red[:, -8:-1], axis=1) <= 0)
+    assert np.all(shaded[row, :2] == 255)
+    kept = painted([both], SIZE, SIZE, reach=8.0, between=(1e6, 2e6))
+    np.testing.assert_array_equal(kept, plain)

@@ -163,7 +163,10 @@ def _turned(points: FloatArray, triangle: np.ndarray, inside: FloatArray) -> np.
 #: body's own extent, which it does not exceed.
 _THICK, _LIMIT = 0.034, 0.4
 #: Of more points, of bodies in drawings of more members, the links are drawn.
-_MOST_POINTS, _MOST_MEMBERS = 120, 1500
+_MOST_POINTS, MOST_MEMBERS = 120, 1500
+#: Shapes of a body, and whether upright alone, in the order in which they are tried: where one
+#: swallows others the next may not.
+_TRIES = (("", False), ("", True), ("hull", False))
 #: An axis fits a body better than another one by so much.
 _BETTER = 1.0e-6
 #: Places along other members, and how deep within a hull one may not lie, parts of the thickness.
@@ -173,10 +176,8 @@ _INNER, _DEEP = np.linspace(0.25, 0.75, 9), 0.3
 _EDGE_RADIUS, _ROUNDEST, _STEP, _FINE_STEP = 0.2, 0.8, np.pi / 6, np.pi / 24
 #: Points that fill less of the plate round them are drawn as their hull.
 _FULL = 0.4
-#: What a body may be drawn as; "" is what fits it.
-SHAPES = ("", "disc", "box", "hull")
-SHAPES_ASKED = {int(each): each.name.lower() for each in BodyShape if each}
-
+#: What a body may be drawn as where its maker says it.
+_SHAPES = {int(each): each.name.lower() for each in BodyShape if each}
 #: Corners (v, 3) of a solid [m], outward unit vectors there (v, 3), and its surface.
 Rounded = tuple[FloatArray, FloatArray, Hull]
 
@@ -193,7 +194,7 @@ def solid_of(
 
     Args:
         points: (n, 3) that lie within it [m].
-        shape: One of `SHAPES`.
+        shape: "disc", "box", "hull", or "" for what fits.
         thickness: Of a plate, a disc or a box, and of what is round a hull [m]; 0: as thick as
             the points need.
         least: How thick it is at least; half of it is round the points [m]; 0: a part of their
@@ -398,17 +399,15 @@ def solids_of(data: ModelData, members: Members, size: float, position: FloatArr
         size: Of the drawing [m].
         position: (nodes, 3) of the nodes in the reference [m].
     """
-    if len(members) > _MOST_MEMBERS or not np.any(members.form == Form.RIGID):
+    if len(members) > MOST_MEMBERS or not np.any(members.form == Form.RIGID):
         return []
     row_of = dict(zip(members.index.tolist(), range(len(members)), strict=True))
     made = []
     for body in bodies_of(data.arrays):
         rows = [row_of[i] for i in body.elements if i in row_of]
         asked = data.appearance.body_shape[list(body.elements)]
-        wish = SHAPES_ASKED.get(int(asked.max(initial=0)), "")
-        # Where a plate swallows others an upright one or the hull may not.
-        ways = ((wish, False),) if wish else (("", False), ("", True), ("hull", False))
-        for shape, upright in ways:
+        wish = _SHAPES.get(int(asked.max(initial=0)), "")
+        for shape, upright in ((wish, False),) if wish else _TRIES:
             solid = _solid(data, members, body, rows, size, shape, upright)
             if solid is not None and (wish or not _swallows(members, solid, position, size)):
                 made.append(solid)

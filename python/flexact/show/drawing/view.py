@@ -13,6 +13,7 @@ from ...model.parts.parts import bodies_of
 from ...util.errors import BatchError, require_kind
 from ...util.quantities import quantity
 from ...util.records import Frozen, cached_property
+from .bodies import MOST_MEMBERS
 from .drawing import Drawing
 
 #: Azimuth and elevation [degrees] of the views that have a name.
@@ -29,8 +30,8 @@ ISO = "iso"
 _ISO_AZIMUTHS = (-62.0, -38.0, -74.0, -24.0, -122.0, -148.0)
 _ISO_ELEVATION = 25.0
 #: What is flat is seen from at least so far above its plane [degrees]. Flat is whose least extent
-#: is at most this part of the next one.
-_ABOVE, _FLATNESS = 35.0, 0.3
+#: is at most this part of the next one, and that one more than this part of the largest.
+_ABOVE, _FLATNESS, _LINE = 35.0, 0.3, 0.1
 #: Another azimuth than the first must show so much more.
 _BETTER = 0.04
 #: A sheet that is turned to the eye by this cosine is seen well enough.
@@ -104,13 +105,16 @@ def flat_normal(drawing: Drawing) -> FloatArray | None:
 
     Flat is where all points, or all points of bodies, lie near a plane and not near a line.
     """
-    place, used = drawing.reference.position, np.unique(drawing.members.nodes[:, [0, 2]])
-    bodies = {node for body in bodies_of(drawing.data.arrays) for node in body.positions}
-    for nodes in (used.tolist(), sorted(bodies)):
-        apart = place[nodes] - place[nodes].mean(axis=0) if len(nodes) > 2 else np.zeros((3, 3))
+    place = drawing.reference.position
+    bodies = bodies_of(drawing.data.arrays) if len(drawing.members) <= MOST_MEMBERS else ()
+    carried = np.unique([node for body in bodies for node in body.positions])
+    for nodes in (np.unique(drawing.members.nodes[:, [0, 2]]), carried.astype(int)):
+        if nodes.size < 3:
+            continue
+        apart = place[nodes] - place[nodes].mean(axis=0)
         axes = np.linalg.svd(apart, full_matrices=False)[2]
         extents = np.ptp(apart @ axes.T, axis=0)
-        if extents[2] <= _FLATNESS * extents[1] and extents[1] > _FLATNESS * extents[0] / 3:
+        if extents[2] <= _FLATNESS * extents[1] and extents[1] > _LINE * extents[0]:
             return np.asarray(axes[2])
     return None
 

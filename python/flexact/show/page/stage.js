@@ -23,7 +23,7 @@ const Stage = (() => {
       this.drawn = this.last = 0; // when a frame was drawn
       this.gaps = [];
       this.heavy = false; // whether there is something to leave out
-      this.slow = this.light = false;
+      this.slow = this.light = this.dull = false; // dull: without shadows while something moves
       this.software = isSoftware(context);
       this.lightened = () => {};
       this.after = []; // called behind each frame
@@ -269,8 +269,10 @@ const Stage = (() => {
         let more = false;
         for (const step of this.before) more = step(time) || more;
         this.lighten(this.slow);
-        this.draw();
-        if (this.slow) this.rest();
+        // Where frames follow each other slowly shadows are drawn at rest.
+        const dull = running && this.dull;
+        this.draw(!dull);
+        if (this.slow || dull) this.rest();
         if (more) this.request();
       });
     }
@@ -279,7 +281,9 @@ const Stage = (() => {
     pace(gap) {
       this.gaps = [...this.gaps.slice(1 - GAPS), gap];
       const mean = this.gaps.reduce((sum, each) => sum + each, 0) / this.gaps.length;
-      if (this.gaps.length === GAPS && mean > LONG) this.slow = this.heavy;
+      if (this.gaps.length < GAPS || mean <= LONG) return;
+      this.slow = this.heavy;
+      this.dull = true;
     }
 
     /** Draw in full as soon as nothing has moved for a while. */
@@ -300,12 +304,12 @@ const Stage = (() => {
       this.lightened(on);
     }
 
-    draw() {
+    draw(shaded = true) {
       this.frames += 1;
       this.drawn = performance.now();
       this.renderer.render(this.scene, this.camera);
       // A processor has no time for shadows.
-      if (this.shadow && !this.light && !this.software) this.shadow.draw(this);
+      if (this.shadow && shaded && !this.light && !this.software) this.shadow.draw(this);
       for (const step of this.after) step();
     }
   }

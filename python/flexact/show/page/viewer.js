@@ -47,7 +47,9 @@ const Viewer = (() => {
     assemble() {
       const { stage } = this;
       for (const part of [this.members, this.bodies, this.hinges, this.supports, this.joints,
-        this.freedoms, this.displacements, this.presses, this.diagram, this.spaces]) stage.scene.add(part.group);
+        this.freedoms, this.displacements, this.presses, this.diagram, this.spaces]) {
+        stage.scene.add(part.group);
+      }
       stage.scene.add(this.nodeMark.mesh);
       Shadow.Shadow.cast(...this.members.solids, ...this.bodies.solids, this.hinges.group,
         this.supports.group, this.joints.group);

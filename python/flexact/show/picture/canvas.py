@@ -76,7 +76,7 @@ def painted(
     if reach > 1.0:
         middle = nearest.reshape(shape)[SAMPLES // 2 :: SAMPLES, SAMPLES // 2 :: SAMPLES]
         depth = np.where(middle > 0, (middle >> _BITS) / _STEPS + lowest, -np.inf)
-        solid = (depth >= between[0]) & (depth < between[1])
+        solid = (middle > 0) & (depth >= between[0]) & (depth < between[1])
         dark = _shadow(depth / SAMPLES, solid, reach)
         made[solid] = np.rint(made[solid] * (1.0 - dark).reshape(-1, 1))
     return made
