@@ -393,6 +393,14 @@ def test_a_step_leaves_a_part_out_and_is_written(browser: Browser, watch: Watchi
 
 def test_proposals_are_switches(browser: Browser, watch: Watching) -> None:
     page = Page(browser, watch("guide.dat", DECK))
+    # Where there are steps, single changes are folded away until they are asked for.
+    page.sees("head", "Edit and see")
+    opened = (
+        "const all = [...document.querySelectorAll('summary')];"
+        "const mine = all.find((each) => each.textContent === 'Single changes');"
+        "mine.click(); if (!mine.parentNode.open) mine.click(); return mine.parentNode.open;"
+    )
+    assert browser.run(opened)
     page.sees("proposals", "To remove the self-stress, release one of")
     page.click("proposed element 1 3 release")
     page.sees("verdict", "exactly constrained")

@@ -57,9 +57,7 @@ const Switches = (() => {
       // Single changes are here, with buttons.
       const singles = steps.length && this.root.querySelector("#remedies .folded");
       if (singles) singles.remove();
-      const folded = this.part("singles");
-      if (this.known !== steps.length) folded.open = !steps.length;
-      this.known = steps.length;
+      if (!this.isChosen) this.part("singles").open = !steps.length;
       const pair = this.root.querySelector(".tried");
       if (!pair) return;
       pair.querySelector(".after-side .which").append(button("Undo", () => this.ask({ do: "undo" })));
@@ -374,7 +372,9 @@ const Switches = (() => {
         singles: element("details"),
       };
       const proposals = part("div", "proposals", "proposals");
-      parts.singles.append(element("summary", "Single changes"), proposals);
+      const summary = element("summary", "Single changes");
+      summary.addEventListener("click", () => { this.isChosen = true; });
+      parts.singles.append(summary, proposals);
       parts.head.id = "switches-head";
       for (const [name, part] of Object.entries(parts)) part.dataset.part = name;
       for (const [name, words] of [["undo", "Undo"], ["redo", "Redo"], ["reset", "Reset all"]]) {
