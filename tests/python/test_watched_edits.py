@@ -327,6 +327,17 @@ BOXES = """
 """
 
 
+def assert_nothing_overlaps(browser: Browser) -> None:
+    """In windows of both widths, in light and dark."""
+    for width, theme in product((1280, 360), ("light", "dark")):
+        browser.prefer(prefers_color_scheme=theme)
+        browser.resize(width, 900)
+        # What stays in sight lies over what is scrolled below it.
+        browser.run("window.scrollTo({ top: 0, behavior: 'instant' })")
+        assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
+        assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
+
+
 def test_a_step_is_tried_beside_what_was_before_and_undone(
     browser: Browser, watch: Watching
 ) -> None:
@@ -347,13 +358,7 @@ def test_a_step_is_tried_beside_what_was_before_and_undone(
     assert browser.run(f"{at} return at('.before-side').right <= at('.after-side').left")
     page.sees("edits", words)
     page.sees("lines", "RLSE")
-    for width, theme in product((1280, 360), ("light", "dark")):
-        browser.prefer(prefers_color_scheme=theme)
-        browser.resize(width, 900)
-        # What stays in sight lies over what is scrolled below it.
-        browser.run("window.scrollTo({ top: 0, behavior: 'instant' })")
-        assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
-        assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
+    assert_nothing_overlaps(browser)
     browser.resize(1280, 900)
     browser.run("document.querySelector('.before-side .which button').click()")
     assert not browser.run("return document.querySelector('.before-side').checkVisibility()")
@@ -362,13 +367,7 @@ def test_a_step_is_tried_beside_what_was_before_and_undone(
     page.settled(0)
     assert browser.run("return document.querySelector('.tried')") is None
     assert "Over-constrained" in browser.run("return document.querySelector('h1').innerText")
-    for width, theme in product((1280, 360), ("light", "dark")):
-        browser.prefer(prefers_color_scheme=theme)
-        browser.resize(width, 900)
-        # What stays in sight lies over what is scrolled below it.
-        browser.run("window.scrollTo({ top: 0, behavior: 'instant' })")
-        assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
-        assert not overlapping(browser.run(BOXES)) and not browser.run(OUTSIDE)
+    assert_nothing_overlaps(browser)
     assert browser.console() == []
 
 

@@ -418,8 +418,8 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
         tuple(_stresses(advice, known)),
         advice.made("a pair", lambda: _both(advice), ()),
         *_steps(advice, most),
+        tuple(_counted(advice)),
     ]
-    made.append(tuple(_counted(advice)))
     # What has failed until now is among it.
     if missing := tuple((each,) for each in advice.left_out):
         made.append(((Line(("Left out: ",), missing), False),))

@@ -82,12 +82,11 @@ class Hardware(IntEnum):
 
 
 class Alike(IntEnum):
-    """Which parts of an orbit are changed, the most regular first."""
+    """Which parts of an orbit are changed, the most regular first; one part is twice `SOME`."""
 
     ALL = 0
     GUIDE = 1
     SOME = 2
-    DIAGONAL = 3
     ONE = 4
     REST = 5
 
@@ -273,10 +272,10 @@ def repairs_of(result: Result) -> Iterator[Repair]:
         (tuple((one.hardware, one.alike) for one in plan[0]), plan)
         for plan in workshop.plans(MOST_STATEMENTS - is_left)
     )
-    first = next(iter(by_kind), ())
-    if not is_left and first[:1] and len(first) == 1 and first[0][1] is Alike.ONE:
-        one = next(iter(by_kind.values()))[0][0][0]
-        if one.hardware is not Hardware.OUT:
+    best_kinds = next(iter(by_kind), ())
+    if not is_left and len(best_kinds) == 1:
+        ((hardware, alike),) = best_kinds
+        if alike is Alike.ONE and hardware is not Hardware.OUT:
             return
     made, tries = 0, 0
     for same in by_kind.values():
@@ -309,10 +308,11 @@ def _tried(
         told.append(("declare ", *coordinates_in_words(outcome, coordinates)))
         pieces.append(statements_of_change(outcome, coordinates, "DYNX"))
     told += [workshop.words_of(each) for each in workshop.merged(plan)]
-    released = together(replace(workshop.change_of(each), left_out=()) for each in plan)
-    if released.deformations:
+    # What else stands there declares insides and folds.
+    releases = Change(tuple(each for each in change.deformations if each[2] is Class.DEPENDENT))
+    if releases.deformations:
         base = outcome_as_given(workshop.base)
-        pieces.append(statements_of_change(base, released, "RLSE"))
+        pieces.append(statements_of_change(base, releases, "RLSE"))
     how = _how(result, pieces, change.left_out)
     made = _if_exact(result, change, tuple(told), how, condition)
     if not made:
@@ -774,12 +774,8 @@ def _selections(flexures: Sequence[Flexure]) -> Iterator[tuple[Alike, tuple[int,
             several = [guide for guide in mine if guide]
             if len(several) > 1 and all(len(guide) > 1 for guide in several):
                 made += [(Alike.SOME, [guide[place] for guide in several]) for place in (0, -1)]
-                made += [
-                    (
-                        Alike.SOME,
-                        [guide[k] for k, guide in zip(_zigzag(several), several, strict=True)],
-                    )
-                ]
+                # Of every second guide the last part, of the others the first.
+                made.append((Alike.SOME, [guide[-(k % 2)] for k, guide in enumerate(several)]))
         for some in (orbit, *guides):
             if len(some) > 3:
                 made += [(Alike.SOME, some[0::2]), (Alike.SOME, some[1::2])]
@@ -797,11 +793,6 @@ def _selections(flexures: Sequence[Flexure]) -> Iterator[tuple[Alike, tuple[int,
             if some and tuple(some) not in known:
                 known.add(tuple(some))
                 yield alike, tuple(some)
-
-
-def _zigzag(guides: Sequence[object]) -> list[int]:
-    """Of every second guide the last part, of the others the first."""
-    return [-(k % 2) for k in range(len(guides))]
 
 
 def _ends(flexure: Flexure) -> tuple[str, ...]:
