@@ -1,0 +1,895 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables at a point: stiffness and compliance in any frame, principal lines, centres, parasites.
+
+Principal stiffnesses are those of Patterson and Lipkin (Structure of robot compliance, J. Mech.
+Design 115, 1993), which depend neither on the point nor on the frame. A translation g without
+turning takes a wrench whose force is along g, where K_tt g = k g: k and the line of that wrench. A
+couple along g turns about a line along g, where C_rr g = g/k: k and that line. The centres are
+those of Loncaric (Normal forms of stiffness and compliance matrices, IEEE J. Robotics and
+Automation 3, 1987): where the block that couples displacements with turns is symmetric. Where it
+vanishes a force through the centre does not turn, and a couple does not displace it.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.arrays import FloatArray, IntArray
+from ..core.elements import NodeKind
+from ..model.data import ModelData
+from ..show.charts import Bar, BarChart, Chart, Curve, Group, Row, linear_scale, log_scale
+from ..show.writers import STILLS, Writers, as_bytes, write
+from ..util.loading import VERSION, load
+from ..util.matrices import complement, span
+from ..util.outputs import OutputError
+from ..util.records import Frozen
+from ..util.rotations import matrix_of, matrix_of_euler, vector_of
+from ..util.text import file_name, harmless, in_short
+from ..util.text import table as text_table
+from ..util.units import Units
+from .errors import ElasticError, Estimate
+from .points import Point, Points
+from .solution import Compliance, Solution
+
+if TYPE_CHECKING:
+    from .elastic import State
+
+NAMES = ("x", "y", "z", "rx", "ry", "rz")
+#: A frame has axes that are square to each other within this.
+_SQUARE = 1.0e-6
+#: Principal stiffnesses that differ by less than this part of the largest are one.
+_EQUAL = 1.0e-7
+#: What is left of a stiffness or a compliance, as a part of the largest, that is none.
+_NOTHING = 1.0e-12
+#: What is less than this part of the root of both diagonal terms is told as 0.
+_ROUNDED = 1.0e-9
+#: Displacements and turns are independent where no more of either comes from the other, as a part
+#: of the root of the product of both compliances.
+UNCOUPLED = 1.0e-4
+#: Columns of a terminal.
+_WIDTH = 100
+
+
+def cross_matrix(vector: FloatArray) -> FloatArray:
+    """(3, 3): times another vector, the cross product."""
+    return np.cross(vector, np.eye(3)).T
+
+
+def axes_given(points: Points, frame: object) -> tuple[FloatArray, str]:
+    """(3, 3) axes as columns, and what they are called, of a frame as users give it.
+
+    Raises:
+        ElasticError: it is none, or one out of the plane of a planar model.
+        ModelError: there is no such part.
+    """
+    wrong = (
+        'a frame is "global", the name of a part, or a 3 x 3 rotation whose columns are its axes, '
+        f"not {in_short(frame)}"
+    )
+    if isinstance(frame, str) and frame == "global":
+        return np.eye(3), "the axes of the model"
+    if isinstance(frame, (list, tuple, np.ndarray)):
+        try:
+            made = np.array(frame, np.float64)
+        except (TypeError, ValueError):
+            raise ElasticError(wrong) from None
+        if made.shape != (3, 3) or not np.abs(made.T @ made - np.eye(3)).max() < _SQUARE:
+            raise ElasticError(wrong)
+        if np.linalg.det(made) < 0.0:
+            raise ElasticError(f"a frame is right-handed: turn one axis of {in_short(frame)} about")
+        words = "given axes"
+    else:
+        element = points.elements(frame)[0]
+        made = np.array(points.data.frames.frame[element])
+        words = f"the axes of {points.parts.of_element(element).name}, as it is at rest"
+    if points.data.planar and abs(made[2, 2]) < 1.0 - _SQUARE:
+        raise ElasticError("the frame of a planar model is one in its plane")
+    left, _, right = np.linalg.svd(made)
+    return left @ right, words
+
+
+def offset_given(points: Points, point: Point, at: object) -> FloatArray:
+    """(3,) from a point at rest to a place that is carried with it [m]; zero without one.
+
+    Raises:
+        ElasticError: nothing turns with the point, so that it carries no other place.
+    """
+    if at is None:
+        return np.zeros(3)
+    if point.orientation < 0 or point.position < 0:
+        raise ElasticError(
+            f"{words_of(points, point)} carries no other place, since nothing turns with it: leave "
+            "out `at`, or name a body"
+        )
+    return points.place(at) - points.data.arrays.node_value[:3, point.position]
+
+
+def words_of(points: Points, point: Point) -> str:
+    """What a point is called: by its name, by the body that it stands for, or by its number."""
+    node = next(iter(point.nodes))
+    parts = points.parts
+    body = parts.body_at.get(node)
+    if point.position >= 0 and (name := parts.name_of_point(point.position)):
+        return name
+    if body is not None and parts.first_points[body] == point.position:
+        return str(parts.of_body(body).name)
+    return f"node {points.number(node)}"
+
+
+def carried(
+    at: Solution, point: Point, offset: FloatArray, since: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """How a place that is carried with a point has moved and turned, and where it is.
+
+    Args:
+        at: The state.
+        point: The point.
+        offset: (3,) from the point to the place at rest [m].
+        since: (4, nodes) the configuration from which motions count; by default at rest.
+
+    Returns:
+        (6,) its displacement and rotation vector [m, rad], and (3,) from the point to it now.
+    """
+    now, rest = at.raw.configuration, at.solver.at_rest.configuration
+    rest = rest if since is None else since
+    turn = np.eye(3)
+    if point.orientation >= 0:
+        node = point.orientation
+        if at.solver.mesh.own.arrays.node_kind[node] == NodeKind.ANGLE:
+            turn = matrix_of(np.array([0.0, 0.0, now[0, node] - rest[0, node]]))
+        else:
+            turn = matrix_of_euler(now[:, node]) @ matrix_of_euler(rest[:, node]).T
+    way = turn @ offset
+    node = point.position
+    moved = np.zeros(3) if node < 0 else now[:3, node] - rest[:3, node]
+    return np.concatenate((moved + way - offset, vector_of(turn))), way
+
+
+def seen_from(
+    given: Compliance, which: IntArray, offset: FloatArray, axes: FloatArray
+) -> Compliance:
+    """The compliance of a place that is carried with a point, in a frame.
+
+    Args:
+        given: Of the point, in the axes of the model.
+        which: (n,) of the six coordinates x y z rx ry rz, those that the point has.
+        offset: (3,) from the point to the place [m].
+        axes: (3, 3) of the frame, as columns.
+    """
+    full = np.zeros((6, 6))
+    full[:3, :3] = full[3:, 3:] = axes.T
+    full[:3, 3:] = -axes.T @ cross_matrix(offset)
+    turned = full[np.ix_(which, which)]
+    if np.array_equal(turned, np.eye(which.size)):
+        return given
+    turned = turned * given.scale[:, None] / given.scale
+    finite = turned @ given.finite @ turned.T
+    loose = span(turned @ given.loose, _NOTHING)
+    return given._replace(finite=(finite + finite.T) / 2.0, loose=loose)
+
+
+@dataclass(frozen=True, eq=False)
+class PrincipalStiffness(Frozen):
+    """A principal stiffness as a line.
+
+    Attributes:
+        kind: "translation": a force along the line moves the body along it, without a turn;
+            "rotation": a couple along the line turns the body about it.
+        stiffness: [N/m, N m/rad]; infinite where it is held, 0 of a motion without stiffness.
+        direction: (3,) unit vector, in the axes of the model.
+        through: (3,) the place of the line that is nearest to the point; None where what is held
+            or loose leaves it open.
+        pitch: Of a translation the couple along the line that goes with the force, for each unit
+            of it; of a rotation the displacement along the line for each radian [m]; None likewise.
+    """
+
+    kind: str
+    stiffness: float
+    direction: FloatArray
+    through: FloatArray | None
+    pitch: float | None
+
+
+def principal_axes(matrix: FloatArray, basis: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Eigenvalues (k,), ascending, and vectors (3, k) of a symmetric matrix in a basis (3, k).
+
+    Of equal values the vectors are those nearest to the axes of the basis's space.
+    """
+    values, own = np.linalg.eigh((matrix + matrix.T) / 2.0)
+    vectors = basis @ own
+    least, start = _EQUAL * np.abs(values).max(initial=0.0), 0
+    for stop in range(1, values.size + 1):
+        if stop < values.size and values[stop] - values[stop - 1] <= least:
+            continue
+        for k in range(start, stop):
+            left = vectors[:, k:stop]
+            nearest = left @ left[np.argmax(np.linalg.norm(left, axis=1).round(9))]
+            first = nearest / np.linalg.norm(nearest)
+            rest = left - np.outer(first, first @ left)
+            vectors[:, k:stop] = np.column_stack((first, span(rest, 0.5)))
+        start = stop
+    most = np.abs(vectors).round(9).argmax(axis=0)
+    signs = np.sign(vectors[most, np.arange(values.size)])
+    return values, vectors * np.where(signs < 0.0, -1.0, 1.0) + 0.0
+
+
+def principal_of(
+    given: Compliance, which: IntArray, place: FloatArray
+) -> tuple[PrincipalStiffness, ...]:
+    """Principal stiffnesses, of each kind the softest first; SI."""
+    shift, turn = which < 3, which >= 3
+    scale = float(given.scale[turn][0]) if turn.any() else 1.0
+    values, some, held = given.springs
+    stiff = (some / values) @ some.T
+    axis = np.eye(3)[:, which % 3]
+
+    def screw(along: FloatArray, across: FloatArray) -> tuple[FloatArray, float]:
+        square = float(along @ along)
+        return place + np.cross(along, across) / square, float(along @ across) / square
+
+    made = []
+    for kind, own, matrix, stuck, is_open in (
+        ("translation", shift, stiff, held, bool(held.size)),
+        ("rotation", turn, given.finite, given.loose, bool(given.loose.size)),
+    ):
+        # Of translations what is held is infinite, of turns what is loose, in their own spaces.
+        beyond = span(stuck[own], _NOTHING**0.5)
+        across = complement(beyond)
+        inner = across.T @ matrix[np.ix_(own, own)] @ across
+        found, vectors = principal_axes(inner, axis[:, own] @ across)
+        least = _NOTHING * np.abs(matrix).max(initial=0.0)
+        extreme = math.inf if kind == "translation" else 0.0
+        outer = [(extreme, each) for each in (axis[:, own] @ beyond).T]
+        inside = []
+        for value, direction in zip(found.tolist(), vectors.T, strict=True):
+            number = value if value > least else 0.0
+            if kind == "rotation":
+                number = scale**2 / value if value > least else math.inf
+            inside.append((number, direction))
+        every = [*inside, *outer]
+        for number, direction in sorted(every, key=lambda each: each[0]):
+            line: tuple[FloatArray | None, float | None] = None, None
+            if math.isfinite(number) and number > 0.0 and not is_open:
+                answer = matrix[:, own] @ (axis[:, own].T @ direction)
+                moved, turned = axis[:, shift] @ answer[shift], axis[:, turn] @ answer[turn]
+                shape = (moved, turned * scale), (turned / scale, moved)
+                line = screw(*shape[kind == "rotation"])
+            elif kind == "rotation" and number == 0.0 and given.loose.shape[1] == 1:
+                motion = given.loose[:, 0]
+                line = screw(axis[:, turn] @ motion[turn] / scale, axis[:, shift] @ motion[shift])
+            made.append(PrincipalStiffness(kind, number, direction, *line))
+    return tuple(made)
+
+
+def centres_of(
+    given: Compliance, which: IntArray, place: FloatArray
+) -> tuple[FloatArray | None, FloatArray | None, float]:
+    """Centre of compliance, centre of stiffness, and the coupling that is left at the former; SI.
+
+    A centre is None where there is none. Where only one turn gives way the centre of compliance is
+    the place of its axis that is nearest to the point.
+    """
+    turn = which >= 3
+    if given.loose.size or not turn.any():
+        return None, None, math.nan
+    full = np.zeros((6, 6))
+    full[np.ix_(which, which)] = given.matrix
+    found: list[FloatArray | None] = []
+    _, _, held = given.springs
+    stiff = np.zeros((6, 6))
+    if not held.size:
+        stiff[np.ix_(which, which)] = given.stiffness
+    for matrix, block, sign in ((full, full[3:, 3:], 1.0), (stiff, stiff[:3, :3], -1.0)):
+        couple = matrix[:3, 3:]
+        twice = np.array([couple[k, j] - couple[j, k] for j, k in ((1, 2), (2, 0), (0, 1))])
+        whole = np.trace(block) * np.eye(3) - block
+        is_one = np.linalg.matrix_rank(whole, _EQUAL * np.abs(whole).max(initial=0.0)) < 2
+        found.append(None if is_one else place + sign * np.linalg.pinv(whole, _EQUAL) @ twice)
+    centre, other = found
+    if centre is None:
+        return None, other, math.nan
+    there = seen_from(given, which, centre - place, np.eye(3)).finite
+    sizes = np.sqrt(np.maximum(np.diagonal(there), 0.0))
+    both = np.outer(sizes[~turn], sizes[turn])
+    least = _NOTHING * both.max(initial=0.0)
+    left = np.abs(there[np.ix_(~turn, turn)]) / np.where(both > least, both, math.inf)
+    return centre, other, float(left.max(initial=0.0))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PointTable(Frozen):
+    """What a point does under forces and moments; made by `State.table`.
+
+    Places and directions are in the axes of the model; numbers are in `units`.
+
+    Attributes:
+        data: The model.
+        label: What state it is, such as "undeformed".
+        point: What the point is called.
+        place: (3,) where it is [m].
+        frame: What the frame of both matrices is called.
+        axes: (3, 3) the frame's axes, as columns.
+        directions: (n,) the coordinates, in the order of both matrices.
+        stiffness: (n, n) infinite where held, 0 without stiffness [N/m, N, N m/rad].
+        compliance: (n, n) likewise, 0 and infinite [m/N, rad/N, rad/(N m)].
+        principal: Principal stiffnesses of translations, then of rotations, the softest first.
+        centre_of_compliance: (3,) where the coupling of the compliance is symmetric; None where
+            there is none.
+        centre_of_stiffness: (3,) likewise of the stiffness.
+        coupling: How far displacements and turns depend on each other at the centre of compliance,
+            from 0, not at all, to 1; NaN without one.
+    """
+
+    data: ModelData
+    label: str
+    point: str
+    place: FloatArray
+    frame: str
+    axes: FloatArray
+    directions: tuple[str, ...]
+    stiffness: FloatArray
+    compliance: FloatArray
+    principal: tuple[PrincipalStiffness, ...]
+    centre_of_compliance: FloatArray | None
+    centre_of_stiffness: FloatArray | None
+    coupling: float
+
+    @property
+    def units(self) -> Units:
+        """In which its numbers are."""
+        return self.data.units
+
+    @property
+    def centre(self) -> FloatArray | None:
+        """(3,) the place where forces do not turn and couples do not displace; None without one."""
+        return self.centre_of_compliance if self.coupling < UNCOUPLED else None
+
+    def describe(self) -> str:
+        """Both matrices, principal stiffnesses and the centre, in words."""
+        length = self.units.symbol("m")
+        place = listed(self.place)
+        lines = [f"{self.point} at {place} {length}, {self.label}; in {self.frame}."]
+        for what, matrix, keys, infinite in (
+            ("Stiffness", self.stiffness, _STIFFNESS, "held"),
+            ("Compliance", self.compliance, _COMPLIANCE, "loose"),
+        ):
+            lines.append(f"{what} [{', '.join(map(self.units.symbol, keys))}]:")
+            rows = [["", *self.directions]]
+            sizes = np.sqrt(np.abs(np.nan_to_num(np.diagonal(matrix), posinf=0.0)))
+            shown = np.where(np.abs(matrix) > _ROUNDED * np.outer(sizes, sizes), matrix, 0.0)
+            for name, row in zip(self.directions, shown.tolist(), strict=True):
+                rows.append([f"  {name}", *(_number(value, infinite) for value in row)])
+            lines.append(text_table(rows, _WIDTH))
+        lines.append("Principal stiffnesses, the softest first:")
+        for each in self.principal:
+            is_shift = each.kind == "translation"
+            if math.isinf(each.stiffness):
+                told = "held"
+            else:
+                unit = self.units.symbol("N/m" if is_shift else "N m/rad")
+                told = f"{each.stiffness:.5g} {unit}" if each.stiffness else "no stiffness"
+            words = f"  {each.kind} along" if is_shift else f"  {each.kind} about"
+            words = f"{words} {listed(each.direction)}: {told}"
+            if each.through is not None and each.pitch is not None:
+                words += f", on the line through {listed(each.through)} {length}"
+                if abs(each.pitch) > _EQUAL * self.units.shown(self.data.size, "m"):
+                    words += f", pitch {each.pitch:.3g} {length}"
+            lines.append(words)
+        return "\n".join((*lines, self.centre_words))
+
+    @property
+    def centre_words(self) -> str:
+        """Whether there is a centre of compliance, and where, in a sentence or two."""
+        length = self.units.symbol("m")
+        if not any(name.startswith("r") for name in self.directions):
+            return "No centre of compliance: nothing turns with the point."
+        if np.isinf(self.compliance).any():
+            return "No centre of compliance: there is a motion without stiffness."
+        if self.centre_of_compliance is None:
+            return "No centre of compliance: the body does not turn."
+        where = f"{listed(self.centre_of_compliance)} {length}"
+        if self.centre is not None:
+            return (
+                f"Centre of compliance at {where}: a force through it does not turn the body, and "
+                "a couple does not displace it."
+            )
+        told = f"The coupling is least asymmetric at {where} (Loncaric's centre of compliance)"
+        if self.centre_of_stiffness is not None:
+            told += f", that of the stiffness at {listed(self.centre_of_stiffness)} {length}"
+        return (
+            "No centre of compliance: wherever a couple acts, it displaces every place (coupling "
+            f"{100.0 * self.coupling:.2g} % at best). {told}."
+        )
+
+    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
+        """All numbers as a tidy table, a row a number; also written to a file, if one is named.
+
+        Raises:
+            OutputError: The file cannot be written.
+        """
+        rows: list[Sequence[object]] = [_HEADER]
+        for what, matrix, keys in (
+            ("stiffness", self.stiffness, _STIFFNESS),
+            ("compliance", self.compliance, _COMPLIANCE),
+        ):
+            for i, one in enumerate(self.directions):
+                for j, other in enumerate(self.directions):
+                    key = keys[one.startswith("r") + other.startswith("r")]
+                    unit = self.units.symbol(key)
+                    rows.append((what, one, other, "", float(matrix[i, j]), unit))
+        length = self.units.symbol("m")
+        for kind, number, each in self._numbered:
+            unit = self.units.symbol("N/m" if kind == "translation" else "N m/rad")
+            rows.append((f"principal {kind}", "", "", number, each.stiffness, unit))
+            for what, vector, unit in (
+                ("direction", each.direction, "1"),
+                ("through", each.through, length),
+            ):
+                for name, value in zip("xyz", [] if vector is None else vector.tolist()):
+                    rows.append((f"principal {kind}, {what}", name, "", number, value, unit))
+            if each.pitch is not None:
+                rows.append((f"principal {kind}, pitch", "", "", number, each.pitch, length))
+        for what, place in (
+            ("place", self.place),
+            ("centre of compliance", self.centre_of_compliance),
+            ("centre of stiffness", self.centre_of_stiffness),
+        ):
+            for name, value in zip("xyz", [] if place is None else place.tolist()):
+                rows.append((what, name, "", "", value, length))
+        if math.isfinite(self.coupling):
+            rows.append(("coupling", "", "", "", self.coupling, "1"))
+        return _csv(rows, path)
+
+    @property
+    def _numbered(self) -> list[tuple[str, int, PrincipalStiffness]]:
+        shifts = sum(each.kind == "translation" for each in self.principal)
+        return [
+            (each.kind, 1 + (k if k < shifts else k - shifts), each)
+            for k, each in enumerate(self.principal)
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The table as the JSON has it (`docs/table.schema.json`); what is infinite is null."""
+        return {
+            **_head(self.data, "point"),
+            "state": self.label,
+            "point": self.point,
+            "place": self.place.tolist(),
+            "frame": {"words": self.frame, "axes": self.axes.T.tolist()},
+            "directions": list(self.directions),
+            "stiffness": plain(self.stiffness),
+            "compliance": plain(self.compliance),
+            "principal": [
+                {
+                    "kind": each.kind,
+                    "stiffness": plain(each.stiffness),
+                    "direction": each.direction.tolist(),
+                    "through": plain(each.through),
+                    "pitch": each.pitch,
+                }
+                for each in self.principal
+            ],
+            "centre": plain(self.centre),
+            "centre_of_compliance": plain(self.centre_of_compliance),
+            "centre_of_stiffness": plain(self.centre_of_stiffness),
+            "coupling": plain(self.coupling),
+            "words": self.centre_words,
+        }
+
+    def to_json(self) -> str:
+        """One line of JSON, of `to_dict`; numbers read back to the last bit."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it: a picture (.png, .svg, .pdf), a table (.csv) or JSON (.json), by its suffix.
+
+        Raises:
+            FlexactError: There is no such kind of file, a package is missing, or the file cannot
+                be written.
+        """
+        TABLES.save(self, self.data, Path(path))
+
+    @property
+    def charts(self) -> tuple[BarChart, ...]:
+        """Bars of the principal stiffnesses, of translations and of rotations."""
+        made = []
+        for kind, unit in (("translation", "N/m"), ("rotation", "N m/rad")):
+            own = [each for each in self.principal if each.kind == kind]
+            sizes = [float(self.units.si(each.stiffness, unit)) for each in own]
+            shown = [size for size in sizes if 0.0 < size < math.inf]
+            if not shown:
+                continue
+            rows = tuple(
+                Row(listed(each.direction), (Bar(0, size, 0.0),))
+                for each, size in zip(own, sizes, strict=True)
+                if size > 0.0
+            )
+            title = f"Principal stiffness of {kind}"
+            scale = log_scale(shown, unit, 0.25)
+            note = "Arrows: held" if math.inf in sizes else ""
+            made.append(BarChart(kind, title, scale, (Group("", rows),), note))
+        return tuple(made)
+
+    def __repr__(self) -> str:
+        """Of which point and state it is."""
+        return f"<PointTable: {self.point}, {self.label}>"
+
+
+#: Units of the blocks of both matrices, by how many of two directions are turns.
+_STIFFNESS, _COMPLIANCE = ("N/m", "N", "N m/rad"), ("m/N", "rad/N", "rad/(N m)")
+_HEADER = ("quantity", "direction", "direction_2", "number", "value", "unit")
+#: Of the JSON of a table; raised where an entry is taken away, renamed, or means something else.
+FORMAT = 1
+
+
+def _head(data: ModelData, kind: str) -> dict[str, Any]:
+    keys = ("m", "rad", "N", "N m", *_STIFFNESS, *_COMPLIANCE)
+    return {
+        "format": FORMAT,
+        "kind": kind,
+        "deck": data.name.encode("utf-8", "backslashreplace").decode("utf-8"),
+        "flexact": VERSION,
+        "units": {key: data.units.symbol(key) for key in dict.fromkeys(keys)},
+    }
+
+
+def plain(value: object) -> Any:
+    """A number or an array as JSON has it: null in place of what is not finite."""
+    if isinstance(value, np.ndarray):
+        return [plain(each) for each in value.tolist()]
+    if isinstance(value, list):
+        return [plain(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _csv(rows: Sequence[Sequence[object]], path: str | os.PathLike[str] | None) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    if path is not None:
+        write(Path(path), as_bytes(text.getvalue()))
+    return text.getvalue()
+
+
+def _number(value: float, infinite: str = "held") -> str:
+    return f"{value:.5g}" if math.isfinite(value) else infinite
+
+
+def listed(vector: FloatArray) -> str:
+    """Such as "(25, 0, 50)"; what is rounding is 0."""
+    least = 1.0e-9 * max(float(np.abs(vector).max(initial=0.0)), 1.0e-9)
+    return f"({', '.join(f'{v:.4g}' if abs(v) > least else '0' for v in vector.tolist())})"
+
+
+def by_blocks(
+    convert: Callable[[Any, str], Any], matrix: FloatArray, which: IntArray, keys: Sequence[str]
+) -> FloatArray:
+    """A matrix in other units, each number by the kinds of its row and column."""
+    turns = (which >= 3).astype(int)
+    made = matrix.copy()
+    for count, key in enumerate(keys):
+        there = np.add.outer(turns, turns) == count
+        made[there] = convert(matrix[there], key)
+    return made
+
+
+def table_of(state: State, given: object, frame: object, at: object) -> PointTable:
+    """The table of a point of a state; see `State.table`."""
+    model, data = state.model, state.model.data
+    points, units = model.points, data.units
+    point = points.of(given)
+    axes, words = axes_given(points, frame)
+    offset = offset_given(points, point, at)
+    coordinates = points.coordinates(point)
+    which = np.array([NAMES.index(points.name(each)) for each in coordinates])
+    made = []
+    for solution in state.meshes:
+        solution.require_stiffness()
+        _, way = carried(solution, point, offset)
+        made.append((solution.compliance(point, coordinates), way))
+    seen = [seen_from(each, which, way, axes) for each, way in made]
+    # Lines and centres are those of the extrapolated compliance.
+    own = [seen_from(each, which, way, np.eye(3)) for each, way in made]
+    best = own[-1]._replace(finite=np.array(Estimate.of(*(each.finite for each in own)).value))
+    node = point.position
+    here = state.best(lambda s: s.raw.configuration[:3, node] + carried(s, point, offset)[1])
+    place = here if node >= 0 else np.zeros(3)
+    centre, other, coupling = centres_of(best, which, place)
+
+    def length(vector: FloatArray | None) -> FloatArray | None:
+        return None if vector is None else np.asarray(units.shown(vector, "m"))
+
+    principal = tuple(
+        PrincipalStiffness(
+            each.kind,
+            float(units.shown(each.stiffness, "N/m" if each.kind == "translation" else "N m/rad")),
+            each.direction,
+            length(each.through),
+            None if each.pitch is None else float(units.shown(each.pitch, "m")),
+        )
+        for each in principal_of(best, which, place)
+    )
+    stiffness = np.array(Estimate.of(*(each.stiffness for each in seen)).value) + 0.0
+    compliance = np.array(Estimate.of(*(each.matrix for each in seen)).value) + 0.0
+    called = words_of(points, point)
+    return PointTable(
+        data,
+        state.label,
+        f"a place carried by {called}" if at is not None else called,
+        np.asarray(units.shown(place, "m")),
+        words,
+        axes,
+        tuple(NAMES[k] for k in which.tolist()),
+        by_blocks(units.shown, stiffness, which, _STIFFNESS),
+        by_blocks(units.shown, compliance, which, _COMPLIANCE),
+        principal,
+        length(centre),
+        length(other),
+        coupling,
+    )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StrokeTable(Frozen):
+    """What a point does along a stroke of a drive; made by `Elastic.stroke_table`.
+
+    Numbers are in the units of the model; motions count from rest, turns are rotation vectors.
+
+    Attributes:
+        data: The model.
+        drive: What is driven, such as "x of node 9".
+        is_turn: Whether that is an angle.
+        drive_mode: "free" or "locked": whether the drive may move in what `stiffness` says.
+        point: What the point is called.
+        frame: What the frame is called.
+        axes: (3, 3) the frame's axes, as columns.
+        directions: (n,) the coordinates of the point.
+        parasitic: (n,) which of them the drive is not to move.
+        values: (v,) the places of the drive [m, rad].
+        force: (v,) of the drive on the mechanism [N, N m].
+        motion: (v, n) of the point since rest, in the frame [m, rad].
+        stiffness: (v, n) of the point along and about each direction, all else free: 1/compliance
+            [N/m, N m/rad]; infinite where it is held, 0 without stiffness.
+    """
+
+    data: ModelData
+    drive: str
+    is_turn: bool
+    drive_mode: str
+    point: str
+    frame: str
+    axes: FloatArray
+    directions: tuple[str, ...]
+    parasitic: np.ndarray
+    values: FloatArray
+    force: FloatArray
+    motion: FloatArray
+    stiffness: FloatArray
+
+    @property
+    def units(self) -> Units:
+        """In which its numbers are."""
+        return self.data.units
+
+    @property
+    def columns(self) -> tuple[tuple[str, str, FloatArray], ...]:
+        """Name, unit and numbers (v,) of each column."""
+        kinds = [(name, name.startswith("r")) for name in self.directions]
+        symbol = self.units.symbol
+        return (
+            ("stroke", symbol("rad" if self.is_turn else "m"), self.values),
+            ("force", symbol("N m" if self.is_turn else "N"), self.force),
+            *(
+                (name, symbol("rad" if is_turn else "m"), self.motion[:, k])
+                for k, (name, is_turn) in enumerate(kinds)
+            ),
+            *(
+                (f"stiffness {n}", symbol("N m/rad" if is_turn else "N/m"), self.stiffness[:, k])
+                for k, (n, is_turn) in enumerate(kinds)
+            ),
+        )
+
+    def describe(self) -> str:
+        """The largest parasitic motions, and the range of each stiffness, in words."""
+        symbol = self.units.symbol
+        ends = [f"{v:.5g}" for v in (self.values.min(), self.values.max())]
+        _, unit, _ = self.columns[0]
+        lines = [
+            f"{self.point} along the stroke of {self.drive} from {ends[0]} to {ends[1]} {unit}, "
+            f"drive {self.drive_mode}; in {self.frame}."
+        ]
+        rows = [["", "largest parasitic motion", f"at [{unit}]", "stiffness from", "to", "unit"]]
+        for k, name in enumerate(self.directions):
+            is_turn = name.startswith("r")
+            worst = int(np.abs(self.motion[:, k]).argmax())
+            told = ["driven", ""]
+            if self.parasitic[k]:
+                size = f"{self.motion[worst, k]:.4g} {symbol('rad' if is_turn else 'm')}"
+                told = [size, f"{self.values[worst]:.4g}"]
+            stiff = (_number(float(of(self.stiffness[:, k]))) for of in (np.min, np.max))
+            rows.append([f"  {name}", *told, *stiff, symbol("N m/rad" if is_turn else "N/m")])
+        return "\n".join((*lines, text_table(rows, _WIDTH)))
+
+    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
+        """The columns, a row a place of the drive; also written to a file, if one is named.
+
+        Raises:
+            OutputError: The file cannot be written.
+        """
+        heads = [f"{name} [{unit}]" for name, unit, _ in self.columns]
+        rows = np.column_stack([numbers for *_, numbers in self.columns]).tolist()
+        return _csv([heads, *rows], path)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The table as the JSON has it (`docs/table.schema.json`); what is infinite is null."""
+        return {
+            **_head(self.data, "stroke"),
+            "drive": self.drive,
+            "drive_mode": self.drive_mode,
+            "point": self.point,
+            "frame": {"words": self.frame, "axes": self.axes.T.tolist()},
+            "directions": list(self.directions),
+            "parasitic": self.parasitic.tolist(),
+            "columns": [
+                {"name": name, "unit": unit, "values": plain(numbers)}
+                for name, unit, numbers in self.columns
+            ],
+        }
+
+    def to_json(self) -> str:
+        """One line of JSON, of `to_dict`; numbers read back to the last bit."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it: a picture (.png, .svg, .pdf), a table (.csv) or JSON (.json), by its suffix.
+
+        Raises:
+            FlexactError: As of `PointTable.save`.
+        """
+        TABLES.save(self, self.data, Path(path))
+
+    @property
+    def charts(self) -> tuple[Chart, ...]:
+        """Curves of parasitic motions and of stiffnesses, of displacements and of turns."""
+        key = "rad" if self.is_turn else "m"
+        along = np.asarray(self.units.si(self.values, key))
+        order = np.argsort(along, kind="stable")
+        x, none = along[order], np.zeros(along.size)
+        made = []
+        for name, title, numbers, shown, keys in (
+            ("motion", "Parasitic", self.motion, self.parasitic, ("m", "rad")),
+            ("stiffness", "Stiffness of", self.stiffness, None, ("N/m", "N m/rad")),
+        ):
+            for unit, word in zip(keys, ("displacement", "rotation"), strict=True):
+                curves, every = [], []
+                for k, direction in enumerate(self.directions):
+                    is_turn = direction.startswith("r")
+                    if is_turn != (word == "rotation") or (shown is not None and not shown[k]):
+                        continue
+                    y = np.asarray(self.units.si(numbers[order, k], unit))
+                    y = np.where(np.isfinite(y), y, np.nan)
+                    if np.isfinite(y).any():
+                        curves.append(Curve(k % 3, direction, x, y, none))
+                        every.append(y)
+                if not every:
+                    continue
+                is_log = name == "stiffness" and np.nanmin(every) > 0.0
+                scale = (log_scale if is_log else linear_scale)(np.concatenate(every), unit)
+                along_axis = linear_scale(x, key)
+                words = f"{title} {word}"
+                made.append(
+                    Chart(f"{name} {word}", words, self.drive, along_axis, scale, tuple(curves))
+                )
+        return tuple(made)
+
+    def __repr__(self) -> str:
+        """Of which point and drive it is."""
+        return f"<StrokeTable: {self.point} along {self.drive}, {self.values.size} places>"
+
+
+def stroke_table_of(
+    states: Sequence[State], driven: object, name: str, of: object, frame: object, at: object
+) -> StrokeTable:
+    """The table of a point along states of a stroke; see `Elastic.stroke_table`."""
+    model, data = states[0].model, states[0].model.data
+    points, units = model.points, data.units
+    drive = points.coordinate(driven, name)
+    point = points.of(driven if of is None else of)
+    axes, words = axes_given(points, frame)
+    offset = offset_given(points, point, at)
+    coordinates = points.coordinates(point)
+    which = np.array([NAMES.index(points.name(each)) for each in coordinates])
+    both = np.kron(np.eye(2), axes.T)
+
+    def moved(solution: Solution) -> FloatArray:
+        return np.asarray((both @ carried(solution, point, offset)[0])[which])
+
+    def stiff(solution: Solution) -> FloatArray:
+        _, way = carried(solution, point, offset)
+        own = solution.compliance(point, coordinates)
+        given = np.diagonal(seen_from(own, which, way, axes).matrix)
+        return np.where(given > 0.0, 1.0 / np.where(given > 0.0, given, 1.0), math.inf)
+
+    is_turn = bool(points.kinds[drive.node] > NodeKind.POSITION)
+    turns = which >= 3
+    motion = np.array([state.best(moved) for state in states])
+    stiffness = np.array([state.best(stiff) for state in states])
+    for k, turn in enumerate(turns.tolist()):
+        motion[:, k] = units.shown(motion[:, k], "rad" if turn else "m")
+        stiffness[:, k] = units.shown(stiffness[:, k], "N m/rad" if turn else "N/m")
+    # What the drive is to move: along its axis, or about it, as far as the frame has that.
+    axis = both @ np.eye(6)[NAMES.index(name)]
+    called = words_of(points, point)
+    return StrokeTable(
+        data,
+        points.words(drive),
+        is_turn,
+        model.drive,
+        f"a place carried by {called}" if at is not None else called,
+        words,
+        axes,
+        tuple(NAMES[k] for k in which.tolist()),
+        np.abs(axis[which]) < _SQUARE,
+        np.array([state.stroke for state in states]),
+        np.array([state.force for state in states]),
+        motion,
+        stiffness,
+    )
+
+
+#: Of tables at a point. Pictures take a while to load.
+TABLES = Writers(
+    lambda path, known: OutputError(f"the suffix of {path} is to be one of {', '.join(known)}")
+)
+
+
+@TABLES.register((".csv",))
+def _table(made: PointTable | StrokeTable, path: Path) -> bytes:
+    return as_bytes(made.to_csv())
+
+
+@TABLES.register((".json",))
+def _json(made: PointTable | StrokeTable, path: Path) -> bytes:
+    return f"{made.to_json()}\n".encode()
+
+
+def _with_packages(suffix: str) -> None:
+    load("flexact.show.picture.make").check_packages(suffix)
+
+
+#: Width of a picture, height of a chart and of a bar's row [inch], and its resolution.
+_WIDE, _HIGH, _ROW, _DPI = 10.0, 3.0, 0.3, 120
+
+
+@TABLES.register(STILLS, require=_with_packages)
+def _picture(made: PointTable | StrokeTable, path: Path) -> bytes:
+    charts: Any = load("flexact.show.picture.charts")
+    shown = made.charts
+    if not shown:
+        raise OutputError("there is nothing to be drawn: all is held, or nothing has a stiffness")
+    rows = -(-len(shown) // 2)
+    is_bars = isinstance(made, PointTable)
+    high = 0.9 + (1.0 + 3.0 * _ROW if is_bars else _HIGH + 0.9) * rows
+    size = {"figsize": (_WIDE, high), "dpi": _DPI}
+    figure = load("flexact.show.picture.make").shown_figure(**size)
+    words = made.describe().splitlines()[0]
+    figure.text(0.03, 1.0 - 0.3 / high, charts.written(words), fontsize=9.5, color=charts.INK)
+    for k, chart in enumerate(shown):
+        row, column = divmod(k, 2)
+        height = 3.0 * _ROW if is_bars else _HIGH
+        left = (0.14 if is_bars else 0.07) + 0.5 * column
+        low = 1.0 - (0.9 + (row + 1) * height + row * 0.9) / high
+        axes = figure.add_axes((left, low, 0.32 if is_bars else 0.36, height / high))
+        (charts.draw_bars if is_bars else charts.draw_chart)(axes, chart)
+    name = file_name(made.data.name) or "table"
+    files: Any = load("flexact.show.picture.files")
+    return bytes(files.still_bytes(figure, path.suffix.lower(), harmless(name), harmless(words)))

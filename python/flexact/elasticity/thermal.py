@@ -1,0 +1,441 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Warmth: parts that expand, the ground that may too, and where a point goes then.
+
+A field of temperature T = by + g . (x - about) that is linear in the place bends what it warms
+without stressing it: a free body of one material is displaced by
+alpha (T0 x + (g . x) x - g |x|^2 / 2) and turned by alpha g x x, with x from `about` and T0 = by
+(Boley and Weiner, Theory of Thermal Stresses, 1960, sec. 3.2: linear fields leave a free body
+without stress). What each element is off follows from its ends' displacements and turns by D(c).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core import calls
+from ..core.arrays import BoolArray, FloatArray
+from ..core.elements import Class, NodeKind, Role, role_table
+from ..model.data import ModelData
+from ..show.charts import told
+from ..util.records import Frozen
+from ..util.text import in_short
+from .equilibria import Imperfection, number_given
+from .errors import ElasticError
+from .points import Points
+from .reduced import peak_of
+from .tables import NAMES, carried, listed, offset_given, plain, words_of
+
+if TYPE_CHECKING:
+    from .elastic import Warmed
+
+#: Displacements below this part of what warmth makes of the model's size are rounding.
+_ROUNDED = 1.0e-9
+#: What a body's place may move for it to be the thermal centre, as a part of its point's drift.
+_STILL = 1.0e-6
+#: A thermal centre farther than so many sizes of the model is none.
+_FAR = 1.0e3
+#: How many bodies and parts are told of.
+_MOST = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Warmth(Frozen):
+    """A change of temperature and what expands by it; SI.
+
+    Attributes:
+        by: At `about` [K].
+        gradient: (3,) of the temperature [K/m].
+        about: (3,) where the temperature has changed by `by` [m].
+        expansion: (elements,) coefficient of each element that is warmed [1/K], else 0.
+        ground: How much warmer the ground is [K], and its coefficient [1/K].
+        origin: (3,) the place of the ground that stays where it expands [m].
+        is_ground: (elements,) which are of bodies that are clamped at several places: those
+            are the ground's own.
+        cold: Names of the parts that are warmed and have no coefficient.
+    """
+
+    by: float
+    gradient: FloatArray
+    about: FloatArray
+    expansion: FloatArray
+    ground: tuple[float, float]
+    origin: FloatArray
+    is_ground: BoolArray
+    cold: tuple[str, ...]
+
+    def free(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(..., 3) displacements and turns at places of a free body, for a unit of alpha."""
+        arm = places - self.about
+        along = (arm @ self.gradient)[..., None]
+        square = np.sum(arm * arm, axis=-1, keepdims=True)
+        moved = (self.by + along) * arm - self.gradient * square / 2.0
+        return moved, np.cross(self.gradient, arm)
+
+    def misfit(self, data: ModelData) -> FloatArray:
+        """(6, elements) what the deck's elements are off."""
+        arrays, count = data.arrays, data.arrays.element_number.size
+        raw = calls.assemble(data.packed, arrays.node_value, np.zeros(count))
+        element, k = raw.row_of // 6, raw.row_of % 6
+        node, axis = raw.column_of // 3, raw.column_of % 3
+        slots = arrays.element_node - 1
+        # An orientation is turned as the end at which the element has it.
+        is_first = slots[1, element] == node
+        turns = arrays.node_kind[node] > NodeKind.POSITION
+        place = np.where(turns, slots[np.where(is_first, 0, 2), element], node)
+        moved, turned = self.free(arrays.node_value[:3].T)
+        field = np.where(turns, turned[place, axis], moved[place, axis]) * self.expansion[element]
+        # The ground's own bodies stay as large as the ground.
+        arm = arrays.node_value[:3].T - self.origin
+        own = np.where(turns, 0.0, arm[place, axis]) * float(np.prod(self.ground))
+        made = np.zeros((6, count))
+        np.add.at(made, (k, element), raw.value * np.where(self.is_ground[element], own, field))
+        # What has no place, as a hinge, has no size.
+        return np.where((slots[0] >= 0) & (slots[2] >= 0), made, 0.0)
+
+    def imperfection(self, data: ModelData) -> Imperfection:
+        """What of the model is off by it."""
+        arrays = data.arrays
+        arm = arrays.node_value[:3] - self.origin[:, None]
+        fixed = arrays.coordinate_class == Class.FIXED
+        there = fixed & (arrays.node_kind <= NodeKind.POSITION)
+        spread = np.where(there, float(np.prod(self.ground)) * arm, 0.0)
+        # It is reached in one way, from none to all of it.
+        value = self.by or 1.0
+        words = "temperature" if self.by else "part of the warmth"
+        none = np.zeros_like(spread)
+        misfit = self.misfit(data) / value
+        return Imperfection(words, value, -1, False, np.zeros(3), none, misfit, spread / value)
+
+    @property
+    def words(self) -> str:
+        """Such as "10 K warmer, the ground as it was"."""
+        warmer = "warmer" if self.by >= 0.0 else "colder"
+        made = f"{abs(self.by):g} K {warmer}"
+        if self.gradient.any():
+            slope = ", ".join(f"{each:.4g}" for each in self.gradient.tolist())
+            about = ", ".join(f"{each:.4g}" for each in self.about.tolist())
+            made += f" at ({about}) m, with a gradient of ({slope}) K/m"
+        kelvin, alpha = self.ground
+        if not kelvin:
+            return f"{made}, the ground as it was"
+        ground = f"the ground {abs(kelvin):g} K {'warmer' if kelvin > 0.0 else 'colder'}"
+        return f"{made}, {ground} with {alpha:g} /K about {listed(self.origin)} m"
+
+
+#: What to do where a coefficient is missing.
+_WANTED = (
+    "give EXPANSION in the deck's dynamics block, a material with an expansion, or in Python "
+    "expansion=12e-6 [1/K] or expansion={name of a part: 12e-6}"
+)
+
+
+def warmth_of(
+    points: Points,
+    by: object,
+    parts: object = None,
+    gradient: object = None,
+    ground: object = None,
+    expansion: object = None,
+    about: object = None,
+) -> Warmth:
+    """A change of temperature as users give it; see `Elastic.warmed`.
+
+    Raises:
+        UnknownError, ModelError: there is no such part.
+        ElasticError: nothing has a coefficient, a part that is named has none, or a value is no
+            finite number.
+    """
+    data = points.data
+    arrays, count = data.arrays, data.arrays.element_number.size
+    step = number_given(by, "a change of temperature [K]")
+    what = "a coefficient of expansion [1/K]"
+    alpha = np.full(count, np.nan)
+    if data.properties is not None:
+        alpha = np.array(data.properties.expansion[:, 0])
+    if isinstance(expansion, Mapping):
+        for part, value in expansion.items():
+            alpha[list(points.elements(part))] = number_given(value, what)
+    elif expansion is not None:
+        alpha[np.isnan(alpha)] = number_given(expansion, what)
+
+    # Positions of clamps; a body that has several of them is the ground's own.
+    held = (arrays.coordinate_class == Class.FIXED)[: 2 if data.planar else 3].all(axis=0)
+    places = arrays.node_value[:3].T
+    is_place = arrays.node_kind <= NodeKind.POSITION
+    clamped = np.flatnonzero(held & is_place)
+    is_ground = np.zeros(count, np.bool_)
+    for body in points.parts.bodies:
+        is_ground[list(body.elements)] = np.isin(body.positions, clamped).sum() > 1
+    origin = places[clamped].mean(axis=0) if clamped.size else np.zeros(3)
+    ours = 0.0, 0.0
+    if ground is not None:
+        given = tuple(ground) if isinstance(ground, (list, tuple)) else ()
+        if len(given) not in (2, 3):
+            raise ElasticError(
+                "the ground is given by how much warmer it is [K] and its coefficient [1/K], and "
+                f"maybe the place that stays, such as ground=(10, 12e-6), not {in_short(ground)}"
+            )
+        ours = (
+            number_given(given[0], "the ground's change of temperature [K]"),
+            number_given(given[1], "the ground's coefficient of expansion [1/K]"),
+        )
+        origin = points.place(given[2]) if len(given) == 3 else origin
+
+    slope = np.zeros(3)
+    if gradient is not None:
+        read = np.array(gradient, object) if isinstance(gradient, (list, tuple)) else gradient
+        try:
+            numbers = np.array(read, np.float64)
+        except (TypeError, ValueError):
+            numbers = np.zeros(0)
+        if numbers.shape not in ((2,), (3,)) or not np.isfinite(numbers).all():
+            raise ElasticError(
+                "a gradient of temperature has three finite numbers, along x, y and z, not "
+                f"{in_short(gradient)}"
+            )
+        slope[: numbers.size] = numbers / float(data.units.si(1.0, "m"))
+        if data.planar and slope[2]:
+            raise ElasticError("the gradient of a planar model is one in its plane")
+    middle = (places[is_place].min(axis=0) + places[is_place].max(axis=0)) / 2.0
+    centre = middle if about is None else points.place(about)
+
+    which = ~is_ground
+    if parts is not None:
+        many = isinstance(parts, (list, tuple, set, frozenset, range, np.ndarray))
+        chosen = [e for each in (parts if many else (parts,)) for e in points.elements(each)]  # type: ignore[attr-defined]
+        which &= np.isin(np.arange(count), chosen)
+    # Of what has a size the coefficient counts.
+    none = np.zeros(count, np.bool_)
+    trial = Warmth(1.0, np.zeros(3), centre, np.ones(count), (0.0, 0.0), origin, none, ())
+    sized = which & (np.abs(trial.misfit(data)).max(axis=0) > _ROUNDED * data.size)
+    lacks = sized & np.isnan(alpha)
+    cold = tuple(dict.fromkeys(points.parts.of_element(e).name for e in np.flatnonzero(lacks)))
+    if lacks.any() and parts is not None:
+        raise ElasticError(f"{cold[0]} has no coefficient of expansion: {_WANTED}")
+    if (lacks == sized).all() and not any(ours):
+        raise ElasticError(f"nothing that is warmed has a coefficient of expansion: {_WANTED}")
+    own = np.where(which, np.nan_to_num(alpha), 0.0)
+    return Warmth(step, slope, centre, own, ours, origin, is_ground, cold)
+
+
+@dataclass(frozen=True, eq=False)
+class Drift(Frozen):
+    """Where a point of a body goes when it is warm, in the units of the model.
+
+    Attributes:
+        point: What the point is called.
+        place: (3,) where it was.
+        directions: (n,) its coordinates.
+        values: (n,) how it moves and turns along and about them [m, rad].
+        centre: (3,) the place of its body that stays, or that of the axis that does which is
+            nearest to the point; None where all of it moves.
+    """
+
+    point: str
+    place: FloatArray
+    directions: tuple[str, ...]
+    values: FloatArray
+    centre: FloatArray | None
+
+
+def drift_of(state: Warmed, given: object, at: object = None) -> Drift:
+    """How a point moves; see `Warmed.drift`."""
+    points, units = state.model.points, state.model.data.units
+    point = points.of(given)
+    offset = offset_given(points, point, at)
+    names = [points.name(each) for each in points.coordinates(point)]
+    pairs = zip(state.meshes, state.before.meshes, strict=True)
+    every = [carried(s, point, offset, since=t.raw.configuration)[0] for s, t in pairs]
+    both = iter(every)
+    motion = state.best(lambda _: next(both))
+    place = np.zeros(3)
+    if point.position >= 0:
+        place = points.data.arrays.node_value[:3, point.position] + offset
+    centre = thermal_centre(state, point.position, place, motion)
+    which = np.array([NAMES.index(name) for name in names])
+    keys = np.where(which < 3, "m", "rad").tolist()
+    return Drift(
+        f"a place carried by {words_of(points, point)}"
+        if at is not None
+        else words_of(points, point),
+        np.asarray(units.shown(place, "m")),
+        tuple(names),
+        np.array([units.shown(motion[k], key) for k, key in zip(which, keys, strict=True)]),
+        None if centre is None else np.asarray(units.shown(centre, "m")),
+    )
+
+
+def thermal_centre(
+    state: Warmed, node: int, place: FloatArray, motion: FloatArray
+) -> FloatArray | None:
+    """(3,) the place of the body of a node that stays [m], of the motion (6,) of one place of it.
+
+    Newton's iteration, of one step where the temperature is uniform; None where there is none, and
+    where parts of the body expand unlike each other.
+    """
+    warmth, data = state.warmth, state.model.data
+    body = state.model.points.parts.body_at.get(node)
+    own = np.zeros(1)
+    if body is not None:
+        own = warmth.expansion[list(state.model.points.parts.bodies[body].elements)]
+    alpha = float(own[0])
+    if np.ptp(own):
+        return None
+    free, turned = (alpha * each for each in warmth.free(place))
+
+    def rest(there: FloatArray) -> FloatArray:
+        arm = there - place
+        more = alpha * warmth.free(there)[0] - free - np.cross(turned, arm)
+        return np.asarray(motion[:3] + np.cross(motion[3:], arm) + more)
+
+    size = data.size
+    strain = np.abs(warmth.expansion).max() * (
+        abs(warmth.by) + float(np.linalg.norm(warmth.gradient)) * size
+    )
+    most = float(np.linalg.norm(motion[:3]))
+    here = place
+    for _ in range(20):
+        left = rest(here)
+        if np.linalg.norm(left) <= max(_ROUNDED * strain * size, _STILL * most):
+            return here
+        slope = alpha * (warmth.by + float((here - warmth.about) @ warmth.gradient))
+        spin = motion[3:] + alpha * warmth.free(here)[1] - turned
+        matrix = slope * np.eye(3) + np.cross(spin, np.eye(3)).T
+        if np.abs(matrix).max() <= _ROUNDED * strain:
+            return None
+        here = here - np.linalg.lstsq(matrix, left, rcond=_STILL)[0]
+        if np.linalg.norm(here - place) > _FAR * size:
+            return None
+    return None
+
+
+def drifts_of(state: Warmed) -> tuple[Drift, ...]:
+    """Those of the bodies that move, or of all free points where there is none."""
+    points, warmth = state.model.points, state.warmth
+    parts = points.parts
+    nodes = [
+        first
+        for body, first in zip(parts.bodies, parts.first_points, strict=True)
+        if not warmth.is_ground[list(body.elements)].any()
+    ]
+    if not nodes:
+        arrays = points.data.arrays
+        is_free = (arrays.coordinate_class == Class.DEPENDENT).any(axis=0)
+        nodes = np.flatnonzero(is_free & (arrays.node_kind <= NodeKind.POSITION)).tolist()
+    return tuple(drift_of(state, points.number(node)) for node in nodes)
+
+
+def found_in(state: Warmed) -> dict[str, Any]:
+    """What warmth does, as the JSON has it; numbers are in the units of the model.
+
+    Forces and stresses are those of all that is off, frequencies before and behind.
+    """
+    model, warmth, units = state.model, state.warmth, state.model.data.units
+    arrays, parts = model.data.arrays, model.points.parts
+    stretches = role_table()[arrays.element_kind][:, 0] == Role.ELONGATION
+    force = np.where(stretches, state.best(lambda at: at.stress[0]), 0.0)
+    worst = int(np.abs(force).argmax())
+    peaks = {}
+    for part in parts.all:
+        with suppress(ElasticError):
+            peaks[part.name] = float(
+                state.best(lambda at, own=part.elements: max(peak_of(at, e) for e in own))
+            )
+    largest = max(peaks, key=lambda name: peaks[name], default="")
+    hertz = None
+    if model.has_mass:
+        hertz = [float(each.frequencies[0]) for each in (state.before, state)]
+    return {
+        "by": warmth.by,
+        "gradient": [float(units.si(1.0, "m")) * each for each in warmth.gradient.tolist()],
+        "about": np.asarray(units.shown(warmth.about, "m")).tolist(),
+        "ground": {
+            "by": warmth.ground[0],
+            "expansion": warmth.ground[1],
+            "about": np.asarray(units.shown(warmth.origin, "m")).tolist(),
+        },
+        "without_expansion": list(warmth.cold),
+        "drifts": [
+            {
+                "point": each.point,
+                "place": each.place.tolist(),
+                "directions": list(each.directions),
+                "drift": each.values.tolist(),
+                "per_kelvin": (each.values / warmth.by).tolist() if warmth.by else None,
+                "centre": plain(each.centre),
+            }
+            for each in drifts_of(state)
+        ],
+        "normal_force": {
+            "part": parts.of_element(worst).name,
+            "value": float(units.shown(force[worst], "N")),
+        },
+        "stress": peaks and {"part": largest, "value": float(units.shown(peaks[largest], "Pa"))},
+        "frequencies": hertz,
+        "over_constrained": model.result.over_constrained,
+    }
+
+
+def described(state: Warmed) -> str:
+    """The same in words."""
+    found, units, warmth = found_in(state), state.model.data.units, state.warmth
+    length = units.symbol("m")
+    lines = [f"{warmth.words[:1].upper()}{warmth.words[1:]}; {state.model.words}."]
+    for each in found["drifts"][:_MOST]:
+        per, of = (each["per_kelvin"], "/K") if warmth.by else (each["drift"], "")
+        sizes = {True: [], False: []}
+        for name, value in zip(each["directions"], per, strict=True):
+            is_turn = name.startswith("r")
+            size = float(units.si(value, "rad" if is_turn else "m"))
+            if abs(size) > _STILL * _least(state, is_turn):
+                way = f"about {name[1:]}" if is_turn else f"along {name}"
+                sizes[is_turn].append(f"{told(size, 'rad' if is_turn else 'm')}{of} {way}")
+        both = [
+            f"{verb} {', '.join(sizes[is_turn])}"
+            for verb, is_turn in (("moves by", False), ("turns by", True))
+            if sizes[is_turn]
+        ]
+        line = f"{each['point']} {' and '.join(both) or 'stays where it is'}"
+        if each["centre"] is None:
+            line += "; no place of it stays, so that it has no thermal centre"
+        else:
+            line += f"; its thermal centre is at {listed(np.array(each['centre']))} {length}"
+        lines.append(f"{line}.")
+    if len(found["drifts"]) > _MOST:
+        lines.append(f"{len(found['drifts']) - _MOST} more bodies or points: ask drift(point).")
+    over, force = found["over_constrained"], found["normal_force"]
+    lines.append(
+        f"Over-constrained by {over}: what is warm and what is not press on each other."
+        if over
+        else "Not over-constrained: no thermal self-stress; what stress there is comes from the "
+        "flexures that the drift bends."
+    )
+    word = "pull" if force["value"] > 0.0 else "pressure"
+    lines.append(
+        f"Largest normal force: {abs(force['value']):.4g} {units.symbol('N')} of {word} in "
+        f"{force['part']}."
+    )
+    if found["stress"]:
+        stress = f"{found['stress']['value']:.4g} {units.symbol('Pa')}"
+        lines.append(f"Largest normal stress: {stress} in {found['stress']['part']}.")
+    if found["frequencies"]:
+        one, two = found["frequencies"]
+        change = f" ({100.0 * (two / one - 1.0):+.2g} %)" if one > 0.0 else ""
+        lines.append(f"First frequency: {one:.5g} Hz before, {two:.5g} Hz then{change}.")
+    if cold := found["without_expansion"]:
+        more = f" and {len(cold) - _MOST} more" if len(cold) > _MOST else ""
+        lines.append(f"No coefficient of expansion, taken as 0: {', '.join(cold[:_MOST])}{more}.")
+    return "\n".join((*lines, *(f"Note: {note}." for note in state.notes)))
+
+
+def _least(state: Warmed, is_turn: bool) -> float:
+    """What warmth makes of the size of the model [m], or of an angle [rad], for each kelvin."""
+    warmth, size = state.warmth, state.model.data.size
+    step = max(abs(warmth.by), float(np.linalg.norm(warmth.gradient)) * size, abs(warmth.ground[0]))
+    most = max(float(np.abs(warmth.expansion).max()), abs(warmth.ground[1])) * step
+    return most * (1.0 if is_turn else size) / (abs(warmth.by) or 1.0)
