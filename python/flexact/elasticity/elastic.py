@@ -562,7 +562,9 @@ class Elastic(Frozen):
         warmth = warmth_of(self.points, by, parts, gradient, ground, expansion, about)
         model = replace(self, off=(*self.off, warmth.imperfection(self.data)))
         before = State(self, "before it is warm", None, self._assembled())
-        return Warmed(model, warmth.words, None, model._assembled(), warmth, before)
+        return Warmed(
+            model, warmth.words(self.data.units), None, model._assembled(), warmth, before
+        )
 
     def imperfect(
         self,

@@ -27,7 +27,7 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import NodeKind
 from ..model.data import ModelData
-from ..show.charts import Bar, BarChart, Chart, Curve, Group, Row, linear_scale, log_scale
+from ..show.charts import Bar, BarChart, Chart, Curve, Group, Row, linear_scale, log_scale, told
 from ..show.writers import STILLS, Writers, as_bytes, write
 from ..util.loading import VERSION, load
 from ..util.matrices import complement, span
@@ -249,7 +249,8 @@ def principal_of(
         found, vectors = principal_axes(inner, axis[:, own] @ across)
         least = _NOTHING * np.abs(matrix).max(initial=0.0)
         extreme = math.inf if kind == "translation" else 0.0
-        outer = [(extreme, each) for each in (axis[:, own] @ beyond).T]
+        _, ends = principal_axes(np.zeros((beyond.shape[1],) * 2), axis[:, own] @ beyond)
+        outer = [(extreme, each) for each in ends.T]
         inside = []
         for value, direction in zip(found.tolist(), vectors.T, strict=True):
             number = value if value > least else 0.0
@@ -357,8 +358,10 @@ class PointTable(Frozen):
     def describe(self) -> str:
         """Both matrices, principal stiffnesses and the centre, in words."""
         length = self.units.symbol("m")
-        place = listed(self.place)
-        lines = [f"{self.point} at {place} {length}, {self.label}; in {self.frame}."]
+        least = _ROUNDED * self.units.shown(self.data.size, "m")
+        lines = [
+            f"{self.point} at {listed(self.place, least)} {length}, {self.label}; in {self.frame}."
+        ]
         for what, matrix, keys, infinite in (
             ("Stiffness", self.stiffness, _STIFFNESS, "held"),
             ("Compliance", self.compliance, _COMPLIANCE, "loose"),
@@ -373,16 +376,15 @@ class PointTable(Frozen):
         lines.append("Principal stiffnesses, the softest first:")
         for each in self.principal:
             is_shift = each.kind == "translation"
-            if math.isinf(each.stiffness):
-                told = "held"
-            else:
+            size = "held"
+            if math.isfinite(each.stiffness):
                 unit = self.units.symbol("N/m" if is_shift else "N m/rad")
-                told = f"{each.stiffness:.5g} {unit}" if each.stiffness else "no stiffness"
+                size = f"{each.stiffness:.5g} {unit}" if each.stiffness else "no stiffness"
             words = f"  {each.kind} along" if is_shift else f"  {each.kind} about"
-            words = f"{words} {listed(each.direction)}: {told}"
+            words = f"{words} {listed(each.direction)}: {size}"
             if each.through is not None and each.pitch is not None:
-                words += f", on the line through {listed(each.through)} {length}"
-                if abs(each.pitch) > _EQUAL * self.units.shown(self.data.size, "m"):
+                words += f", on the line through {listed(each.through, least)} {length}"
+                if abs(each.pitch) > _EQUAL / _ROUNDED * least:
                     words += f", pitch {each.pitch:.3g} {length}"
             lines.append(words)
         return "\n".join((*lines, self.centre_words))
@@ -390,25 +392,27 @@ class PointTable(Frozen):
     @property
     def centre_words(self) -> str:
         """Whether there is a centre of compliance, and where, in a sentence or two."""
-        length = self.units.symbol("m")
         if not any(name.startswith("r") for name in self.directions):
             return "No centre of compliance: nothing turns with the point."
         if np.isinf(self.compliance).any():
             return "No centre of compliance: there is a motion without stiffness."
         if self.centre_of_compliance is None:
             return "No centre of compliance: the body does not turn."
-        where = f"{listed(self.centre_of_compliance)} {length}"
+        length = self.units.symbol("m")
+        least = _ROUNDED * self.units.shown(self.data.size, "m")
+        where = f"{listed(self.centre_of_compliance, least)} {length}"
         if self.centre is not None:
             return (
                 f"Centre of compliance at {where}: a force through it does not turn the body, and "
                 "a couple does not displace it."
             )
-        told = f"The coupling is least asymmetric at {where} (Loncaric's centre of compliance)"
+        other = ""
         if self.centre_of_stiffness is not None:
-            told += f", that of the stiffness at {listed(self.centre_of_stiffness)} {length}"
+            other = f", that of its stiffness at {listed(self.centre_of_stiffness, least)} {length}"
         return (
-            "No centre of compliance: wherever a couple acts, it displaces every place (coupling "
-            f"{100.0 * self.coupling:.2g} % at best). {told}."
+            "No centre of compliance: there is no place that couples leave where it is (coupling "
+            f"{100.0 * self.coupling:.3g} % at best). The coupling is symmetric at {where}{other} "
+            "(Loncaric's centres)."
         )
 
     def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
@@ -435,8 +439,8 @@ class PointTable(Frozen):
                 ("direction", each.direction, "1"),
                 ("through", each.through, length),
             ):
-                for name, value in zip("xyz", [] if vector is None else vector.tolist()):
-                    rows.append((f"principal {kind}, {what}", name, "", number, value, unit))
+                for name, value in zip("xyz", vector if vector is not None else (), strict=False):
+                    rows.append((f"principal {kind}, {what}", name, "", number, float(value), unit))
             if each.pitch is not None:
                 rows.append((f"principal {kind}, pitch", "", "", number, each.pitch, length))
         for what, place in (
@@ -444,8 +448,8 @@ class PointTable(Frozen):
             ("centre of compliance", self.centre_of_compliance),
             ("centre of stiffness", self.centre_of_stiffness),
         ):
-            for name, value in zip("xyz", [] if place is None else place.tolist()):
-                rows.append((what, name, "", "", value, length))
+            for name, value in zip("xyz", place if place is not None else (), strict=False):
+                rows.append((what, name, "", "", float(value), length))
         if math.isfinite(self.coupling):
             rows.append(("coupling", "", "", "", self.coupling, "1"))
         return _csv(rows, path)
@@ -564,9 +568,9 @@ def _number(value: float, infinite: str = "held") -> str:
     return f"{value:.5g}" if math.isfinite(value) else infinite
 
 
-def listed(vector: FloatArray) -> str:
-    """Such as "(25, 0, 50)"; what is rounding is 0."""
-    least = 1.0e-9 * max(float(np.abs(vector).max(initial=0.0)), 1.0e-9)
+def listed(vector: FloatArray, least: float = 0.0) -> str:
+    """Such as "(25, 0, 50)"; what is rounding, or less than something, is 0."""
+    least = max(least, 1.0e-9 * float(np.abs(vector).max(initial=0.0)))
     return f"({', '.join(f'{v:.4g}' if abs(v) > least else '0' for v in vector.tolist())})"
 
 
@@ -711,12 +715,14 @@ class StrokeTable(Frozen):
         for k, name in enumerate(self.directions):
             is_turn = name.startswith("r")
             worst = int(np.abs(self.motion[:, k]).argmax())
-            told = ["driven", ""]
+            size = self.units.si(float(self.motion[worst, k]), "rad" if is_turn else "m")
+            told_of = ["driven", ""]
             if self.parasitic[k]:
-                size = f"{self.motion[worst, k]:.4g} {symbol('rad' if is_turn else 'm')}"
-                told = [size, f"{self.values[worst]:.4g}"]
+                is_none = abs(size) <= _ROUNDED * (1.0 if is_turn else self.data.size)
+                said = told(size, "rad" if is_turn else "m", 4)
+                told_of = ["none", ""] if is_none else [said, f"{self.values[worst]:.4g}"]
             stiff = (_number(float(of(self.stiffness[:, k]))) for of in (np.min, np.max))
-            rows.append([f"  {name}", *told, *stiff, symbol("N m/rad" if is_turn else "N/m")])
+            rows.append([f"  {name}", *told_of, *stiff, symbol("N m/rad" if is_turn else "N/m")])
         return "\n".join((*lines, text_table(rows, _WIDTH)))
 
     def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:

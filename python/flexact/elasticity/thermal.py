@@ -10,6 +10,7 @@ without stress). What each element is off follows from its ends' displacements a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -22,8 +23,10 @@ from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind, Role, role_table
 from ..model.data import ModelData
 from ..show.charts import told
+from ..util.quantities import without_units
 from ..util.records import Frozen
 from ..util.text import in_short
+from ..util.units import Units
 from .equilibria import Imperfection, number_given
 from .errors import ElasticError
 from .points import Points
@@ -39,6 +42,8 @@ _ROUNDED = 1.0e-9
 _STILL = 1.0e-6
 #: A thermal centre farther than so many sizes of the model is none.
 _FAR = 1.0e3
+#: Motions and places below this part of what warmth makes of the model's size are not told.
+_TOLD = 1.0e-4
 #: How many bodies and parts are told of.
 _MOST = 6
 
@@ -111,26 +116,37 @@ class Warmth(Frozen):
         misfit = self.misfit(data) / value
         return Imperfection(words, value, -1, False, np.zeros(3), none, misfit, spread / value)
 
-    @property
-    def words(self) -> str:
+    def words(self, units: Units) -> str:
         """Such as "10 K warmer, the ground as it was"."""
-        warmer = "warmer" if self.by >= 0.0 else "colder"
-        made = f"{abs(self.by):g} K {warmer}"
+
+        def place(vector: FloatArray) -> str:
+            return f"{listed(units.shown(vector, 'm'))} {units.symbol('m')}"
+
+        made = _warmer(self.by) if self.by or not self.gradient.any() else ""
         if self.gradient.any():
-            slope = ", ".join(f"{each:.4g}" for each in self.gradient.tolist())
-            about = ", ".join(f"{each:.4g}" for each in self.about.tolist())
-            made += f" at ({about}) m, with a gradient of ({slope}) K/m"
+            slope = listed(units.shown(self.gradient, "K/m"))
+            made += f"{' and ' if made else ''}a gradient of {slope} {units.symbol('K/m')}"
+            made += f" about {place(self.about)}"
         kelvin, alpha = self.ground
         if not kelvin:
             return f"{made}, the ground as it was"
-        ground = f"the ground {abs(kelvin):g} K {'warmer' if kelvin > 0.0 else 'colder'}"
-        return f"{made}, {ground} with {alpha:g} /K about {listed(self.origin)} m"
+        return f"{made}, the ground {_warmer(kelvin)} with {alpha:g} /K about {place(self.origin)}"
+
+    def strain(self, size: float) -> float:
+        """The largest strain by it in a model of a size [m]."""
+        own = abs(self.by) + float(np.linalg.norm(self.gradient)) * size
+        ground = abs(float(np.prod(self.ground)))
+        return max(float(np.abs(self.expansion).max(initial=0.0)) * own, ground)
+
+
+def _warmer(kelvin: float) -> str:
+    return f"{abs(kelvin):g} K {'warmer' if kelvin >= 0.0 else 'colder'}"
 
 
 #: What to do where a coefficient is missing.
 _WANTED = (
-    "give EXPANSION in the deck's dynamics block, a material with an expansion, or in Python "
-    "expansion=12e-6 [1/K] or expansion={name of a part: 12e-6}"
+    "give EXPANSION in the deck's dynamics block, a material with an expansion, or one for all "
+    "that has none, --expansion 12e-6, in Python expansion=12e-6 or {name of a part: 12e-6}"
 )
 
 
@@ -150,18 +166,21 @@ def warmth_of(
         ElasticError: nothing has a coefficient, a part that is named has none, or a value is no
             finite number.
     """
-    data = points.data
+    data, units = points.data, points.data.units
     arrays, count = data.arrays, data.arrays.element_number.size
-    step = number_given(by, "a change of temperature [K]")
-    what = "a coefficient of expansion [1/K]"
+    step = number_given(without_units(by, "K"), "a change of temperature [K]")
+
+    def coefficient(value: object) -> float:
+        return number_given(without_units(value, "1/K"), "a coefficient of expansion [1/K]")
+
     alpha = np.full(count, np.nan)
     if data.properties is not None:
         alpha = np.array(data.properties.expansion[:, 0])
     if isinstance(expansion, Mapping):
         for part, value in expansion.items():
-            alpha[list(points.elements(part))] = number_given(value, what)
+            alpha[list(points.elements(part))] = coefficient(value)
     elif expansion is not None:
-        alpha[np.isnan(alpha)] = number_given(expansion, what)
+        alpha[np.isnan(alpha)] = coefficient(expansion)
 
     # Positions of clamps; a body that has several of them is the ground's own.
     held = (arrays.coordinate_class == Class.FIXED)[: 2 if data.planar else 3].all(axis=0)
@@ -188,17 +207,15 @@ def warmth_of(
 
     slope = np.zeros(3)
     if gradient is not None:
-        read = np.array(gradient, object) if isinstance(gradient, (list, tuple)) else gradient
-        try:
-            numbers = np.array(read, np.float64)
-        except (TypeError, ValueError):
-            numbers = np.zeros(0)
+        numbers = np.zeros(0)
+        with suppress(TypeError, OverflowError):
+            numbers = np.array([units.read(each, "K/m") for each in gradient])  # type: ignore[attr-defined]
         if numbers.shape not in ((2,), (3,)) or not np.isfinite(numbers).all():
             raise ElasticError(
                 "a gradient of temperature has three finite numbers, along x, y and z, not "
                 f"{in_short(gradient)}"
             )
-        slope[: numbers.size] = numbers / float(data.units.si(1.0, "m"))
+        slope[: numbers.size] = numbers
         if data.planar and slope[2]:
             raise ElasticError("the gradient of a planar model is one in its plane")
     middle = (places[is_place].min(axis=0) + places[is_place].max(axis=0)) / 2.0
@@ -214,7 +231,9 @@ def warmth_of(
     trial = Warmth(1.0, np.zeros(3), centre, np.ones(count), (0.0, 0.0), origin, none, ())
     sized = which & (np.abs(trial.misfit(data)).max(axis=0) > _ROUNDED * data.size)
     lacks = sized & np.isnan(alpha)
-    cold = tuple(dict.fromkeys(points.parts.of_element(e).name for e in np.flatnonzero(lacks)))
+    cold = tuple(
+        dict.fromkeys(points.parts.of_element(e).name for e in np.flatnonzero(lacks).tolist())
+    )
     if lacks.any() and parts is not None:
         raise ElasticError(f"{cold[0]} has no coefficient of expansion: {_WANTED}")
     if (lacks == sized).all() and not any(ours):
@@ -263,10 +282,10 @@ def drift_of(state: Warmed, given: object, at: object = None) -> Drift:
         f"a place carried by {words_of(points, point)}"
         if at is not None
         else words_of(points, point),
-        np.asarray(units.shown(place, "m")),
+        units.shown(place, "m"),
         tuple(names),
         np.array([units.shown(motion[k], key) for k, key in zip(which, keys, strict=True)]),
-        None if centre is None else np.asarray(units.shown(centre, "m")),
+        None if centre is None else units.shown(centre, "m"),
     )
 
 
@@ -293,10 +312,7 @@ def thermal_centre(
         more = alpha * warmth.free(there)[0] - free - np.cross(turned, arm)
         return np.asarray(motion[:3] + np.cross(motion[3:], arm) + more)
 
-    size = data.size
-    strain = np.abs(warmth.expansion).max() * (
-        abs(warmth.by) + float(np.linalg.norm(warmth.gradient)) * size
-    )
+    size, strain = data.size, warmth.strain(data.size)
     most = float(np.linalg.norm(motion[:3]))
     here = place
     for _ in range(20):
@@ -343,21 +359,20 @@ def found_in(state: Warmed) -> dict[str, Any]:
     peaks = {}
     for part in parts.all:
         with suppress(ElasticError):
-            peaks[part.name] = float(
-                state.best(lambda at, own=part.elements: max(peak_of(at, e) for e in own))
-            )
+            every = iter([max(peak_of(at, e) for e in part.elements) for at in state.meshes])
+            peaks[part.name] = float(state.best(lambda _, found=every: next(found)))
     largest = max(peaks, key=lambda name: peaks[name], default="")
     hertz = None
     if model.has_mass:
         hertz = [float(each.frequencies[0]) for each in (state.before, state)]
     return {
         "by": warmth.by,
-        "gradient": [float(units.si(1.0, "m")) * each for each in warmth.gradient.tolist()],
-        "about": np.asarray(units.shown(warmth.about, "m")).tolist(),
+        "gradient": units.shown(warmth.gradient, "K/m").tolist(),
+        "about": units.shown(warmth.about, "m").tolist(),
         "ground": {
             "by": warmth.ground[0],
             "expansion": warmth.ground[1],
-            "about": np.asarray(units.shown(warmth.origin, "m")).tolist(),
+            "about": units.shown(warmth.origin, "m").tolist(),
         },
         "without_expansion": list(warmth.cold),
         "drifts": [
@@ -373,7 +388,7 @@ def found_in(state: Warmed) -> dict[str, Any]:
         ],
         "normal_force": {
             "part": parts.of_element(worst).name,
-            "value": float(units.shown(force[worst], "N")),
+            "value": float(force[worst]),
         },
         "stress": peaks and {"part": largest, "value": float(units.shown(peaks[largest], "Pa"))},
         "frequencies": hertz,
@@ -383,59 +398,64 @@ def found_in(state: Warmed) -> dict[str, Any]:
 
 def described(state: Warmed) -> str:
     """The same in words."""
-    found, units, warmth = found_in(state), state.model.data.units, state.warmth
-    length = units.symbol("m")
-    lines = [f"{warmth.words[:1].upper()}{warmth.words[1:]}; {state.model.words}."]
+    found, data, warmth = found_in(state), state.model.data, state.warmth
+    units, strain = data.units, state.warmth.strain(data.size)
+    words = warmth.words(units)
+    lines = [f"{words[:1].upper()}{words[1:]}; {state.model.words}."]
     for each in found["drifts"][:_MOST]:
-        per, of = (each["per_kelvin"], "/K") if warmth.by else (each["drift"], "")
-        sizes = {True: [], False: []}
-        for name, value in zip(each["directions"], per, strict=True):
-            is_turn = name.startswith("r")
-            size = float(units.si(value, "rad" if is_turn else "m"))
-            if abs(size) > _STILL * _least(state, is_turn):
-                way = f"about {name[1:]}" if is_turn else f"along {name}"
-                sizes[is_turn].append(f"{told(size, 'rad' if is_turn else 'm')}{of} {way}")
+        moves: dict[str, list[str]] = {"m": [], "rad": []}
+        for name, value in zip(each["directions"], each["drift"], strict=True):
+            unit, way = ("rad", f"about {name[1:]}") if name[0] == "r" else ("m", f"along {name}")
+            size = units.si(value, unit)
+            if abs(size) > _TOLD * strain * (data.size if unit == "m" else 1.0):
+                number = told(size / (warmth.by or 1.0), unit)
+                moves[unit].append(f"{number}{'/K' if warmth.by else ''} {way}")
         both = [
-            f"{verb} {', '.join(sizes[is_turn])}"
-            for verb, is_turn in (("moves by", False), ("turns by", True))
-            if sizes[is_turn]
+            f"{verb} {' and '.join(moves[unit])}"
+            for verb, unit in (("moves by", "m"), ("turns by", "rad"))
+            if moves[unit]
         ]
         line = f"{each['point']} {' and '.join(both) or 'stays where it is'}"
-        if each["centre"] is None:
-            line += "; no place of it stays, so that it has no thermal centre"
-        else:
-            line += f"; its thermal centre is at {listed(np.array(each['centre']))} {length}"
+        if each["centre"] is not None:
+            least = _TOLD * units.shown(data.size, "m")
+            centre = listed(np.array(each["centre"]), least)
+            line += f"; its thermal centre is at {centre} {units.symbol('m')}"
+        elif both:
+            line += "; no place of it stays: it has no thermal centre"
         lines.append(f"{line}.")
     if len(found["drifts"]) > _MOST:
         lines.append(f"{len(found['drifts']) - _MOST} more bodies or points: ask drift(point).")
-    over, force = found["over_constrained"], found["normal_force"]
     lines.append(
-        f"Over-constrained by {over}: what is warm and what is not press on each other."
-        if over
-        else "Not over-constrained: no thermal self-stress; what stress there is comes from the "
-        "flexures that the drift bends."
+        f"Over-constrained by {found['over_constrained']}: parts that grow unlike each other "
+        "press on each other."
+        if found["over_constrained"]
+        else "Not over-constrained: there is no thermal self-stress; what stress there is comes "
+        "from the flexures that the drift bends."
     )
-    word = "pull" if force["value"] > 0.0 else "pressure"
-    lines.append(
-        f"Largest normal force: {abs(force['value']):.4g} {units.symbol('N')} of {word} in "
-        f"{force['part']}."
+    force, stiffness = (
+        found["normal_force"],
+        getattr(data.properties, "stiffness", np.zeros((1, 1))),
     )
+    rounded = _ROUNDED * strain * float(np.nan_to_num(stiffness[:, 0]).max())
+    size = abs(force["value"])
+    if units.si(size, "N") > rounded:
+        word = "pull" if force["value"] > 0.0 else "pressure"
+        lines.append(
+            f"Largest normal force: {size:.4g} {units.symbol('N')} of {word} in {force['part']}."
+        )
+    else:
+        lines.append("No normal force anywhere.")
     if found["stress"]:
         stress = f"{found['stress']['value']:.4g} {units.symbol('Pa')}"
         lines.append(f"Largest normal stress: {stress} in {found['stress']['part']}.")
     if found["frequencies"]:
         one, two = found["frequencies"]
-        change = f" ({100.0 * (two / one - 1.0):+.2g} %)" if one > 0.0 else ""
-        lines.append(f"First frequency: {one:.5g} Hz before, {two:.5g} Hz then{change}.")
+        change = 100.0 * (two / one - 1.0) if one > 0.0 else math.nan
+        told_as = f" ({change:+.2g} %)" if abs(change) > _TOLD else ""
+        lines.append(f"First frequency: {one:.5g} Hz before, {two:.5g} Hz then{told_as}.")
     if cold := found["without_expansion"]:
         more = f" and {len(cold) - _MOST} more" if len(cold) > _MOST else ""
-        lines.append(f"No coefficient of expansion, taken as 0: {', '.join(cold[:_MOST])}{more}.")
+        lines.append(
+            f"Taken as 0, for want of a coefficient of expansion: {', '.join(cold[:_MOST])}{more}."
+        )
     return "\n".join((*lines, *(f"Note: {note}." for note in state.notes)))
-
-
-def _least(state: Warmed, is_turn: bool) -> float:
-    """What warmth makes of the size of the model [m], or of an angle [rad], for each kelvin."""
-    warmth, size = state.warmth, state.model.data.size
-    step = max(abs(warmth.by), float(np.linalg.norm(warmth.gradient)) * size, abs(warmth.ground[0]))
-    most = max(float(np.abs(warmth.expansion).max()), abs(warmth.ground[1])) * step
-    return most * (1.0 if is_turn else size) / (abs(warmth.by) or 1.0)
