@@ -37,6 +37,7 @@ from ..util.rotations import matrix_of, matrix_of_euler, vector_of
 from ..util.text import file_name, harmless, in_short
 from ..util.text import table as text_table
 from ..util.units import Units
+from .equilibria import force_of, value_at
 from .errors import ElasticError, Estimate
 from .points import Point, Points
 from .solution import Compliance, Solution
@@ -610,7 +611,7 @@ def table_of(state: State, given: object, frame: object, at: object) -> PointTab
     centre, other, coupling = centres_of(best, which, place)
 
     def length(vector: FloatArray | None) -> FloatArray | None:
-        return None if vector is None else np.asarray(units.shown(vector, "m"))
+        return None if vector is None else units.shown(vector, "m")
 
     principal = tuple(
         PrincipalStiffness(
@@ -629,7 +630,7 @@ def table_of(state: State, given: object, frame: object, at: object) -> PointTab
         data,
         state.label,
         f"a place carried by {called}" if at is not None else called,
-        np.asarray(units.shown(place, "m")),
+        units.shown(place, "m"),
         words,
         axes,
         tuple(NAMES[k] for k in which.tolist()),
@@ -832,6 +833,8 @@ def stroke_table_of(
     for k, turn in enumerate(turns.tolist()):
         motion[:, k] = units.shown(motion[:, k], "rad" if turn else "m")
         stiffness[:, k] = units.shown(stiffness[:, k], "N m/rad" if turn else "N/m")
+    values = np.array([state.best(lambda at: value_at(at, drive)) for state in states])
+    force = np.array([state.best(lambda at: force_of(at, drive)) for state in states])
     # What the drive is to move: along its axis, or about it, as far as the frame has that.
     axis = both @ np.eye(6)[NAMES.index(name)]
     called = words_of(points, point)
@@ -845,8 +848,8 @@ def stroke_table_of(
         axes,
         tuple(NAMES[k] for k in which.tolist()),
         np.abs(axis[which]) < _SQUARE,
-        np.array([state.stroke for state in states]),
-        np.array([state.force for state in states]),
+        units.shown(values, "rad" if is_turn else "m"),
+        units.shown(force, "N m" if is_turn else "N"),
         motion,
         stiffness,
     )

@@ -28,7 +28,7 @@ from ..util.records import Frozen
 from ..util.text import in_short
 from ..util.units import Units
 from .equilibria import Imperfection, number_given
-from .errors import ElasticError
+from .errors import ElasticError, Estimate
 from .points import Points
 from .reduced import peak_of
 from .tables import NAMES, carried, listed, offset_given, plain, words_of
@@ -114,7 +114,7 @@ class Warmth(Frozen):
         words = "temperature" if self.by else "part of the warmth"
         none = np.zeros_like(spread)
         misfit = self.misfit(data) / value
-        return Imperfection(words, value, -1, False, np.zeros(3), none, misfit, spread / value)
+        return Imperfection(words, value, "K", -1, False, np.zeros(3), none, misfit, spread / value)
 
     def words(self, units: Units) -> str:
         """Such as "10 K warmer, the ground as it was"."""
@@ -208,8 +208,8 @@ def warmth_of(
     slope = np.zeros(3)
     if gradient is not None:
         numbers = np.zeros(0)
-        with suppress(TypeError, OverflowError):
-            numbers = np.array([units.read(each, "K/m") for each in gradient])  # type: ignore[attr-defined]
+        with suppress(TypeError, ValueError):
+            numbers = np.array(without_units(gradient, units.symbol("K/m")), np.float64)
         if numbers.shape not in ((2,), (3,)) or not np.isfinite(numbers).all():
             raise ElasticError(
                 "a gradient of temperature has three finite numbers, along x, y and z, not "
@@ -270,8 +270,7 @@ def drift_of(state: Warmed, given: object, at: object = None) -> Drift:
     names = [points.name(each) for each in points.coordinates(point)]
     pairs = zip(state.meshes, state.before.meshes, strict=True)
     every = [carried(s, point, offset, since=t.raw.configuration)[0] for s, t in pairs]
-    both = iter(every)
-    motion = state.best(lambda _: next(both))
+    motion = Estimate.of(*every).value
     place = np.zeros(3)
     if point.position >= 0:
         place = points.data.arrays.node_value[:3, point.position] + offset
@@ -359,8 +358,8 @@ def found_in(state: Warmed) -> dict[str, Any]:
     peaks = {}
     for part in parts.all:
         with suppress(ElasticError):
-            every = iter([max(peak_of(at, e) for e in part.elements) for at in state.meshes])
-            peaks[part.name] = float(state.best(lambda _, found=every: next(found)))
+            every = [max(peak_of(at, e) for e in part.elements) for at in state.meshes]
+            peaks[part.name] = float(Estimate.of(*every))
     largest = max(peaks, key=lambda name: peaks[name], default="")
     hertz = None
     if model.has_mass:
@@ -390,7 +389,9 @@ def found_in(state: Warmed) -> dict[str, Any]:
             "part": parts.of_element(worst).name,
             "value": float(force[worst]),
         },
-        "stress": peaks and {"part": largest, "value": float(units.shown(peaks[largest], "Pa"))},
+        "stress": None
+        if not peaks
+        else {"part": largest, "value": float(units.shown(peaks[largest], "Pa"))},
         "frequencies": hertz,
         "over_constrained": model.result.over_constrained,
     }

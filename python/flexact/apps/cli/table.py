@@ -16,7 +16,7 @@ from ...costs.resolve import Places
 from ...deck.rendering import ModelError, ProblemsError
 from ...elasticity import Elastic
 from ...elasticity.mesh import beams_given
-from ...elasticity.tables import TABLES
+from ...elasticity.tables import TABLES, PointTable, StrokeTable
 from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
@@ -95,6 +95,7 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
                         }
                         warm = elastic.warmed(**given)
                         elastic = warm.model
+                    made: PointTable | StrokeTable
                     if stroke is None:
                         state = warm or elastic.undeformed()
                         made = state.table(at, chosen.frame, chosen.place)
