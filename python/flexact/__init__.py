@@ -42,6 +42,8 @@ What to do about it
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
+    PointTable, StrokeTable: stiffness in any frame at a point, and along a stroke
+    Warmed: a state in which something is warm: drift, thermal centre
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
@@ -97,9 +99,12 @@ if _typing.TYPE_CHECKING:
         Elastic,
         ElasticError,
         Estimate,
+        PointTable,
         State,
         StrokeError,
+        StrokeTable,
         UnknownError,
+        Warmed,
         elastic,
     )
     from .model.arguments import polar
@@ -175,9 +180,12 @@ _HOMES = {
         "Elastic",
         "ElasticError",
         "Estimate",
+        "PointTable",
         "State",
         "StrokeError",
+        "StrokeTable",
         "UnknownError",
+        "Warmed",
         "elastic",
     ),
     "model.arguments": ("polar",),
@@ -260,6 +268,7 @@ __all__ = [
     "Node",
     "Notch",
     "Place",
+    "PointTable",
     "Proof",
     "ReinforcedSheet",
     "Results",
@@ -270,11 +279,13 @@ __all__ = [
     "State",
     "Step",
     "StrokeError",
+    "StrokeTable",
     "Table",
     "Tolerances",
     "Trace",
     "UnknownError",
     "Verdict",
+    "Warmed",
     "Wire",
     "__version__",
     "analyse",

@@ -162,7 +162,7 @@ ARGUMENTS: dict[tuple[str, str], Asked] = {
         lambda n: elastic().misalignment_for(-0.01, "left foot", "ry", n),
     ),
     ("Elastic.misfit", "element"): (ELEMENTS, lambda e: elastic().misfit(e, 1, 1e-6)),
-    ("Elastic.warmed", "elements"): (ELEMENTS, lambda e: elastic().warmed(1.0, 1e-5, e)),
+    ("Elastic.warmed", "parts"): (ELEMENTS, lambda e: elastic().warmed(1.0, e, expansion=1e-5)),
     ("State.compliance", "node"): (FORMS, lambda n: state().compliance(n)),
     ("State.stiffness", "node"): (FORMS, lambda n: state().stiffness(n)),
     ("State.position", "node"): (FORMS, lambda n: state().position(n)),

@@ -2,10 +2,10 @@
 """Warmth: parts that expand, the ground that may too, and where a point goes then.
 
 A field of temperature T = by + g . (x - about) that is linear in the place bends what it warms
-without stressing it: a free body of one material is displaced by
-alpha (T0 x + (g . x) x - g |x|^2 / 2) and turned by alpha g x x, with x from `about` and T0 = by
-(Boley and Weiner, Theory of Thermal Stresses, 1960, sec. 3.2: linear fields leave a free body
-without stress). What each element is off follows from its ends' displacements and turns by D(c).
+without stress: a free body of one material is displaced by
+alpha (by x + (g . x) x - g |x|^2 / 2) and turned by alpha g x x, with x from `about`, which has the
+strains alpha T and no others (Boley and Weiner, Theory of Thermal Stresses, 1960). What each
+element is off are its deformations where its ends are displaced and turned so.
 """
 
 from __future__ import annotations
@@ -25,13 +25,14 @@ from ..model.data import ModelData
 from ..show.charts import told
 from ..util.quantities import without_units
 from ..util.records import Frozen
+from ..util.rotations import matrix_of, turned
 from ..util.text import in_short
 from ..util.units import Units
 from .equilibria import Imperfection, number_given
 from .errors import ElasticError, Estimate
 from .points import Points
 from .reduced import peak_of
-from .tables import NAMES, carried, listed, offset_given, plain, words_of
+from .tables import NAMES, carried, cross_matrix, listed, offset_given, plain, words_of
 
 if TYPE_CHECKING:
     from .elastic import Warmed
@@ -82,23 +83,32 @@ class Warmth(Frozen):
         return moved, np.cross(self.gradient, arm)
 
     def misfit(self, data: ModelData) -> FloatArray:
-        """(6, elements) what the deck's elements are off."""
+        """(6, elements) what the deck's elements are off: their deformations in a free body."""
         arrays, count = data.arrays, data.arrays.element_number.size
-        raw = calls.assemble(data.packed, arrays.node_value, np.zeros(count))
-        element, k = raw.row_of // 6, raw.row_of % 6
-        node, axis = raw.column_of // 3, raw.column_of % 3
-        slots = arrays.element_node - 1
-        # An orientation is turned as the end at which the element has it.
-        is_first = slots[1, element] == node
-        turns = arrays.node_kind[node] > NodeKind.POSITION
-        place = np.where(turns, slots[np.where(is_first, 0, 2), element], node)
-        moved, turned = self.free(arrays.node_value[:3].T)
-        field = np.where(turns, turned[place, axis], moved[place, axis]) * self.expansion[element]
-        # The ground's own bodies stay as large as the ground.
-        arm = arrays.node_value[:3].T - self.origin
-        own = np.where(turns, 0.0, arm[place, axis]) * float(np.prod(self.ground))
-        made = np.zeros((6, count))
-        np.add.at(made, (k, element), raw.value * np.where(self.is_ground[element], own, field))
+        slots, place = arrays.element_node - 1, np.arange(arrays.node_number.size)
+        for p, orientation in ((2, 3), (0, 1)):
+            there = (slots[p] >= 0) & (slots[orientation] >= 0)
+            place[slots[orientation, there]] = slots[p, there]
+        moved, turns = self.free(arrays.node_value[:3, place].T)
+        grown = arrays.node_value[:3, place].T - self.origin
+        kinds, made = arrays.node_kind, np.zeros((6, count))
+
+        def deformed(which: BoolArray, move: FloatArray, turn: FloatArray) -> None:
+            value = arrays.node_value.copy(order="F")
+            value[:3] += np.where(kinds <= NodeKind.POSITION, move.T, 0.0)
+            value[0] += np.where(kinds == NodeKind.ANGLE, turn[:, 2], 0.0)
+            is_whole = kinds == NodeKind.ORIENTATION
+            value[:, is_whole] = turned(value[:, is_whole].T, turn[is_whole]).T
+            made[:, which] = calls.assemble(data.packed, value, np.zeros(count)).deformation[
+                :, which
+            ]
+
+        # All of one coefficient at once, so that what is rigid fits together.
+        for alpha in np.unique(self.expansion[self.expansion != 0.0]).tolist():
+            deformed(self.expansion == alpha, alpha * moved, alpha * turns)
+        if self.is_ground.any() and all(self.ground):
+            # The ground's own bodies stay as large as the ground.
+            deformed(self.is_ground, float(np.prod(self.ground)) * grown, np.zeros_like(grown))
         # What has no place, as a hinge, has no size.
         return np.where((slots[0] >= 0) & (slots[2] >= 0), made, 0.0)
 
@@ -168,7 +178,9 @@ def warmth_of(
     """
     data, units = points.data, points.data.units
     arrays, count = data.arrays, data.arrays.element_number.size
-    step = number_given(without_units(by, "K"), "a change of temperature [K]")
+
+    def kelvin(value: object) -> float:
+        return number_given(without_units(value, "K"), "a change of temperature [K]")
 
     def coefficient(value: object) -> float:
         return number_given(without_units(value, "1/K"), "a coefficient of expansion [1/K]")
@@ -199,10 +211,7 @@ def warmth_of(
                 "the ground is given by how much warmer it is [K] and its coefficient [1/K], and "
                 f"maybe the place that stays, such as ground=(10, 12e-6), not {in_short(ground)}"
             )
-        ours = (
-            number_given(given[0], "the ground's change of temperature [K]"),
-            number_given(given[1], "the ground's coefficient of expansion [1/K]"),
-        )
+        ours = kelvin(given[0]), coefficient(given[1])
         origin = points.place(given[2]) if len(given) == 3 else origin
 
     slope = np.zeros(3)
@@ -239,7 +248,7 @@ def warmth_of(
     if (lacks == sized).all() and not any(ours):
         raise ElasticError(f"nothing that is warmed has a coefficient of expansion: {_WANTED}")
     own = np.where(which, np.nan_to_num(alpha), 0.0)
-    return Warmth(step, slope, centre, own, ours, origin, is_ground, cold)
+    return Warmth(kelvin(by), slope, centre, own, ours, origin, is_ground, cold)
 
 
 @dataclass(frozen=True, eq=False)
@@ -300,16 +309,19 @@ def thermal_centre(
     body = state.model.points.parts.body_at.get(node)
     own = np.zeros(1)
     if body is not None:
-        own = warmth.expansion[list(state.model.points.parts.bodies[body].elements)]
-    alpha = float(own[0])
+        elements = list(state.model.points.parts.bodies[body].elements)
+        own = warmth.expansion[elements]
+        if warmth.is_ground[elements].all():
+            return warmth.origin
+    alpha, turn = float(own[0]), matrix_of(motion[3:])
     if np.ptp(own):
         return None
-    free, turned = (alpha * each for each in warmth.free(place))
+    free, own_turn = (alpha * each for each in warmth.free(place))
 
     def rest(there: FloatArray) -> FloatArray:
         arm = there - place
-        more = alpha * warmth.free(there)[0] - free - np.cross(turned, arm)
-        return np.asarray(motion[:3] + np.cross(motion[3:], arm) + more)
+        more = alpha * warmth.free(there)[0] - free - np.cross(own_turn, arm)
+        return np.asarray(motion[:3] + turn @ (arm + more) - arm)
 
     size, strain = data.size, warmth.strain(data.size)
     most = float(np.linalg.norm(motion[:3]))
@@ -319,8 +331,8 @@ def thermal_centre(
         if np.linalg.norm(left) <= max(_ROUNDED * strain * size, _STILL * most):
             return here
         slope = alpha * (warmth.by + float((here - warmth.about) @ warmth.gradient))
-        spin = motion[3:] + alpha * warmth.free(here)[1] - turned
-        matrix = slope * np.eye(3) + np.cross(spin, np.eye(3)).T
+        spin = alpha * warmth.free(here)[1] - own_turn
+        matrix = turn @ ((1.0 + slope) * np.eye(3) + cross_matrix(spin)) - np.eye(3)
         if np.abs(matrix).max() <= _ROUNDED * strain:
             return None
         here = here - np.linalg.lstsq(matrix, left, rcond=_STILL)[0]
