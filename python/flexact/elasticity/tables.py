@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
 #: A frame has axes that are square to each other within this.
 _SQUARE = 1.0e-6
+#: A place that is carried is no farther than so many times the size of the model.
+_FARTHEST = 10.0
 #: Principal stiffnesses that differ by less than this part of the largest are one.
 _EQUAL = 1.0e-7
 #: What is left of a stiffness or a compliance, as a part of the largest, that is none.
@@ -103,7 +105,8 @@ def offset_given(points: Points, point: Point, at: object) -> FloatArray:
     """(3,) from a point at rest to a place that is carried with it [m]; zero without one.
 
     Raises:
-        ElasticError: nothing turns with the point, so that it carries no other place.
+        ElasticError: nothing turns with the point, so that it carries no other place; or the place
+            is far away, a slip of the unit.
     """
     if at is None:
         return np.zeros(3)
@@ -112,7 +115,16 @@ def offset_given(points: Points, point: Point, at: object) -> FloatArray:
             f"{words_of(points, point)} carries no other place, since nothing turns with it: leave "
             "out `at`, or name a body"
         )
-    return points.place(at) - points.data.arrays.node_value[:3, point.position]
+    data = points.data
+    made = points.place(at) - data.arrays.node_value[:3, point.position]
+    distance = float(np.linalg.norm(made))
+    if distance > _FARTHEST * data.size:
+        far = f"{data.units.shown(distance, 'm'):.4g} {data.units.symbol('m')}"
+        raise ElasticError(
+            f"the place {in_short(at)} is {far} from {words_of(points, point)}, more than "
+            f"{_FARTHEST:g} times the whole model: say its unit, such as '3 mm'"
+        )
+    return made
 
 
 def words_of(points: Points, point: Point) -> str:

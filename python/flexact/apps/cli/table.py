@@ -183,7 +183,7 @@ VERB = Verb(
                 argument(
                     "--frame",
                     default="global",
-                    metavar="PART",
+                    metavar="NAME",
                     help="in the axes of a part at rest (those of the model)",
                 ),
                 argument(
