@@ -22,9 +22,9 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
-from ...util.quantities import QuantityError, quantity
+from ...util.quantities import Quantity, QuantityError, as_typed
 from ...util.text import harmless
-from .decks import opened, report_problems, take
+from .decks import UNITS, opened, report_problems, take
 from .parser import Group, Verb, argument
 from .targets import DECK, number, number_or_name, one_deck
 from .terminal import Bar, ExitCode, Outcome, complain, give, put, say
@@ -33,22 +33,17 @@ from .terminal import Bar, ExitCode, Outcome, complain, give, put, say
 _NEGATIVE = re.compile(r"-\.?\d.*")
 
 
-_PLAIN = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-
-
-def _listed(*units: str) -> Callable[[str], list[float | str]]:
+def _listed(*units: str) -> Callable[[str], list[Quantity]]:
     """An option's type: quantities behind commas; what says no unit is in those of the model."""
 
-    def read(text: str) -> list[float | str]:
-        given = [each.strip() for each in text.split(",")]
+    def read(text: str) -> list[Quantity]:
+        given = text.split(",")
         if len(given) != len(units):
             raise argparse.ArgumentTypeError(f"{len(units)} numbers are wanted, not {text!r}")
         try:
-            for each, unit in zip(given, units, strict=True):
-                quantity(each, unit)
+            return [as_typed(each, unit) for each, unit in zip(given, units, strict=True)]
         except QuantityError as error:
             raise argparse.ArgumentTypeError(str(error)) from None
-        return [float(each) if _PLAIN.fullmatch(each) else each for each in given]
 
     return read
 
@@ -77,7 +72,7 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
-            data = opened(deck, bar)
+            data = opened(deck, bar, chosen)
             report_problems(data)
             bar.show("computing")
             try:
@@ -227,6 +222,7 @@ VERB = Verb(
                 ),
             ),
         ),
+        UNITS,
         argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates"),
         argument("--held", choices=HELD, default=HELD[0], help="held deformations"),
         argument("--beams", default="auto", metavar="auto|N", help="beams a sheet; auto: 8 and 16"),
