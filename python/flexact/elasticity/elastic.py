@@ -73,8 +73,7 @@ from .solution import (
 from .tables import (
     PointTable,
     StrokeTable,
-    axes_given,
-    offset_given,
+    seen_of,
     stroke_table_of,
     table_of,
 )
@@ -502,15 +501,12 @@ class Elastic(Frozen):
         Raises:
             UnknownError, ElasticError, StrokeError: As of `along` and `State.table`.
         """
-        points = self.points
-        point = points.of(node if of is None else of)
         # What is wrong with the frame or the place is said before anything is computed.
-        axes_given(points, frame)
-        offset_given(points, point, at)
+        seen = seen_of(self.points, node if of is None else of, frame, at)
         states = self.along(node, coordinate, values, from_rest=from_rest, beyond=beyond)
         if not states:
             raise ElasticError("a table along a stroke has one value at least")
-        return stroke_table_of(states, node, coordinate, of, frame, at)
+        return stroke_table_of(states, self.points.coordinate(node, coordinate), coordinate, seen)
 
     @contextmanager
     def _in_units(self) -> Iterator[None]:

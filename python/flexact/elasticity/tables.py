@@ -17,14 +17,15 @@ import io
 import json
 import math
 import os
+from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind
 from ..model.data import ModelData
 from ..show.charts import Bar, BarChart, Chart, Curve, Group, Row, linear_scale, log_scale, told
@@ -39,13 +40,15 @@ from ..util.text import table as text_table
 from ..util.units import Units
 from .equilibria import force_of, value_at
 from .errors import ElasticError, Estimate
-from .points import Point, Points
+from .points import Coordinate, Point, Points
 from .solution import Compliance, Solution
 
 if TYPE_CHECKING:
     from .elastic import State
 
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
+#: The unit of a motion, of a displacement and of a turn.
+_MOTION = ("m", "rad")
 #: A frame has axes that are square to each other within this.
 _SQUARE = 1.0e-6
 #: A place that is carried is no farther than so many times the size of the model.
@@ -212,6 +215,11 @@ class PrincipalStiffness(Frozen):
     through: FloatArray | None
     pitch: float | None
 
+    @property
+    def unit(self) -> str:
+        """The SI unit of the stiffness."""
+        return _STIFFNESS[0 if self.kind == "translation" else 2]
+
 
 def principal_axes(matrix: FloatArray, basis: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Eigenvalues (k,), ascending, and vectors (3, k) of a symmetric matrix in a basis (3, k).
@@ -260,17 +268,16 @@ def principal_of(
         across = complement(beyond)
         inner = across.T @ matrix[np.ix_(own, own)] @ across
         found, vectors = principal_axes(inner, axis[:, own] @ across)
-        least = _NOTHING * np.abs(matrix).max(initial=0.0)
-        extreme = math.inf if kind == "translation" else 0.0
+        found = np.where(found > _NOTHING * np.abs(matrix).max(initial=0.0), found, 0.0)
+        extreme = math.inf
+        if kind == "rotation":
+            extreme = 0.0
+            found = np.where(found > 0.0, scale**2 / np.where(found > 0.0, found, 1.0), math.inf)
         _, ends = principal_axes(np.zeros((beyond.shape[1],) * 2), axis[:, own] @ beyond)
-        outer = [(extreme, each) for each in ends.T]
-        inside = []
-        for value, direction in zip(found.tolist(), vectors.T, strict=True):
-            number = value if value > least else 0.0
-            if kind == "rotation":
-                number = scale**2 / value if value > least else math.inf
-            inside.append((number, direction))
-        every = [*inside, *outer]
+        every = [
+            *zip(found.tolist(), vectors.T, strict=True),
+            *((extreme, each) for each in ends.T),
+        ]
         for number, direction in sorted(every, key=lambda each: each[0]):
             line: tuple[FloatArray | None, float | None] = None, None
             if math.isfinite(number) and number > 0.0 and not is_open:
@@ -320,20 +327,94 @@ def centres_of(
     return centre, other, float(left.max(initial=0.0))
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class PointTable(Frozen):
-    """What a point does under forces and moments; made by `State.table`.
+#: Units of the blocks of both matrices, by how many of two directions are turns.
+_STIFFNESS, _COMPLIANCE = ("N/m", "N", "N m/rad"), ("m/N", "rad/N", "rad/(N m)")
+_HEADER = ("quantity", "direction", "direction_2", "number", "value", "unit")
+#: Of the JSON of a table; raised where an entry is taken away, renamed, or means something else.
+FORMAT = 1
 
-    Places and directions are in the axes of the model; numbers are in `units`.
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlaceTable(Frozen):
+    """What is known of a point, or of a place that is carried with it, in a frame.
 
     Attributes:
-        data: The model.
-        label: What state it is, such as "undeformed".
+        data: The model, in whose units numbers are.
         point: What the point is called.
-        place: (3,) where it is [m].
-        frame: What the frame of both matrices is called.
+        frame: What the frame is called.
         axes: (3, 3) the frame's axes, as columns.
-        directions: (n,) the coordinates, in the order of both matrices.
+        directions: (n,) the coordinates of the point.
+    """
+
+    data: ModelData
+    point: str
+    frame: str
+    axes: FloatArray
+    directions: tuple[str, ...]
+
+    @property
+    def units(self) -> Units:
+        """In which its numbers are."""
+        return self.data.units
+
+    def to_dict(self) -> dict[str, Any]:
+        """The table as the JSON has it (`docs/table.schema.json`); what is infinite is null."""
+        keys = ("m", "rad", "N", "N m", *_STIFFNESS, *_COMPLIANCE)
+        return {
+            "format": FORMAT,
+            "kind": "",
+            "deck": self.data.name.encode("utf-8", "backslashreplace").decode("utf-8"),
+            "flexact": VERSION,
+            "units": {key: self.units.symbol(key) for key in dict.fromkeys(keys)},
+            "point": self.point,
+            "frame": {"words": self.frame, "axes": self.axes.T.tolist()},
+            "directions": list(self.directions),
+        }
+
+    def to_json(self) -> str:
+        """One line of JSON, of `to_dict`; numbers read back to the last bit."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
+        """All numbers as a table, as a text; also written to a file, if one is named.
+
+        Raises:
+            OutputError: The file cannot be written.
+        """
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(self.rows)
+        if path is not None:
+            write(Path(path), as_bytes(text.getvalue()))
+        return text.getvalue()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it: a picture (.png, .svg, .pdf), a table (.csv) or JSON (.json), by its suffix.
+
+        Raises:
+            FlexactError: There is no such kind of file, a package is missing, or the file cannot
+                be written.
+        """
+        TABLES.save(self, self.data, Path(path))
+
+    @property
+    def rows(self) -> Sequence[Sequence[object]]:
+        """Of the CSV, its header first."""
+        raise NotImplementedError
+
+    def describe(self) -> str:
+        """The same in words."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PointTable(PlaceTable):
+    """What a point does under forces and moments; made by `State.table`.
+
+    Places and directions are in the axes of the model, both matrices in those of the frame.
+
+    Attributes:
+        label: What state it is, such as "undeformed".
+        place: (3,) where it is [m].
         stiffness: (n, n) infinite where held, 0 without stiffness [N/m, N, N m/rad].
         compliance: (n, n) likewise, 0 and infinite [m/N, rad/N, rad/(N m)].
         principal: Principal stiffnesses of translations, then of rotations, the softest first.
@@ -344,24 +425,14 @@ class PointTable(Frozen):
             from 0, not at all, to 1; NaN without one.
     """
 
-    data: ModelData
     label: str
-    point: str
     place: FloatArray
-    frame: str
-    axes: FloatArray
-    directions: tuple[str, ...]
     stiffness: FloatArray
     compliance: FloatArray
     principal: tuple[PrincipalStiffness, ...]
     centre_of_compliance: FloatArray | None
     centre_of_stiffness: FloatArray | None
     coupling: float
-
-    @property
-    def units(self) -> Units:
-        """In which its numbers are."""
-        return self.data.units
 
     @property
     def centre(self) -> FloatArray | None:
@@ -388,13 +459,11 @@ class PointTable(Frozen):
             lines.append(text_table(rows, _WIDTH))
         lines.append("Principal stiffnesses, the softest first:")
         for each in self.principal:
-            is_shift = each.kind == "translation"
-            size = "held"
-            if math.isfinite(each.stiffness):
-                unit = self.units.symbol("N/m" if is_shift else "N m/rad")
-                size = f"{each.stiffness:.5g} {unit}" if each.stiffness else "no stiffness"
-            words = f"  {each.kind} along" if is_shift else f"  {each.kind} about"
-            words = f"{words} {listed(each.direction)}: {size}"
+            size = f"{_number(each.stiffness)} {self.units.symbol(each.unit)}"
+            if not 0.0 < each.stiffness < math.inf:
+                size = "held" if each.stiffness else "no stiffness"
+            way = "along" if each.kind == "translation" else "about"
+            words = f"  {each.kind} {way} {listed(each.direction)}: {size}"
             if each.through is not None and each.pitch is not None:
                 words += f", on the line through {listed(each.through, least)} {length}"
                 if abs(each.pitch) > _EQUAL / _ROUNDED * least:
@@ -428,136 +497,75 @@ class PointTable(Frozen):
             "(Loncaric's centres)."
         )
 
-    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
-        """All numbers as a tidy table, a row a number; also written to a file, if one is named.
+    @property
+    def rows(self) -> Sequence[Sequence[object]]:
+        """A row a number."""
+        made: list[Sequence[object]] = [_HEADER]
+        symbol = self.units.symbol
 
-        Raises:
-            OutputError: The file cannot be written.
-        """
-        rows: list[Sequence[object]] = [_HEADER]
+        def add(what: str, vector: FloatArray | None, unit: str, number: object = "") -> None:
+            for name, value in zip("xyz", [] if vector is None else vector.tolist(), strict=False):
+                made.append((what, name, "", number, value, unit))
+
         for what, matrix, keys in (
             ("stiffness", self.stiffness, _STIFFNESS),
             ("compliance", self.compliance, _COMPLIANCE),
         ):
-            for i, one in enumerate(self.directions):
-                for j, other in enumerate(self.directions):
-                    key = keys[one.startswith("r") + other.startswith("r")]
-                    unit = self.units.symbol(key)
-                    rows.append((what, one, other, "", float(matrix[i, j]), unit))
-        length = self.units.symbol("m")
-        for kind, number, each in self._numbered:
-            unit = self.units.symbol("N/m" if kind == "translation" else "N m/rad")
-            rows.append((f"principal {kind}", "", "", number, each.stiffness, unit))
-            for what, vector, unit in (
-                ("direction", each.direction, "1"),
-                ("through", each.through, length),
-            ):
-                for name, value in zip("xyz", vector if vector is not None else (), strict=False):
-                    rows.append((f"principal {kind}, {what}", name, "", number, float(value), unit))
+            for one, row in zip(self.directions, matrix.tolist(), strict=True):
+                for other, value in zip(self.directions, row, strict=True):
+                    unit = symbol(keys[(one[0] == "r") + (other[0] == "r")])
+                    made.append((what, one, other, "", value, unit))
+        count = Counter[str]()
+        for each in self.principal:
+            count[each.kind] += 1
+            what, number = f"principal {each.kind}", count[each.kind]
+            made.append((what, "", "", number, each.stiffness, symbol(each.unit)))
+            add(f"{what}, direction", each.direction, "1", number)
+            add(f"{what}, through", each.through, symbol("m"), number)
             if each.pitch is not None:
-                rows.append((f"principal {kind}, pitch", "", "", number, each.pitch, length))
-        for what, place in (
-            ("place", self.place),
-            ("centre of compliance", self.centre_of_compliance),
-            ("centre of stiffness", self.centre_of_stiffness),
-        ):
-            for name, value in zip("xyz", place if place is not None else (), strict=False):
-                rows.append((what, name, "", "", float(value), length))
+                made.append((f"{what}, pitch", "", "", number, each.pitch, symbol("m")))
+        add("place", self.place, symbol("m"))
+        add("centre of compliance", self.centre_of_compliance, symbol("m"))
+        add("centre of stiffness", self.centre_of_stiffness, symbol("m"))
         if math.isfinite(self.coupling):
-            rows.append(("coupling", "", "", "", self.coupling, "1"))
-        return _csv(rows, path)
-
-    @property
-    def _numbered(self) -> list[tuple[str, int, PrincipalStiffness]]:
-        shifts = sum(each.kind == "translation" for each in self.principal)
-        return [
-            (each.kind, 1 + (k if k < shifts else k - shifts), each)
-            for k, each in enumerate(self.principal)
-        ]
+            made.append(("coupling", "", "", "", self.coupling, "1"))
+        return made
 
     def to_dict(self) -> dict[str, Any]:
-        """The table as the JSON has it (`docs/table.schema.json`); what is infinite is null."""
+        """As of `PlaceTable`."""
+        names = ("stiffness", "compliance", "centre", "centre_of_compliance", "centre_of_stiffness")
         return {
-            **_head(self.data, "point"),
+            **super().to_dict(),
+            "kind": "point",
             "state": self.label,
-            "point": self.point,
             "place": self.place.tolist(),
-            "frame": {"words": self.frame, "axes": self.axes.T.tolist()},
-            "directions": list(self.directions),
-            "stiffness": plain(self.stiffness),
-            "compliance": plain(self.compliance),
+            **{name: plain(getattr(self, name)) for name in (*names, "coupling")},
             "principal": [
-                {
-                    "kind": each.kind,
-                    "stiffness": plain(each.stiffness),
-                    "direction": each.direction.tolist(),
-                    "through": plain(each.through),
-                    "pitch": each.pitch,
-                }
+                {field.name: plain(getattr(each, field.name)) for field in fields(each)}
                 for each in self.principal
             ],
-            "centre": plain(self.centre),
-            "centre_of_compliance": plain(self.centre_of_compliance),
-            "centre_of_stiffness": plain(self.centre_of_stiffness),
-            "coupling": plain(self.coupling),
             "words": self.centre_words,
         }
-
-    def to_json(self) -> str:
-        """One line of JSON, of `to_dict`; numbers read back to the last bit."""
-        return json.dumps(self.to_dict(), allow_nan=False)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write it: a picture (.png, .svg, .pdf), a table (.csv) or JSON (.json), by its suffix.
-
-        Raises:
-            FlexactError: There is no such kind of file, a package is missing, or the file cannot
-                be written.
-        """
-        TABLES.save(self, self.data, Path(path))
 
     @property
     def charts(self) -> tuple[BarChart, ...]:
         """Bars of the principal stiffnesses, of translations and of rotations."""
         made = []
-        for kind, unit in (("translation", "N/m"), ("rotation", "N m/rad")):
-            own = [each for each in self.principal if each.kind == kind]
-            sizes = [float(self.units.si(each.stiffness, unit)) for each in own]
-            shown = [size for size in sizes if 0.0 < size < math.inf]
-            if not shown:
+        for kind in ("translation", "rotation"):
+            own = [each for each in self.principal if each.kind == kind and each.stiffness]
+            sizes = [self.units.si(each.stiffness, each.unit) for each in own]
+            if not np.isfinite(sizes).any():
                 continue
-            rows = tuple(
-                Row(listed(each.direction), (Bar(0, size, 0.0),))
-                for each, size in zip(own, sizes, strict=True)
-                if size > 0.0
-            )
-            title = f"Principal stiffness of {kind}"
-            scale = log_scale(shown, unit, 0.25)
+            bars = [(Bar(0, size, 0.0),) for size in sizes]
+            rows = tuple(map(Row, (listed(each.direction) for each in own), bars))
             note = "Arrows: held" if math.inf in sizes else ""
+            scale, title = log_scale(sizes, own[0].unit, 0.25), f"Principal stiffness of {kind}"
             made.append(BarChart(kind, title, scale, (Group("", rows),), note))
         return tuple(made)
 
     def __repr__(self) -> str:
         """Of which point and state it is."""
         return f"<PointTable: {self.point}, {self.label}>"
-
-
-#: Units of the blocks of both matrices, by how many of two directions are turns.
-_STIFFNESS, _COMPLIANCE = ("N/m", "N", "N m/rad"), ("m/N", "rad/N", "rad/(N m)")
-_HEADER = ("quantity", "direction", "direction_2", "number", "value", "unit")
-#: Of the JSON of a table; raised where an entry is taken away, renamed, or means something else.
-FORMAT = 1
-
-
-def _head(data: ModelData, kind: str) -> dict[str, Any]:
-    keys = ("m", "rad", "N", "N m", *_STIFFNESS, *_COMPLIANCE)
-    return {
-        "format": FORMAT,
-        "kind": kind,
-        "deck": data.name.encode("utf-8", "backslashreplace").decode("utf-8"),
-        "flexact": VERSION,
-        "units": {key: data.units.symbol(key) for key in dict.fromkeys(keys)},
-    }
 
 
 def plain(value: object) -> Any:
@@ -567,14 +575,6 @@ def plain(value: object) -> Any:
     if isinstance(value, list):
         return [plain(each) for each in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _csv(rows: Sequence[Sequence[object]], path: str | os.PathLike[str] | None) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    if path is not None:
-        write(Path(path), as_bytes(text.getvalue()))
-    return text.getvalue()
 
 
 def _number(value: float, infinite: str = "held") -> str:
@@ -599,56 +599,85 @@ def by_blocks(
     return made
 
 
-def table_of(state: State, given: object, frame: object, at: object) -> PointTable:
-    """The table of a point of a state; see `State.table`."""
-    model, data = state.model, state.model.data
-    points, units = model.points, data.units
+class Seen(NamedTuple):
+    """A place that is looked at in a frame."""
+
+    point: Point
+    coordinates: list[Coordinate]
+    which: IntArray
+    """(n,) of x y z rx ry rz."""
+    offset: FloatArray
+    """(3,) from the point to the place at rest [m]."""
+    axes: FloatArray
+    called: tuple[str, str, FloatArray, tuple[str, ...]]
+    """The point and the frame, its axes and the names of the coordinates, as of `PlaceTable`."""
+
+    @property
+    def is_read_only(self) -> bool:
+        """Nobody keeps it."""
+        return True
+
+    def compliance(self, at: Solution, axes: FloatArray) -> Compliance:
+        """That of the place in a state, in a frame."""
+        at.require_stiffness()
+        own = at.compliance(self.point, self.coordinates)
+        return seen_from(own, self.which, carried(at, self.point, self.offset)[1], axes)
+
+
+def seen_of(points: Points, given: object, frame: object, at: object) -> Seen:
+    """A place that is looked at, as users give it; see `State.table`.
+
+    Raises:
+        UnknownError, ModelError, ElasticError: As of `State.table`.
+    """
     point = points.of(given)
     axes, words = axes_given(points, frame)
     offset = offset_given(points, point, at)
     coordinates = points.coordinates(point)
-    which = np.array([NAMES.index(points.name(each)) for each in coordinates])
-    made = []
-    for solution in state.meshes:
-        solution.require_stiffness()
-        _, way = carried(solution, point, offset)
-        made.append((solution.compliance(point, coordinates), way))
-    seen = [seen_from(each, which, way, axes) for each, way in made]
+    names = tuple(map(points.name, coordinates))
+    called = f"{'' if at is None else 'a place carried by '}{words_of(points, point)}"
+    which = np.array([NAMES.index(name) for name in names])
+    return Seen(point, coordinates, which, offset, axes, (called, words, axes, names))
+
+
+def table_of(state: State, given: object, frame: object, at: object) -> PointTable:
+    """The table of a point of a state; see `State.table`."""
+    data, units = state.model.data, state.model.data.units
+    seen = seen_of(state.model.points, given, frame, at)
+    which, node = seen.which, seen.point.position
+
+    def where(at: Solution) -> FloatArray:
+        return at.raw.configuration[:3, node] + carried(at, seen.point, seen.offset)[1]
+
+    place = state.best(where) if node >= 0 else np.zeros(3)
     # Lines and centres are those of the extrapolated compliance.
-    own = [seen_from(each, which, way, np.eye(3)) for each, way in made]
+    own = [seen.compliance(each, np.eye(3)) for each in state.meshes]
     best = own[-1]._replace(finite=np.array(Estimate.of(*(each.finite for each in own)).value))
-    node = point.position
-    here = state.best(lambda s: s.raw.configuration[:3, node] + carried(s, point, offset)[1])
-    place = here if node >= 0 else np.zeros(3)
     centre, other, coupling = centres_of(best, which, place)
 
-    def length(vector: FloatArray | None) -> FloatArray | None:
-        return None if vector is None else units.shown(vector, "m")
+    def length(found: FloatArray | None) -> FloatArray | None:
+        return None if found is None else units.shown(found, "m")
 
-    principal = tuple(
-        PrincipalStiffness(
-            each.kind,
-            float(units.shown(each.stiffness, "N/m" if each.kind == "translation" else "N m/rad")),
-            each.direction,
-            length(each.through),
-            None if each.pitch is None else float(units.shown(each.pitch, "m")),
+    principal = [
+        replace(
+            each,
+            stiffness=units.shown(each.stiffness, each.unit),
+            through=length(each.through),
+            pitch=None if each.pitch is None else units.shown(each.pitch, "m"),
         )
         for each in principal_of(best, which, place)
-    )
-    stiffness = np.array(Estimate.of(*(each.stiffness for each in seen)).value) + 0.0
-    compliance = np.array(Estimate.of(*(each.matrix for each in seen)).value) + 0.0
-    called = words_of(points, point)
+    ]
+    turned = [seen.compliance(each, seen.axes) for each in state.meshes]
+    stiffness = np.array(Estimate.of(*(each.stiffness for each in turned)).value) + 0.0
+    compliance = np.array(Estimate.of(*(each.matrix for each in turned)).value) + 0.0
     return PointTable(
         data,
+        *seen.called,
         state.label,
-        f"a place carried by {called}" if at is not None else called,
         units.shown(place, "m"),
-        words,
-        axes,
-        tuple(NAMES[k] for k in which.tolist()),
         by_blocks(units.shown, stiffness, which, _STIFFNESS),
         by_blocks(units.shown, compliance, which, _COMPLIANCE),
-        principal,
+        tuple(principal),
         length(centre),
         length(other),
         coupling,
@@ -656,21 +685,16 @@ def table_of(state: State, given: object, frame: object, at: object) -> PointTab
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StrokeTable(Frozen):
+class StrokeTable(PlaceTable):
     """What a point does along a stroke of a drive; made by `Elastic.stroke_table`.
 
-    Numbers are in the units of the model; motions count from rest, turns are rotation vectors.
+    Motions count from rest; turns are rotation vectors.
 
     Attributes:
-        data: The model.
         drive: What is driven, such as "x of node 9".
-        is_turn: Whether that is an angle.
+        drive_unit: The SI unit of that, "m" or "rad".
         drive_mode: "free" or "locked": whether the drive may move in what `stiffness` says.
-        point: What the point is called.
-        frame: What the frame is called.
-        axes: (3, 3) the frame's axes, as columns.
-        directions: (n,) the coordinates of the point.
-        parasitic: (n,) which of them the drive is not to move.
+        parasitic: (n,) which directions the drive is not to move.
         values: (v,) the places of the drive [m, rad].
         force: (v,) of the drive on the mechanism [N, N m].
         motion: (v, n) of the point since rest, in the frame [m, rad].
@@ -678,136 +702,103 @@ class StrokeTable(Frozen):
             [N/m, N m/rad]; infinite where it is held, 0 without stiffness.
     """
 
-    data: ModelData
     drive: str
-    is_turn: bool
+    drive_unit: str
     drive_mode: str
-    point: str
-    frame: str
-    axes: FloatArray
-    directions: tuple[str, ...]
-    parasitic: np.ndarray
+    parasitic: BoolArray
     values: FloatArray
     force: FloatArray
     motion: FloatArray
     stiffness: FloatArray
 
     @property
-    def units(self) -> Units:
-        """In which its numbers are."""
-        return self.data.units
-
-    @property
     def columns(self) -> tuple[tuple[str, str, FloatArray], ...]:
-        """Name, unit and numbers (v,) of each column."""
-        kinds = [(name, name.startswith("r")) for name in self.directions]
-        symbol = self.units.symbol
+        """Name, SI unit and numbers (v,) of each column: stroke, force, motions, stiffnesses."""
+        turns = [name[0] == "r" for name in self.directions]
         return (
-            ("stroke", symbol("rad" if self.is_turn else "m"), self.values),
-            ("force", symbol("N m" if self.is_turn else "N"), self.force),
+            ("stroke", self.drive_unit, self.values),
+            ("force", "N" if self.drive_unit == "m" else "N m", self.force),
+            *zip(self.directions, map(_MOTION.__getitem__, turns), self.motion.T, strict=True),
             *(
-                (name, symbol("rad" if is_turn else "m"), self.motion[:, k])
-                for k, (name, is_turn) in enumerate(kinds)
-            ),
-            *(
-                (f"stiffness {n}", symbol("N m/rad" if is_turn else "N/m"), self.stiffness[:, k])
-                for k, (n, is_turn) in enumerate(kinds)
+                (f"stiffness {name}", _STIFFNESS[2 * turn], numbers)
+                for name, turn, numbers in zip(
+                    self.directions, turns, self.stiffness.T, strict=True
+                )
             ),
         )
 
     def describe(self) -> str:
         """The largest parasitic motions, and the range of each stiffness, in words."""
-        symbol = self.units.symbol
-        ends = [f"{v:.5g}" for v in (self.values.min(), self.values.max())]
-        _, unit, _ = self.columns[0]
-        lines = [
-            f"{self.point} along the stroke of {self.drive} from {ends[0]} to {ends[1]} {unit}, "
-            f"drive {self.drive_mode}; in {self.frame}."
-        ]
+        symbol, count = self.units.symbol, len(self.directions)
+        unit = symbol(self.drive_unit)
+        first = (
+            f"{self.point} along the stroke of {self.drive} from {self.values.min():.5g} to "
+            f"{self.values.max():.5g} {unit}, drive {self.drive_mode}; in {self.frame}."
+        )
         rows = [["", "largest parasitic motion", f"at [{unit}]", "stiffness from", "to", "unit"]]
-        for k, name in enumerate(self.directions):
-            is_turn = name.startswith("r")
-            worst = int(np.abs(self.motion[:, k]).argmax())
-            size = self.units.si(float(self.motion[worst, k]), "rad" if is_turn else "m")
-            told_of = ["driven", ""]
-            if self.parasitic[k]:
-                is_none = abs(size) <= _ROUNDED * (1.0 if is_turn else self.data.size)
-                said = told(size, "rad" if is_turn else "m", 4)
-                told_of = ["none", ""] if is_none else [said, f"{self.values[worst]:.4g}"]
-            stiff = (_number(float(of(self.stiffness[:, k]))) for of in (np.min, np.max))
-            rows.append([f"  {name}", *told_of, *stiff, symbol("N m/rad" if is_turn else "N/m")])
-        return "\n".join((*lines, text_table(rows, _WIDTH)))
+        both = zip(self.columns[2 : 2 + count], self.columns[2 + count :], strict=True)
+        for ((name, key, moved), (_, stiff, numbers)), is_off in zip(
+            both, self.parasitic, strict=True
+        ):
+            worst = int(np.abs(moved).argmax())
+            size = self.units.si(float(moved[worst]), key)
+            cells = ["driven", ""]
+            if is_off:
+                is_none = abs(size) <= _ROUNDED * (1.0 if key == "rad" else self.data.size)
+                cells = (
+                    ["none", ""] if is_none else [told(size, key, 4), f"{self.values[worst]:.4g}"]
+                )
+            ends = (_number(float(of(numbers))) for of in (np.min, np.max))
+            rows.append([f"  {name}", *cells, *ends, symbol(stiff)])
+        return f"{first}\n{text_table(rows, _WIDTH)}"
 
-    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
-        """The columns, a row a place of the drive; also written to a file, if one is named.
-
-        Raises:
-            OutputError: The file cannot be written.
-        """
-        heads = [f"{name} [{unit}]" for name, unit, _ in self.columns]
-        rows = np.column_stack([numbers for *_, numbers in self.columns]).tolist()
-        return _csv([heads, *rows], path)
+    @property
+    def rows(self) -> Sequence[Sequence[object]]:
+        """A row a place of the drive."""
+        heads = [f"{name} [{self.units.symbol(key)}]" for name, key, _ in self.columns]
+        return [heads, *np.column_stack([numbers for *_, numbers in self.columns]).tolist()]
 
     def to_dict(self) -> dict[str, Any]:
-        """The table as the JSON has it (`docs/table.schema.json`); what is infinite is null."""
+        """As of `PlaceTable`."""
         return {
-            **_head(self.data, "stroke"),
+            **super().to_dict(),
+            "kind": "stroke",
             "drive": self.drive,
             "drive_mode": self.drive_mode,
-            "point": self.point,
-            "frame": {"words": self.frame, "axes": self.axes.T.tolist()},
-            "directions": list(self.directions),
             "parasitic": self.parasitic.tolist(),
             "columns": [
-                {"name": name, "unit": unit, "values": plain(numbers)}
-                for name, unit, numbers in self.columns
+                {"name": name, "unit": self.units.symbol(key), "values": plain(numbers)}
+                for name, key, numbers in self.columns
             ],
         }
-
-    def to_json(self) -> str:
-        """One line of JSON, of `to_dict`; numbers read back to the last bit."""
-        return json.dumps(self.to_dict(), allow_nan=False)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write it: a picture (.png, .svg, .pdf), a table (.csv) or JSON (.json), by its suffix.
-
-        Raises:
-            FlexactError: As of `PointTable.save`.
-        """
-        TABLES.save(self, self.data, Path(path))
 
     @property
     def charts(self) -> tuple[Chart, ...]:
         """Curves of parasitic motions and of stiffnesses, of displacements and of turns."""
-        key = "rad" if self.is_turn else "m"
-        along = np.asarray(self.units.si(self.values, key))
-        order = np.argsort(along, kind="stable")
-        x, none = along[order], np.zeros(along.size)
+        order = np.argsort(self.values, kind="stable")
+        x, none = self.units.si(self.values, self.drive_unit)[order], np.zeros(order.size)
+        shown = [*self.parasitic.tolist(), *[True] * len(self.directions)]
+        own = [each for each, is_shown in zip(self.columns[2:], shown, strict=True) if is_shown]
         made = []
-        for name, title, numbers, shown, keys in (
-            ("motion", "Parasitic", self.motion, self.parasitic, ("m", "rad")),
-            ("stiffness", "Stiffness of", self.stiffness, None, ("N/m", "N m/rad")),
+        for title, unit in (
+            ("Parasitic displacement", "m"),
+            ("Parasitic rotation", "rad"),
+            ("Stiffness of displacement", "N/m"),
+            ("Stiffness of rotation", "N m/rad"),
         ):
-            for unit, word in zip(keys, ("displacement", "rotation"), strict=True):
-                curves, every = [], []
-                for k, direction in enumerate(self.directions):
-                    is_turn = direction.startswith("r")
-                    if is_turn != (word == "rotation") or (shown is not None and not shown[k]):
-                        continue
-                    y = np.asarray(self.units.si(numbers[order, k], unit))
+            curves = []
+            for name, numbers in ((name, numbers) for name, key, numbers in own if key == unit):
+                y = self.units.si(numbers, unit)[order]
+                if np.isfinite(y).any():
                     y = np.where(np.isfinite(y), y, np.nan)
-                    if np.isfinite(y).any():
-                        curves.append(Curve(k % 3, direction, x, y, none))
-                        every.append(y)
-                if not every:
-                    continue
-                is_log = name == "stiffness" and np.nanmin(every) > 0.0
-                scale = (log_scale if is_log else linear_scale)(np.concatenate(every), unit)
-                along_axis = linear_scale(x, key)
-                words = f"{title} {word}"
-                made.append(
-                    Chart(f"{name} {word}", words, self.drive, along_axis, scale, tuple(curves))
-                )
+                    label = name.split()[-1]
+                    curves.append(Curve(NAMES.index(label) % 3, label, x, y, none))
+            if curves:
+                every = np.concatenate([curve.y for curve in curves])
+                is_log = unit in _STIFFNESS and np.nanmin(every) > 0.0
+                scale = (log_scale if is_log else linear_scale)(every, unit)
+                along = linear_scale(x, self.drive_unit)
+                made.append(Chart(title, title, self.drive, along, scale, tuple(curves)))
         return tuple(made)
 
     def __repr__(self) -> str:
@@ -816,54 +807,43 @@ class StrokeTable(Frozen):
 
 
 def stroke_table_of(
-    states: Sequence[State], driven: object, name: str, of: object, frame: object, at: object
+    states: Sequence[State], drive: Coordinate, name: str, seen: Seen
 ) -> StrokeTable:
-    """The table of a point along states of a stroke; see `Elastic.stroke_table`."""
-    model, data = states[0].model, states[0].model.data
-    points, units = model.points, data.units
-    drive = points.coordinate(driven, name)
-    point = points.of(driven if of is None else of)
-    axes, words = axes_given(points, frame)
-    offset = offset_given(points, point, at)
-    coordinates = points.coordinates(point)
-    which = np.array([NAMES.index(points.name(each)) for each in coordinates])
-    both = np.kron(np.eye(2), axes.T)
+    """The table of a place along states of a stroke; see `Elastic.stroke_table`."""
+    model, units = states[0].model, states[0].model.data.units
+    which, both = seen.which, np.kron(np.eye(2), seen.axes.T)
 
-    def moved(solution: Solution) -> FloatArray:
-        return np.asarray((both @ carried(solution, point, offset)[0])[which])
+    def numbers(at: Solution) -> FloatArray:
+        """Place and force of the drive, motions and compliances of the point, in a row."""
+        given = np.diagonal(seen.compliance(at, seen.axes).matrix)
+        moved = (both @ carried(at, seen.point, seen.offset)[0])[which]
+        return np.concatenate(
+            ([value_at(at, drive), force_of(at, drive)], moved, stiffnesses(given))
+        )
 
-    def stiff(solution: Solution) -> FloatArray:
-        _, way = carried(solution, point, offset)
-        own = solution.compliance(point, coordinates)
-        given = np.diagonal(seen_from(own, which, way, axes).matrix)
+    def stiffnesses(given: FloatArray) -> FloatArray:
         return np.where(given > 0.0, 1.0 / np.where(given > 0.0, given, 1.0), math.inf)
 
-    is_turn = bool(points.kinds[drive.node] > NodeKind.POSITION)
-    turns = which >= 3
-    motion = np.array([state.best(moved) for state in states])
-    stiffness = np.array([state.best(stiff) for state in states])
-    for k, turn in enumerate(turns.tolist()):
-        motion[:, k] = units.shown(motion[:, k], "rad" if turn else "m")
-        stiffness[:, k] = units.shown(stiffness[:, k], "N m/rad" if turn else "N/m")
-    values = np.array([state.best(lambda at: value_at(at, drive)) for state in states])
-    force = np.array([state.best(lambda at: force_of(at, drive)) for state in states])
+    found = np.array([state.best(numbers) for state in states])
+    is_turn = bool(model.points.kinds[drive.node] > NodeKind.POSITION)
+    turns = (which >= 3).tolist()
+    keys = [_MOTION[is_turn], "N m" if is_turn else "N", *(_MOTION[turn] for turn in turns)]
+    for k, key in enumerate((*keys, *(_STIFFNESS[2 * turn] for turn in turns))):
+        found[:, k] = units.shown(found[:, k], key)
+    value, force, *rest = found.T
     # What the drive is to move: along its axis, or about it, as far as the frame has that.
     axis = both @ np.eye(6)[NAMES.index(name)]
-    called = words_of(points, point)
     return StrokeTable(
-        data,
-        points.words(drive),
-        is_turn,
+        model.data,
+        *seen.called,
+        model.points.words(drive),
+        keys[0],
         model.drive,
-        f"a place carried by {called}" if at is not None else called,
-        words,
-        axes,
-        tuple(NAMES[k] for k in which.tolist()),
         np.abs(axis[which]) < _SQUARE,
-        units.shown(values, "rad" if is_turn else "m"),
-        units.shown(force, "N m" if is_turn else "N"),
-        motion,
-        stiffness,
+        value.copy(),
+        force.copy(),
+        np.array(rest[: which.size]).T,
+        np.array(rest[which.size :]).T,
     )
 
 
@@ -873,14 +853,10 @@ TABLES = Writers(
 )
 
 
-@TABLES.register((".csv",))
-def _table(made: PointTable | StrokeTable, path: Path) -> bytes:
-    return as_bytes(made.to_csv())
-
-
-@TABLES.register((".json",))
-def _json(made: PointTable | StrokeTable, path: Path) -> bytes:
-    return f"{made.to_json()}\n".encode()
+@TABLES.register((".csv", ".json"))
+def _text(made: PlaceTable, path: Path) -> bytes:
+    is_csv = path.suffix.lower() == ".csv"
+    return as_bytes(made.to_csv() if is_csv else f"{made.to_json()}\n")
 
 
 def _with_packages(suffix: str) -> None:

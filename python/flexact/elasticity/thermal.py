@@ -357,6 +357,11 @@ def drifts_of(state: Warmed) -> tuple[Drift, ...]:
     return tuple(drift_of(state, points.number(node)) for node in nodes)
 
 
+def _first_largest(values: FloatArray) -> int:
+    """The first of those that are as large as the largest but for rounding."""
+    return int(np.argmax(values >= (1.0 - _STILL) * values.max()))
+
+
 def found_in(state: Warmed) -> dict[str, Any]:
     """What warmth does, as the JSON has it; numbers are in the units of the model.
 
@@ -366,13 +371,16 @@ def found_in(state: Warmed) -> dict[str, Any]:
     arrays, parts = model.data.arrays, model.points.parts
     stretches = role_table()[arrays.element_kind][:, 0] == Role.ELONGATION
     force = np.where(stretches, state.best(lambda at: at.stress[0]), 0.0)
-    worst = int(np.abs(force).argmax())
-    peaks = {}
+    worst = _first_largest(np.abs(force))
+    peaks: list[tuple[float, str]] = []
     for part in parts.all:
         with suppress(ElasticError):
             every = [max(peak_of(at, e) for e in part.elements) for at in state.meshes]
-            peaks[part.name] = float(Estimate.of(*every))
-    largest = max(peaks, key=lambda name: peaks[name], default="")
+            peaks.append((float(Estimate.of(*every)), part.name))
+    stress = None
+    if peaks:
+        value, name = peaks[_first_largest(np.array([value for value, _ in peaks]))]
+        stress = {"part": name, "value": units.shown(value, "Pa")}
     hertz = None
     if model.has_mass:
         hertz = [float(each.frequencies[0]) for each in (state.before, state)]
@@ -401,9 +409,7 @@ def found_in(state: Warmed) -> dict[str, Any]:
             "part": parts.of_element(worst).name,
             "value": float(force[worst]),
         },
-        "stress": None
-        if not peaks
-        else {"part": largest, "value": float(units.shown(peaks[largest], "Pa"))},
+        "stress": stress,
         "frequencies": hertz,
         "over_constrained": model.result.over_constrained,
     }
