@@ -420,7 +420,7 @@ def test_options_take_names(
     deck = tmp_path / "guide.dat"
     deck.write_text(MODEL.to_deck())
     more = {
-        **dict.fromkeys(("cost", "table"), ["--beams", "1", "--json"]),
+        **{each: ["--beams", "1", "--json"] for each in ("cost", "table")},
         "trace": ["--length", "1mm", "--steps", "2"],
     }
     suffix = {"picture": ".svg", "export": ".vtu"}.get(verb, "")

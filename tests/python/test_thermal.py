@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,8 @@ import pytest
 from stiffness_decks import EA, EI, LENGTH, MASS, SHEET, cantilever, deck, elastic, guide
 
 import flexact
+from flexact.elasticity.elastic import Elastic
+from flexact.util.units import units_of
 
 ALPHA = 12e-6
 STEEL = "EXPANSION {} 12e-6"
@@ -296,3 +300,25 @@ def test_what_else_is_off_is_no_drift() -> None:
     both = once.imperfect(warmed={"by": 10, "expansion": ALPHA})
     motion = both.stroke_table(9, "x", [0.025]).motion[0]
     assert motion == pytest.approx([0, 1e-5, wanted[2], 0, 0, 0], abs=1e-9)
+
+
+def test_millimetres_change_the_numbers_and_nothing_else() -> None:
+    text, made = guide(), {}
+    for units, size in (("m", 1.0), ("mm", 1000.0)):
+        data = dataclasses.replace(flexact.read_text(text).data, units=units_of(units))
+        model = Elastic(data, "elastic", "free", {}, 4)
+        slope = np.array([10.0, 0.0, 50.0]) / size
+        ground = (2, 11e-6, (0, 0, 0.01 * size))
+        state = model.warmed(5, gradient=slope, ground=ground, expansion=ALPHA)
+        made[units] = state, state.drift(9), state.to_dict()
+    (one, before, _), (two, after, found) = made["m"], made["mm"]
+    size = np.where(np.arange(6) < 3, 1e3, 1.0)
+    np.testing.assert_allclose(after.values, size * before.values, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(after.centre, 1e3 * before.centre, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(found["gradient"], [0.01, 0, 0.05], rtol=1e-12)
+
+    def words(text: str) -> str:
+        return re.sub(r"\W?\d[\d.e+-]*|\bm\b|\bmm\b|K/mm?\b", "#", text)
+
+    assert words(two.describe()) == words(one.describe())
+    assert "K/mm" in two.describe()

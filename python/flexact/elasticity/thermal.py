@@ -472,6 +472,8 @@ def described(state: Warmed) -> str:
         change = 100.0 * (two / one - 1.0) if one > 0.0 else math.nan
         told_as = f" ({change:+.2g} %)" if abs(change) > _TOLD else ""
         lines.append(f"First frequency: {one:.5g} Hz before, {two:.5g} Hz then{told_as}.")
+    if state.loose:
+        lines.append("There is a motion without stiffness: how far it drifts along that is open.")
     if cold := found["without_expansion"]:
         more = f" and {len(cold) - _MOST} more" if len(cold) > _MOST else ""
         lines.append(
