@@ -267,6 +267,7 @@ def test_what_is_missing_or_wrong_is_said_in_words() -> None:
         ({"ground": (5, "x")}, "an expansion"),
         ({"expansion": None, "parts": "sheet 1"}, "sheet 1 has no coefficient"),
         ({"expansion": "hot"}, "an expansion"),
+        ({"expansion": 12}, "write 12e-6"),
         ({"expansion": {"foo": 1e-6}}, "no part called 'foo'"),
     ):
         with pytest.raises(flexact.FlexactError, match=words):

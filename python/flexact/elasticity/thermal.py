@@ -45,6 +45,8 @@ _STILL = 1.0e-6
 _FAR = 1.0e3
 #: Motions and places below this part of what warmth makes of the model's size are not told.
 _TOLD = 1.0e-4
+#: No solid expands by more for a kelvin [1/K].
+_LARGEST = 1.0e-2
 #: How many bodies and parts are told of.
 _MOST = 6
 
@@ -183,7 +185,13 @@ def warmth_of(
         return number_given(without_units(value, "K"), "a change of temperature [K]")
 
     def coefficient(value: object) -> float:
-        return number_given(without_units(value, "1/K"), "a coefficient of expansion [1/K]")
+        made = number_given(without_units(value, "1/K"), "a coefficient of expansion [1/K]")
+        if abs(made) > _LARGEST:
+            raise ElasticError(
+                f"no material has a coefficient of expansion of {made:g} /K: for {made:g} um/m/K "
+                f"write {made:g}e-6, or '{made:g} ppm/K'"
+            )
+        return made
 
     alpha = np.full(count, np.nan)
     if data.properties is not None:
@@ -451,11 +459,10 @@ def described(state: Warmed) -> str:
         else "Not over-constrained: there is no thermal self-stress; what stress there is comes "
         "from the flexures that the drift bends."
     )
-    force, stiffness = (
-        found["normal_force"],
-        getattr(data.properties, "stiffness", np.zeros((1, 1))),
-    )
-    rounded = _ROUNDED * strain * float(np.nan_to_num(stiffness[:, 0]).max())
+    force, given, look = found["normal_force"], data.properties, data.appearance
+    stiff = np.zeros(1) if given is None else np.nan_to_num(given.stiffness[:, 0])
+    rounded, area = _ROUNDED * strain * float(stiff.max()), look.dimensions.prod(axis=1)
+    modulus = float((stiff / np.where(area > 0.0, area, math.inf)).max())
     size = abs(force["value"])
     if units.si(size, "N") > rounded:
         word = "pull" if force["value"] > 0.0 else "pressure"
@@ -464,7 +471,7 @@ def described(state: Warmed) -> str:
         )
     else:
         lines.append("No normal force anywhere.")
-    if found["stress"]:
+    if found["stress"] and units.si(found["stress"]["value"], "Pa") > _ROUNDED * strain * modulus:
         stress = f"{found['stress']['value']:.4g} {units.symbol('Pa')}"
         lines.append(f"Largest normal stress: {stress} in {found['stress']['part']}.")
     if found["frequencies"]:
