@@ -123,7 +123,7 @@ class Warmth(Frozen):
         spread = np.where(there, float(np.prod(self.ground)) * arm, 0.0)
         # It is reached in one way, from none to all of it.
         value = self.by or 1.0
-        words = "temperature" if self.by else "part of the warmth"
+        words = "the temperature [K]" if self.by else "part of the warmth"
         none = np.zeros_like(spread)
         misfit = self.misfit(data) / value
         return Imperfection(words, value, "K", -1, False, np.zeros(3), none, misfit, spread / value)
