@@ -280,6 +280,15 @@ def test_the_command_says_and_writes_them(
     assert capsys.readouterr().out == target.read_text()
 
 
+@pytest.mark.parametrize("stroke", ["1:z=+-1mm", "1:z=+-1", "1:z+=-1..1mm", "1:z=29..31"])
+def test_a_stroke_without_a_unit_is_in_those_of_the_model(
+    stroke: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["table", SIX, "--beams", "1", "--units", "mm", "--points", "3", "--stroke", stroke]
+    assert main(words) == 0
+    assert "from 29 to 31 mm" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

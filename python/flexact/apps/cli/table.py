@@ -22,7 +22,7 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
-from ...util.quantities import Quantity, QuantityError, as_typed
+from ...util.quantities import Quantity, QuantityError, as_typed, without_units
 from ...util.text import harmless
 from .decks import UNITS, opened, report_problems, take
 from .parser import Group, Verb, argument
@@ -95,9 +95,18 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
                         state = warm or elastic.undeformed()
                         made = state.table(at, chosen.frame, chosen.place)
                     else:
-                        point, name, first, last, from_rest = stroke
+                        point, name, _, _, from_rest = stroke
                         unit = "rad" if name.startswith("r") else "m"
-                        values = np.linspace(first, last, chosen.points or POINTS)
+                        # What says no unit is in those of the model, which the deck has said.
+                        start, dots, stop = chosen.stroke.rpartition("=")[2].partition("..")
+                        if not dots:
+                            stop = start.strip().removeprefix("+-")
+                            start = f"-{stop.strip()}"
+                        ends = without_units(
+                            [as_typed(each, unit) for each in (start, stop)],
+                            data.units.symbol(unit),
+                        )
+                        values = np.linspace(*ends, chosen.points or POINTS)
                         values = data.units.shown(values, unit)
                         of = point if chosen.at is None else at
                         made = elastic.stroke_table(
