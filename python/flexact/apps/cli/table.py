@@ -102,11 +102,11 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
                         if not dots:
                             stop = start.strip().removeprefix("+-")
                             start = f"-{stop.strip()}"
-                        ends = without_units(
-                            [as_typed(each, unit) for each in (start, stop)],
-                            data.units.symbol(unit),
+                        symbol = data.units.symbol(unit)
+                        first, last = without_units(
+                            [as_typed(each, unit) for each in (start, stop)], symbol
                         )
-                        values = np.linspace(*ends, chosen.points or POINTS)
+                        values = np.linspace(first, last, chosen.points or POINTS)
                         values = data.units.shown(values, unit)
                         of = point if chosen.at is None else at
                         made = elastic.stroke_table(
