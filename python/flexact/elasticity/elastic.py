@@ -17,7 +17,7 @@ from ..analysis.decomposition import asked_for
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elastic import RawMatrices
-from ..core.elements import Class, Dual, NodeKind, dual_table
+from ..core.elements import Class, Dual, NodeKind
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from ..model.model import Model
@@ -152,10 +152,6 @@ class Elastic(Frozen):
         released = {pair: Class.DEPENDENT for pair in self.release}
         data = with_classes(self.data, released, {}) if released else self.data
         return result_of(data, asked_for("auto", None), None, None, Result)
-
-    def dual_of(self, element: int, k: int) -> int:
-        """Of what kind the stress dual to a deformation is, by their indices."""
-        return int(dual_table()[self.data.arrays.element_kind[element], k])
 
     @property
     def has_mass(self) -> bool:
@@ -732,7 +728,7 @@ class State(Frozen):
             UnknownError: there is no such element or deformation.
         """
         e, number = self.model.points.deformation(element, k)
-        is_angle = self.model.dual_of(e, number) == Dual.MOMENT
+        is_angle = self.model.points.dual(e, number) == Dual.MOMENT
         return float(self._shown(lambda at: at.deformation[number, e], "rad" if is_angle else "m"))
 
     def stress(self, element: object, k: object) -> float:
@@ -745,7 +741,7 @@ class State(Frozen):
             UnknownError: there is no such element or deformation.
         """
         e, number = self.model.points.deformation(element, k)
-        is_moment = self.model.dual_of(e, number) == Dual.MOMENT
+        is_moment = self.model.points.dual(e, number) == Dual.MOMENT
         return float(self._shown(lambda at: at.stress[number, e], "N m" if is_moment else "N"))
 
     def resultants(self, element: object) -> Resultants:
