@@ -171,6 +171,7 @@ ARGUMENTS: dict[tuple[str, str], Asked] = {
     ("State.stress", "element"): (ELEMENTS, lambda e: state().stress(e, 5)),
     ("State.resultants", "element"): (ELEMENTS, lambda e: state().resultants(e)),
     ("State.peak_stress", "element"): (ELEMENTS, lambda e: state().peak_stress(e)),
+    ("State.von_mises", "part"): (ELEMENTS, lambda e: state().von_mises(e)),
     ("Motion.at", "point"): (FORMS, lambda n: motion().at(n).displacement),
     ("Motion.of", "body"): (
         {"name": "stage", "handle": MODEL.part("stage")},

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
@@ -221,24 +220,19 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
 
     None of it where no section is known: then the element with the largest moment, or force.
     """
-    finest, known = both[1].alone[-1], []
-    for element in finest.model.data.arrays.element_number.tolist():
-        # Those whose section is known and that carry something.
-        with suppress(ElasticError):
-            finest.peak_stress(element)
-            if finest.model.policy.stiff[:, finest.model.data.element_index[element]].any():
-                known.append(element)
-    if not known:
+    model, at = mechanism.elastic, both[1].finest
+    # Those whose section is known and that carry something.
+    there = at.solver.sections.is_known & model.policy.stiff.any(axis=0)
+    known = np.flatnonzero(there)
+    if not known.size:
         sizes = np.abs(_of_elements(both[1]))
         moment = sizes[:, 1:].max(axis=1)
         return None, int(np.argmax(moment if moment.any() else sizes[:, 0]))
-    found = [
-        over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each) for each in both
-    ]
+    found = [over_levels(lambda s: s.finest.peaks.normal[known], each) for each in both]
     most = [int(np.argmax(each.value)) for each in found]
     largest = [each.at(k) for each, k in zip(found, most, strict=True)]
     peak = Numbers(*(np.array(each) for each in zip(*largest, strict=True)))
-    return peak, finest.model.data.element_index[known[most[1]]]
+    return peak, int(known[most[1]])
 
 
 #: How many parasitic frequencies are shown.

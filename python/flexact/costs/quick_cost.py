@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -14,8 +13,8 @@ import numpy as np
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
-from ..elasticity import ElasticError, Estimate, elastic
-from ..elasticity.reduced import peak_of, resultants_of
+from ..elasticity import Estimate, elastic
+from ..elasticity.reduced import resultants_of
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH
 from ..model.model import Model
@@ -259,16 +258,12 @@ class _QuickCost:
 
     def _known(self, mechanism: ElasticDesign, at: Solution) -> list[int]:
         """Those flexures whose section is known."""
-        known = []
-        for e in self._flexures(mechanism):
-            with suppress(ElasticError):
-                peak_of(at, e)
-                known.append(e)
-        return known
+        is_known = at.solver.sections.is_known
+        return [e for e in self._flexures(mechanism) if is_known[e]]
 
 
 def _peak(at: Solution, element: int) -> tuple[float]:
-    return (peak_of(at, element),)
+    return (float(at.peaks.normal[element]),)
 
 
 def _of(

@@ -50,7 +50,7 @@ from .errors import (
 )
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
-from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
+from .reduced import Reducer, Resultants, resultants_of, verdict_of
 from .solution import (
     DRIVES,
     HELD,
@@ -651,8 +651,31 @@ class State(Frozen):
             UnknownError: there is no such element.
             ElasticError: its section is not known.
         """
-        which = self.model.points.elements(element)
-        return float(self.best(lambda at: max(peak_of(at, e) for e in which)))
+        which = self._of_known_section(element)
+        return float(self.best(lambda at: at.peaks.normal[which].max()))
+
+    def von_mises(self, part: object) -> float:
+        """The largest stress of von Mises [Pa] anywhere in an element, or part, of known section.
+
+        Of normal force, both bendings and torsion; times the factor of a fillet at the ends of
+        the part (`FILLET`). Not of shear of bending and restrained warping.
+
+        Args:
+            part: The number or handle of an element, or the name of a part.
+
+        Raises:
+            ModelError: no part, or several, have this name.
+            UnknownError: there is no such element.
+            ElasticError: its section is not known.
+        """
+        which = self._of_known_section(part)
+        return float(self.best(lambda at: at.peaks.von_mises[2, which].max()))
+
+    def _of_known_section(self, given: object) -> list[int]:
+        which = list(self.model.points.elements(given))
+        for element in which:
+            self.finest.solver.sections.require(element)
+        return which
 
     @property
     def energy(self) -> float:
