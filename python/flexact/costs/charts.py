@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..elasticity.points import words_of_direction
 from ..show.charts import (
     Bar,
     BarChart,
@@ -50,7 +51,6 @@ from .designs import (
     percent,
     short_labels,
     stiffness_unit,
-    words_of_direction,
 )
 from .words import first_line
 

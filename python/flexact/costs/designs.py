@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..elasticity.points import words_of_direction
 from ..model.data import ModelData
 from ..util.records import Frozen
 from .shape import Shape
@@ -27,11 +28,6 @@ def unit_of_direction(direction: str) -> str:
 def stiffness_unit(direction: str) -> str:
     """Of the stiffness along or about a direction: N/m or N m/rad."""
     return "N m/rad" if unit_of_direction(direction) == "rad" else "N/m"
-
-
-def words_of_direction(direction: str) -> str:
-    """Such as "along x" or "about z"."""
-    return f"about {direction[1:]}" if direction.startswith("r") else f"along {direction}"
 
 
 class Number(NamedTuple):

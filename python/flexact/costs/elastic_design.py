@@ -19,6 +19,7 @@ from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
 from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
+from ..elasticity.points import words_of_direction
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
 from ..model.data import Properties
@@ -31,7 +32,6 @@ from .designs import (
     Point,
     Tolerance,
     unit_of_direction,
-    words_of_direction,
 )
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.

@@ -12,9 +12,10 @@ from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..deck.rendering import ModelError, model_error
 from ..elasticity import ElasticError
 from ..elasticity.errors import require_within
+from ..elasticity.points import words_of_direction
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from .designs import Clamp, Misalignment, Point, Stroke, words_of_direction
+from .designs import Clamp, Misalignment, Point, Stroke
 from .request import Request
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..elasticity.equilibria import is_far
+from ..elasticity.points import words_of_direction
 from ..util.text import columns, harmless, table, wrapped
 from .designs import (
     FREQUENCY,
@@ -21,7 +22,6 @@ from .designs import (
     in_words,
     percent,
     scale_of,
-    words_of_direction,
 )
 from .elastic_design import FAR
 

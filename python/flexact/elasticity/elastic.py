@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -48,6 +49,7 @@ from .errors import (
     matched_by_sign,
     require_within,
 )
+from .limits import Asked, Limits, Path, Strengths, limits_of, share_given, supported
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
 from .reduced import Reducer, Resultants, resultants_of, verdict_of
@@ -394,10 +396,7 @@ class Elastic(Frozen):
             StrokeError: a value was not reached; `reached` is the last one that was.
         """
         drive = self.points.coordinate(node, coordinate)
-        if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:
-            raise ElasticError(
-                f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
-            )
+        self._require_free(drive)
         given = list(values) if isinstance(values, (range, Iterator)) else values
         kind = self.points.kinds[drive.node]
         given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
@@ -435,6 +434,63 @@ class Elastic(Frozen):
             State(self, f"driven to {words} = {value:g}", drive, states)
             for value, states in zip(there, zip(*ways, strict=True), strict=True)
         )
+
+    def limits(
+        self,
+        point: object,
+        coordinate: str,
+        share: float = 0.5,
+        support: float | None = None,
+        against: str | None = None,
+        drive: str | None = None,
+    ) -> Limits:
+        """How far a stroke may go each way from rest, and what ends it.
+
+        The stress of von Mises (`State.von_mises`) is compared with the strength of each part that
+        bends, twists or stretches. Supported are those directions of the point in which it does
+        not move with all that is fixed rigid. It is followed until the strength itself is
+        reached, or as far as the model is large, a right angle of a turn, or no equilibrium is
+        found; without the deck's loads.
+
+        Args:
+            point: Of the coordinate: a number, a name, also of a body, or (x, y, z).
+            coordinate: "x", "y", "z", "rx", "ry" or "rz".
+            share: Of the strength, above 0 and at most 1.
+            support: Part of the stiffness at rest to which that of a supported direction may fall;
+                None where that does not matter.
+            against: "strength", or "fatigue"; by default of each part the strength of fatigue
+                where it is given.
+            drive: "free": the force of the drive stays constant; "locked": it is held where it
+                is; by default as the model has it.
+
+        Raises:
+            UnknownError: there is no such coordinate.
+            ElasticError: it is fixed; a part has no strength, or no known section; a choice is
+                none; or it is over-constrained, and held rigid.
+            StrokeError: what is off was not reached.
+        """
+        driven = self.points.coordinate(point, coordinate)
+        self._require_free(driven)
+        share = share_given(share, "a share of a strength")
+        if support is not None:
+            support = share_given(support, "a part of a stiffness")
+        how = self if drive is None else replace(self, drive=choice(drive, DRIVES, "drive"))
+        self.require_stiffness()
+        is_locked = how.drive == "locked"
+        sections = self.solvers[-1].sections
+        strengths = Strengths.of(self.points, self.policy, sections, against)
+        path = Path(how._assembled(), self.points, driven, is_locked, strengths)
+        rigid = replace(how, held="rigid", beams=1, off=()).solvers[0]
+        held = how.locked | {driven} if is_locked else how.locked
+        there = supported(at_rest(rigid, held), self.points, driven)
+        far = math.pi / 2.0 if path.is_turn else self.data.size
+        return limits_of(path, Asked(share, support, tuple(there), far))
+
+    def _require_free(self, drive: Coordinate) -> None:
+        if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:
+            raise ElasticError(
+                f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
+            )
 
     def misaligned(
         self,

@@ -96,7 +96,7 @@ def edge_of(ratio: FloatArray) -> Edge:
     Timoshenko and Goodier, Theory of Elasticity, 3rd edition, art. 109, eqs. (a) to (d), with the
     torsion constant of eq. (160), as in `flexact.model.sections.constants_of`.
 
-    Between the places the stress of von Mises is larger by 0.1 % at most; a test compares it with
+    Between the places the stress of von Mises is larger by 0.02 % at most; a test compares it with
     the whole section.
 
     Args:
