@@ -19,6 +19,7 @@ from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
 from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
+from ..elasticity.limits import Strengths
 from ..elasticity.points import words_of_direction
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
@@ -330,6 +331,13 @@ class Level:
             raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
         return np.stack([raw.below, raw.above], axis=1)
 
+    def usage(self, stresses: FloatArray, strengths: Strengths) -> FloatArray:
+        """(k,) largest stress of unit errors, (6, pieces, k), over the strength of its part."""
+        rows = [
+            self.solution.under(each).peaks.von_mises[2] for each in np.moveaxis(stresses, 2, 0)
+        ]
+        return strengths.usage(np.array(rows)).max(axis=1) if rows else np.zeros(0)
+
     def measure(self, stress: FloatArray) -> float:
         """First frequency [Hz] under a stress, 0 where it is unstable; or the lowest stiffness."""
         # Of an unstable motion it is 0.
@@ -366,6 +374,7 @@ def tolerances_of(
     shift: float,
     size: float,
     progress: Callable[[float], None],
+    strengths: Strengths | None = None,
 ) -> tuple[Tolerance, ...]:
     """The tolerance of each misalignment, and where the design buckles.
 
@@ -377,16 +386,20 @@ def tolerances_of(
         shift: Of the first frequency, relative.
         size: Of the model [m].
         progress: Called with the part that is done.
+        strengths: With which the stress is compared; None where nothing is.
 
     Raises:
         ElasticError: there is no answer, as of a self-stress of rigid parts.
     """
+    usage: list[FloatArray] = []
     found, able = [], np.ones(len(misalignments), bool)
     for k, level in enumerate(mechanism.levels):
         square, stresses = level.square_at(shift), level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
         critical = level.errors(stresses, 0.0)
+        if strengths is not None:
+            usage.append(level.usage(stresses, strengths))
         progress((k + 0.5) / len(mechanism.levels))
         if shift < 0.0:
             aimed = level.errors(stresses, square)
@@ -397,10 +410,18 @@ def tolerances_of(
         progress((k + 1.0) / len(mechanism.levels))
     kept = [each for each, fits in zip(misalignments, able, strict=True) if fits]
     whole = Estimate.of(*found)
-    return tuple(
+    made = [
         Tolerance(each, *(_number(whole, j, k, size, each.unit) for k in range(4)))
         for j, each in enumerate(kept)
-    )
+    ]
+    if usage:
+        # In proportion to the error, as the stress.
+        parts = Estimate.of(*usage).value * [each.tightest.value for each in made]
+        made = [
+            each._replace(safety=Number(1.0 / part)) if 0.0 < part < math.inf else each
+            for each, part in zip(made, parts.tolist(), strict=True)
+        ]
+    return tuple(made)
 
 
 def _number(whole: Estimate, row: int, column: int, size: float, unit: str) -> Number:

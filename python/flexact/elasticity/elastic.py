@@ -470,6 +470,22 @@ class Elastic(Frozen):
             StrokeError: what is off was not reached.
         """
         driven = self.points.coordinate(point, coordinate)
+        return self.limited(driven, share, support, against, drive)
+
+    def limited(
+        self,
+        driven: Coordinate,
+        share: float,
+        support: float | None,
+        against: str | None,
+        drive: str | None,
+    ) -> Limits:
+        """The same of a coordinate, in SI units.
+
+        Raises:
+            ElasticError: as of `limits`.
+            StrokeError: likewise.
+        """
         self._require_free(driven)
         share = share_given(share, "a share of a strength")
         if support is not None:
@@ -477,14 +493,21 @@ class Elastic(Frozen):
         how = self if drive is None else replace(self, drive=choice(drive, DRIVES, "drive"))
         self.require_stiffness()
         is_locked = how.drive == "locked"
-        sections = self.solvers[-1].sections
-        strengths = Strengths.of(self.points, self.policy, sections, against)
+        strengths = self.strengths(against)
         path = Path(how._assembled(), self.points, driven, is_locked, strengths)
         rigid = replace(how, held="rigid", beams=1, off=()).solvers[0]
         held = how.locked | {driven} if is_locked else how.locked
         there = supported(at_rest(rigid, held), self.points, driven)
         far = math.pi / 2.0 if path.is_turn else self.data.size
         return limits_of(path, Asked(share, support, tuple(there), far))
+
+    def strengths(self, against: str | None = None) -> Strengths:
+        """What the stress in the elastic parts is compared with, in SI units.
+
+        Raises:
+            ElasticError: a part has no strength, or no known section; or nothing is elastic.
+        """
+        return Strengths.of(self.points, self.policy, self.solvers[-1].sections, against)
 
     def _require_free(self, drive: Coordinate) -> None:
         if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:

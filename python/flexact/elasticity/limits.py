@@ -481,7 +481,8 @@ class _Way:
             name = path.names[asked.supported[k]]
             if f"{SUPPORT} {name}" not in self.found:
                 place = self._root(partial(self._support, k, least), here, there)
-                reason = f"{words_of_direction(name)} {of_it(least, 'stiffness')} at rest"
+                part = "half" if least == 0.5 else f"{100.0 * least:.4g} % of"
+                reason = f"{words_of_direction(name)} {part} the stiffness"
                 self._keep(SUPPORT, place, reason, direction=name)
         if STABILITY not in self.found and lost:
             low, high = here, there
