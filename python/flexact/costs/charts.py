@@ -14,8 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..elasticity.limits import STRENGTH, mirrored
 from ..elasticity.points import words_of_direction
 from ..show.charts import (
+    STYLES,
     Bar,
     BarChart,
     Chart,
@@ -172,7 +174,50 @@ def charts_of(cost: CostValues) -> tuple[Chart, ...]:
         if each.parasitic is not None and each.parasitic.value.shape[1]
     ]
     parasitic = _along_stroke(cost, "parasitic", "Lowest parasitic frequency", hertz, "Hz")
-    return *_stiffness(cost), *parasitic, *_misaligned(cost)
+    return *_strength(cost), *_stiffness(cost), *parasitic, *_misaligned(cost)
+
+
+#: How far beyond the limit of the strength its chart goes, and a short name of what is allowed.
+_BEYOND_STRENGTH, _ALLOWED = 1.25, "allowed"
+
+
+def _strength(cost: CostValues) -> Iterator[Chart]:
+    """The stress along the stroke, with what is allowed; none where nothing reaches that."""
+    asked, labels = cost.strength, short_labels(cost)
+    built = cost.as_built.limits
+    if asked is None or built is None or not built.of(STRENGTH):
+        return
+    ends = [each.stroke for each in built.of(STRENGTH)]
+    low, high = (_BEYOND_STRENGTH * each for each in (min(*ends, 0.0), max(*ends, 0.0)))
+    curves = []
+    for series, each in enumerate(cost.designs):
+        if each.limits is not None:
+            x, y = each.limits.strokes, each.limits.stress
+            inside = (x >= low) & (x <= high)
+            # To the very ends.
+            fine = np.unique(np.concatenate([x[inside], np.clip([low, high], x[0], x[-1])]))
+            spread = np.zeros_like(fine)
+            curves.append(Curve(series, labels[series], fine, np.interp(fine, x, y), spread))
+    allowed = np.interp(ends, built.strokes, built.stress)
+    level = np.full(2, float(allowed.min()))
+    # In the last look that there is, of so many designs.
+    series = min(len(cost.designs), len(STYLES) - 1)
+    line = Curve(series, _ALLOWED, np.array([low, high]), level, np.zeros(2))
+    words, marks = built.of(STRENGTH)[-1].reason.partition(" (")[0], []
+    for both in mirrored(built.of(STRENGTH)):
+        size = told(abs(both[-1].stroke) if len(both) > 1 else both[-1].stroke, asked.unit)
+        size = f"\N{PLUS-MINUS SIGN}{size}" if len(both) > 1 else size
+        points = tuple((each.stroke, float(level[0])) for each in both)
+        marks.append(Mark(0, points, f"{words} at {size}"))
+    yield Chart(
+        "strength",
+        "Largest stress",
+        f"stroke of {asked.words} from rest",
+        exact_scale(low, high, asked.unit),
+        _up([*curves, line], "Pa"),
+        (*curves, line),
+        tuple(marks),
+    )
 
 
 def _stiffness(cost: CostValues) -> Iterator[Chart]:

@@ -415,7 +415,8 @@ def tolerances_of(
     ]
     if usage:
         # In proportion to the error, as the stress.
-        parts = Estimate.of(*usage).value * [each.tightest.value for each in made]
+        with np.errstate(invalid="ignore"):
+            parts = Estimate.of(*usage).value * [each.tightest.value for each in made]
         made = [
             each._replace(safety=Number(1.0 / part)) if 0.0 < part < math.inf else each
             for each, part in zip(made, parts.tolist(), strict=True)

@@ -450,7 +450,7 @@ class Elastic(Frozen):
         bends, twists or stretches. Supported are those directions of the point in which it does
         not move with all that is fixed rigid. It is followed until the strength itself is
         reached, or as far as the model is large, a right angle of a turn, or no equilibrium is
-        found; without the deck's loads.
+        found; without the deck's loads. Numbers are in the model's units.
 
         Args:
             point: Of the coordinate: a number, a name, also of a body, or (x, y, z).
@@ -470,7 +470,7 @@ class Elastic(Frozen):
             StrokeError: what is off was not reached.
         """
         driven = self.points.coordinate(point, coordinate)
-        return self.limited(driven, share, support, against, drive)
+        return self.limited(driven, share, support, against, drive).shown(self.data.units)
 
     def limited(
         self,
@@ -734,10 +734,11 @@ class State(Frozen):
         return float(self.best(lambda at: at.peaks.normal[which].max()))
 
     def von_mises(self, part: object) -> float:
-        """The largest stress of von Mises [Pa] anywhere in an element, or part, of known section.
+        """The largest stress of von Mises anywhere in an element, or part, of known section.
 
-        Of normal force, both bendings and torsion; times the factor of a fillet at the ends of
-        the part (`FILLET`). Not of shear of bending and restrained warping.
+        In the model's unit, Pa or MPa. Of normal force, both bendings and torsion; times the
+        factor of a fillet at the ends of the part (`FILLET`). Not of shear of bending and
+        restrained warping.
 
         Args:
             part: The number or handle of an element, or the name of a part.
@@ -748,7 +749,8 @@ class State(Frozen):
             ElasticError: its section is not known.
         """
         which = self._of_known_section(part)
-        return float(self.best(lambda at: at.peaks.von_mises[2, which].max()))
+        largest = float(self.best(lambda at: at.peaks.von_mises[2, which].max()))
+        return self.model.data.units.shown(largest, "Pa")
 
     def _of_known_section(self, given: object) -> list[int]:
         which = list(self.model.points.elements(given))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -22,6 +22,7 @@ from ..core.elements import Member, NodeKind, member_table
 from ..util.records import Frozen, cached_property
 from ..util.roots import sign_change
 from ..util.text import in_short
+from ..util.units import Units
 from . import equilibria
 from .equilibria import number_given, value_at
 from .errors import ElasticError, Estimate, StrokeError
@@ -41,7 +42,7 @@ class Limit:
     Attributes:
         criterion: "strength": a share of it; "support": a part of the stiffness at rest;
             "stability": a stiffness is lost; "reach": it was not followed farther.
-        stroke: From rest, signed [m, rad].
+        stroke: From rest, signed [m, or the model's unit of length; rad].
         reason: What is reached, such as "half of the fatigue strength (240 MPa)".
         part: Name of the part where it is; empty where it is in none.
         place: Where in it, such as "in sheet 1 at its clamp"; empty likewise.
@@ -67,7 +68,8 @@ class Limits(Frozen):
 
     Attributes:
         words: The driven coordinate, such as "x of node 3".
-        unit: Of strokes: "m" or "rad", or the model's own unit of length.
+        unit: Of strokes: "m" or "rad", or the model's own unit of length; stress and supports
+            are in its units, too.
         rest: Where the coordinate rests.
         drive: "free" or "locked" in what is asked about stiffness.
         limits: Of every criterion the first stroke each way, from the most negative to the
@@ -133,6 +135,23 @@ class Limits(Frozen):
     def of(self, criterion: str) -> tuple[Limit, ...]:
         """The limits of a criterion, ascending."""
         return tuple(each for each in self.limits if each.criterion == criterion)
+
+    def shown(self, units: Units) -> Limits:
+        """The same with numbers in other units than SI."""
+        symbol = self.unit
+        turns = [name.startswith("r") for name in self.directions]
+        scale = [units.factor("N m/rad" if turn else "N/m") for turn in turns]
+        return replace(
+            self,
+            unit=units.symbol(symbol),
+            rest=units.shown(self.rest, symbol),
+            limits=tuple(
+                replace(each, stroke=units.shown(each.stroke, symbol)) for each in self.limits
+            ),
+            strokes=units.shown(self.strokes, symbol),
+            stress=units.shown(self.stress, "Pa"),
+            supports=self.supports * scale,
+        )
 
     def describe(self) -> str:
         """All strokes in words, the first one first."""
@@ -240,7 +259,7 @@ class Strengths(Frozen):
         for element in found.tolist():
             sections.require(element)
         strength, fatigue = np.full((2, found.size), np.nan)
-        if data.properties is not None and hasattr(data.properties, "strength"):
+        if data.properties is not None:
             strength, fatigue = data.properties.strength[found].T
         is_fatigue = ~np.isnan(fatigue) & (against != "strength")
         allowed = np.where(is_fatigue, fatigue, strength if against != "fatigue" else np.nan)
@@ -489,7 +508,7 @@ class _Way:
             for _ in range(_HALVINGS if high > low else 0):
                 middle = 0.5 * (low + high)
                 low, high = (low, middle) if path.lost(self.sense * middle) else (middle, high)
-            self._keep(STABILITY, low, "a stiffness is lost: it buckles or snaps")
+            self._keep(STABILITY, low, "it buckles or snaps (a stiffness is lost)")
         if path.breaking(to) >= 1.0:
             place = self._root(lambda s: 1.0 - path.breaking(s), here, there)
             reason, where, part = self._strength(place, 1.0, breaking=True)

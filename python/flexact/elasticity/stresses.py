@@ -257,10 +257,9 @@ class Sections(Frozen):
 
 def _fillets(data: ModelData, thickness: FloatArray) -> FloatArray:
     """(2, elements) the factor at both ends: 1 but at the ends of parts with a fillet."""
-    radius = np.full(thickness.size, np.nan)
+    made = np.ones((2, thickness.size))
     if data.properties is not None:
-        radius = getattr(data.properties, "fillet", radius[:, None])[:, 0]
-    made = np.tile(stress_factor(thickness, radius), (2, 1))
+        made[:] = stress_factor(thickness, data.properties.fillet[:, 0])
     # Where two beams of one part meet nothing is wider.
     for chain in data.chains:
         for k, (element, against) in enumerate(zip(chain.elements, chain.reversed, strict=True)):
