@@ -358,6 +358,7 @@ def key_of(cost: CostValues) -> Key:
         "worst stiffness kept": [_kept(each) for each in cost.designs],
         "frequency": [_frequency(each) for each in cost.designs],
         "lowest parasitic": [_lowest_parasitic(each) for each in cost.designs],
+        "may go": [_may_go(each) for each in cost.designs],
     }
     shown = {head: cells for head, cells in columns.items() if any(cells[1:] or cells)}
     if len(cost.designs) > 1 and len(set(shown.get("frequency", "12"))) == 1:
@@ -464,6 +465,18 @@ def _lowest_parasitic(design: Design) -> str:
     if told.endswith(" Hz") and lowest.endswith(" Hz"):
         told = told.removesuffix(" Hz")
     return typeset(f"{told} -> {lowest}")
+
+
+def _may_go(design: Design) -> str:
+    """How far each way."""
+    if design.limits is None:
+        return ""
+    low, high = design.limits.ends
+    if len(mirrored((low, high))) == 1:
+        return typeset(f"+-{told(high.stroke, design.limits.unit)}")
+    return typeset(
+        f"{told(low.stroke, design.limits.unit)} to +{told(high.stroke, design.limits.unit)}"
+    )
 
 
 #: Measures of the head [inch], and sizes of its letters [pt].
@@ -615,6 +628,8 @@ _WIDTH, _DPI = 12.0, 100
 #: Heights of what stands below each other [inch].
 _CHART, _ROW, _TITLE, _BELOW = 2.15, 0.15, 0.3, 0.48
 _END = 0.58
+#: Charts in a row.
+_BESIDE_EACH_OTHER = 3
 #: Room beside charts and bars for what stands there [inch].
 _LEFT, _NAMES, _GROUPS, _RIGHT = 0.62, 0.82, 1.05, 0.35
 
@@ -635,7 +650,7 @@ def plot_of(cost: CostValues) -> Any:
     notes = [line for each in told_of for line in wrapped(measure, each, room, _SMALL)]
     heights = (
         _TOP + _LINE * len(table.headline) + 2 * _TABLE_ROW + sum(table.heights) + _ROOM,
-        (_TITLE + _CHART + _BELOW) * bool(charts),
+        (_TITLE + _CHART + _BELOW) * _rows_of(charts),
         (_TITLE + _ROW * rows + _END) * bool(bars),
     )
     below = (_SECOND * len(notes) + _ROOM) * bool(notes)
@@ -670,10 +685,18 @@ def _axes(figure: Any, left: float, top: float, width: float, height: float) -> 
 
 
 def _draw_charts(figure: Any, charts: tuple[Chart, ...], top: float) -> None:
-    cell = (_WIDTH - 2 * _MARGIN + 0.15) / max(len(charts), 1)
+    columns = math.ceil(len(charts) / max(_rows_of(charts), 1))
+    cell = (_WIDTH - 2 * _MARGIN + 0.15) / max(columns, 1)
     for k, chart in enumerate(charts):
-        left, width = _MARGIN + k * cell + _LEFT, cell - _LEFT - _NAMES
-        draw_chart(_axes(figure, left, top + _TITLE, width, _CHART), chart)
+        row, column = divmod(k, columns)
+        left, width = _MARGIN + column * cell + _LEFT, cell - _LEFT - _NAMES
+        above = top + row * (_TITLE + _CHART + _BELOW) + _TITLE
+        draw_chart(_axes(figure, left, above, width, _CHART), chart)
+
+
+def _rows_of(charts: tuple[Chart, ...]) -> int:
+    """In how many rows they stand."""
+    return math.ceil(len(charts) / _BESIDE_EACH_OTHER)
 
 
 def _draw_bars(figure: Any, bars: tuple[BarChart, ...], top: float) -> None:

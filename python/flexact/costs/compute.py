@@ -469,6 +469,7 @@ class _Computation:
         self.given = given_of(self.places, asked)
         drives = self.places.drives()
         model = elastic(Model.from_data(data), asked.held, asked.drive, (), asked.beams)
+        model = replace(model, is_si=True)
         points = model.points
         directions = tuple(map(points.name, points.coordinates(points.of(self.point.node))))
         watched = data.node_index[drives[0][0] if drives else self.point.node]
@@ -574,10 +575,9 @@ class _Computation:
                 strengths,
             )
         if (wanted := self.strength) is not None:
-            driven = mechanism.elastic.points.coordinate(wanted.node, wanted.coordinate)
             how = wanted.share, wanted.support, wanted.against, "locked"
             try:
-                limits = mechanism.elastic.limited(driven, *how)
+                limits = mechanism.elastic.limits(wanted.node, wanted.coordinate, *how)
             except ElasticError as error:
                 remarks.append(f"How far it may go: {error}.")
         if self.given:
