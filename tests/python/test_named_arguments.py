@@ -138,6 +138,7 @@ Asked = tuple[dict[str, Any], Callable[[Any], Any]]
 #: Of each argument the forms that it takes, and what is asked with it.
 ARGUMENTS: dict[tuple[str, str], Asked] = {
     ("Elastic.along", "node"): (FORMS, lambda n: elastic().along(n, "x", 1e-3)),
+    ("Elastic.limits", "point"): (FORMS, lambda n: elastic().limits(n, "x", 0.01).high),
     ("Elastic.critical_misalignment", "node"): (
         FEET,
         lambda n: elastic().critical_misalignment(n, "ry"),

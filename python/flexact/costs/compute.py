@@ -52,6 +52,7 @@ from .elastic_design import (
     direction_words,
     drives_of,
     over_levels,
+    safeties_of,
     tolerances_of,
 )
 from .request import ReleaseRequest, Request
@@ -560,7 +561,6 @@ class _Computation:
             tolerances = tolerances_of(
                 *(mechanism, misalignments, self.asked.shift, measures.size),
                 lambda done: progress(_TOLERANCES * done),
-                strengths,
             )
         except ElasticError as error:
             remarks.append(f"No tolerances: {error}.")
@@ -600,6 +600,7 @@ class _Computation:
             effect=effect,
             remarks=tuple(remarks),
             limits=limits,
+            safeties=safeties_of(mechanism, tolerances, strengths) if strengths else (),
         )
         shapes = shapes_of(mechanism, frequencies, is_drive, design.buckles_at)
         return replace(design, shapes=tuple(shapes)), way

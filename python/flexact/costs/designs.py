@@ -141,9 +141,6 @@ class Tolerance(NamedTuple):
     """The error below zero at which the design buckles; -infinity where none does."""
     critical_positive: Number
     """Likewise above zero."""
-    safety: Number | None = None
-    """The strength over the largest stress at the smaller of both errors; None where no strength
-    was asked for."""
 
     @property
     def tightest(self) -> Number:
@@ -361,6 +358,8 @@ class Design(Frozen):
         shapes: To be drawn.
         remarks: What is special about this design, in sentences.
         limits: How far the stroke may go; None where no strength was asked for, or it has none.
+        safeties: (tolerances,) the strength over the largest stress at the smaller error of each,
+            infinite without stress; empty where no strength was asked for.
     """
 
     released: tuple[Released, ...]
@@ -379,6 +378,13 @@ class Design(Frozen):
     shapes: tuple[Shape, ...] = ()
     remarks: tuple[str, ...] = ()
     limits: Limits | None = None
+    safeties: tuple[Number, ...] = ()
+
+    def safety(self, of: Tolerance) -> Number | None:
+        """That of a tolerance; None where no strength was asked for, or it has no end."""
+        if not self.safeties or not of.tightest.is_finite:
+            return None
+        return self.safeties[self.tolerances.index(of)]
 
     @property
     def label(self) -> str:

@@ -373,7 +373,6 @@ def tolerances_of(
     shift: float,
     size: float,
     progress: Callable[[float], None],
-    strengths: Strengths | None = None,
 ) -> tuple[Tolerance, ...]:
     """The tolerance of each misalignment, and where the design buckles.
 
@@ -385,20 +384,16 @@ def tolerances_of(
         shift: Of the first frequency, relative.
         size: Of the model [m].
         progress: Called with the part that is done.
-        strengths: With which the stress is compared; None where nothing is.
 
     Raises:
         ElasticError: there is no answer, as of a self-stress of rigid parts.
     """
-    usage: list[FloatArray] = []
     found, able = [], np.ones(len(misalignments), bool)
     for k, level in enumerate(mechanism.levels):
         square, stresses = level.square_at(shift), level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
         critical = level.errors(stresses, 0.0)
-        if strengths is not None:
-            usage.append(level.usage(stresses, strengths))
         progress((k + 0.5) / len(mechanism.levels))
         if shift < 0.0:
             aimed = level.errors(stresses, square)
@@ -409,18 +404,33 @@ def tolerances_of(
         progress((k + 1.0) / len(mechanism.levels))
     kept = [each for each, fits in zip(misalignments, able, strict=True) if fits]
     whole = Estimate.of(*found)
-    made = [
+    return tuple(
         Tolerance(each, *(_number(whole, j, k, size, each.unit) for k in range(4)))
         for j, each in enumerate(kept)
-    ]
-    if usage:
-        # In proportion to the error, as the stress.
-        with np.errstate(invalid="ignore"):
-            parts = Estimate.of(*usage).value * [each.tightest.value for each in made]
-        made = [
-            each._replace(safety=Number(1.0 / part)) if 0.0 < part < math.inf else each
-            for each, part in zip(made, parts.tolist(), strict=True)
-        ]
+    )
+
+
+def safeties_of(
+    mechanism: ElasticDesign, tolerances: Sequence[Tolerance], strengths: Strengths
+) -> tuple[Number, ...]:
+    """The strength over the largest stress at the smaller error of each tolerance.
+
+    In proportion to the error, as the stress is taken; infinite without stress, 0 of an error
+    without an end that stresses something.
+    """
+    misalignments = [each.misalignment for each in tolerances]
+    rows = [level.usage(level.stresses(misalignments), strengths) for level in mechanism.levels]
+    usage = Estimate.of(*rows)
+    made = []
+    for each, part, off in zip(
+        tolerances, usage.value.tolist(), usage.uncertainty.tolist(), strict=True
+    ):
+        # Of rounding there is none.
+        if not part > 0.0:
+            made.append(Number(math.inf))
+            continue
+        safety = 1.0 / (part * each.tightest.value)
+        made.append(Number(safety, safety * abs(off / part)))
     return tuple(made)
 
 

@@ -79,8 +79,8 @@ def rows(cost: CostValues, design: Design) -> Iterator[Row]:
         ):
             where = _where(each.misalignment)
             yield _row(label, quantity, number, each.misalignment.unit, **where)
-        if each.safety is not None:
-            yield _row(label, "safety at the tolerance", each.safety, "1", **where)
+        if (safety := design.safety(each)) is not None:
+            yield _row(label, "safety at the tolerance", safety, "1", **where)
     if design.limits is not None:
         yield from _limits(cost, label, design.limits)
     if design.curve is not None:
@@ -232,9 +232,9 @@ def _design(cost: CostValues, design: Design) -> dict[str, Any]:
         "compliance": _plain(design.compliance),
         "kept": kept and _of_fields(kept, "mu", "worst", "words"),
         "frequencies": hertz and {**_plain(hertz), "unit": "Hz", "is_drive": list(design.is_drive)},
-        "tightest": design.tightest and _tolerance(design.tightest),
-        "buckles_at": design.buckles_at and _tolerance(design.buckles_at),
-        "tolerances": [_tolerance(each) for each in design.tolerances],
+        "tightest": _told(design, design.tightest),
+        "buckles_at": _told(design, design.buckles_at),
+        "tolerances": [_told(design, each) for each in design.tolerances],
         "curve": curve
         and {
             **_place(curve.misalignment),
@@ -273,13 +273,17 @@ def _with_units(cost: CostValues, given: StrokeCurve | Effect) -> dict[str, Any]
     return made
 
 
-def _tolerance(each: Tolerance) -> dict[str, Any]:
+def _told(design: Design, each: Tolerance | None) -> dict[str, Any] | None:
+    """A tolerance, with its safety where a strength was asked for."""
+    if each is None:
+        return None
+    safety = design.safety(each)
     numbers = ("negative", "positive", "critical_negative", "critical_positive")
     return {
         **_place(each.misalignment),
         "unit": each.misalignment.unit,
         **_of_fields(each, *numbers),
-        **({} if each.safety is None else _of_fields(each, "safety")),
+        **({} if safety is None else {"safety": _plain(safety)}),
     }
 
 

@@ -159,7 +159,8 @@ def _weakest(design: Design) -> str:
         told.append("keeps all stiffness" if is_all else f"weakest {design.kept.words}")
     tightest, buckles = design.tightest, design.buckles_at
     if tightest is not None:
-        safe = "" if tightest.safety is None else f" (safety {in_words(tightest.safety)})"
+        safety = design.safety(tightest)
+        safe = "" if safety is None else f" (safety {in_words(safety)})"
         told.append(f"tightest {harmless(tightest.misalignment.words)}{safe}")
     if buckles is not None and (tightest is None or buckles.misalignment != tightest.misalignment):
         told.append(f"buckles by {harmless(buckles.misalignment.words)}")
