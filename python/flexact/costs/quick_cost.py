@@ -70,6 +70,8 @@ class QuickCurve(NamedTuple):
     """Numbers of the flexures whose section is known."""
     peaks: FloatArray
     """(elements,) largest normal stress [Pa], of an error of size 1, in proportion to it."""
+    strengths: FloatArray
+    """(elements,) their strength [Pa], of fatigue where it is given; NaN where none is."""
 
     def data(self) -> dict[str, Any]:
         """As pages take it: of no masses the measure is in parts of that without an error."""
@@ -83,6 +85,8 @@ class QuickCurve(NamedTuple):
             "measure": (self.measure / rest).tolist(),
             "elements": list(self.elements),
             "peaks": self.peaks.tolist(),
+            # Against which the stress is seen, where all of them have one.
+            **({} if np.isnan(self.strengths).any() else {"strengths": self.strengths.tolist()}),
         }
 
 
@@ -146,10 +150,16 @@ class _QuickCost:
         if not known:
             return None
         peaks, numbers = _of(states, known, _peak) / size, self.data.arrays.element_number
+        given = self.data.properties
+        strengths = np.full(len(known), np.nan)
+        if given is not None:
+            strength, fatigue = given.strength[known].T
+            strengths = np.where(np.isnan(fatigue), strength, fatigue)
         return QuickCurve(
             *(found.misalignment.words, found.misalignment.unit, made.values),
             *(mechanism.has_masses, made.measure.value),
             *(tuple(numbers[known].tolist()), peaks.reshape(-1)),
+            strengths,
         )
 
     def sentence(self) -> str:

@@ -323,9 +323,8 @@ def place_of_stress(points: Points, element: int, stress: FloatArray) -> str:
 #: The first step, of the model's size or a right angle; and the largest one, as a part of what is
 #: left to the next strength, or of the whole reach.
 _BEGIN, _STEPS, _REACH = 1.0e-3, 8.0, 16.0
-#: How exactly a limit is met, as a part of it; and how often the place where a stiffness is lost
-#: is halved.
-_MET, _HALVINGS = 1.0e-7, 14
+#: How exactly a limit is met, and the place where a stiffness is lost, as parts of them.
+_MET, _LOST = 1.0e-7, 1.0e-4
 #: How near to where no equilibrium is found any more it is looked what happens before.
 _BEFORE = 0.999
 #: A compliance below this part of the largest is that of a support.
@@ -447,13 +446,13 @@ class _Way:
         self.first = path.supports(0.0, asked.supported)
         self.steps = [0.0]
         self.found: dict[str, Limit] = {}
-        self.is_over = False
+        self.end = math.inf
 
     def followed(self) -> Iterator[Limit]:
         """All limits on the way, as far as it goes."""
         here, step = 0.0, _BEGIN * self.asked.far
         self._look(0.0, 0.0)
-        while not self.is_over:
+        while self.end == math.inf:
             there = min(here + step, self.asked.far)
             try:
                 self._look(here, there)
@@ -461,10 +460,11 @@ class _Way:
             except StrokeError as error:
                 self._look_before(error, here)
                 break
-            if here == self.asked.far and not self.is_over:
+            if here == self.asked.far < self.end:
                 self._keep(REACH, here, "it was followed no farther")
-                self.is_over = True
-        yield from self.found.values()
+                self.end = here
+        # What is found behind the end in the same step does not matter any more.
+        yield from (each for each in self.found.values() if abs(each.stroke) <= self.end)
 
     def _step(self, here: float) -> float:
         """As far again, but with some steps on the way to what comes next."""
@@ -479,7 +479,8 @@ class _Way:
         # At the very end there may be none.
         with suppress(StrokeError):
             self._look(here, here + _BEFORE * (reached - here))
-        if not self.is_over:
+        if self.end == math.inf:
+            self.end = reached
             at = f", at {error.place}" if error.place else ""
             self._keep(
                 REACH, reached, f"no equilibrium is found beyond: it snaps, or is stretched{at}"
@@ -505,7 +506,7 @@ class _Way:
                 self._keep(SUPPORT, place, reason, direction=name)
         if STABILITY not in self.found and lost:
             low, high = here, there
-            for _ in range(_HALVINGS if high > low else 0):
+            while high - low > _LOST * max(high, _BEGIN * asked.far):
                 middle = 0.5 * (low + high)
                 low, high = (low, middle) if path.lost(self.sense * middle) else (middle, high)
             self._keep(STABILITY, low, "it buckles or snaps (a stiffness is lost)")
@@ -514,8 +515,8 @@ class _Way:
             reason, where, part = self._strength(place, 1.0, breaking=True)
             if reason != self.found[STRENGTH].reason:
                 self._keep(REACH, place, reason, where, part)
-            self.is_over = True
-        if there > 0.0:
+            self.end = max(place, abs(self.found[STRENGTH].stroke))
+        if there <= self.end:
             self.steps.append(there)
 
     def _support(self, k: int, least: float, stroke: float) -> float:
@@ -567,7 +568,7 @@ def limits_of(path: Path, asked: Asked) -> Limits:
     ways = [_Way(path, asked, sense) for sense in (-1.0, 1.0)]
     found = sorted((each for way in ways for each in way.followed()), key=_stroke)
     strokes = {way.sense * size for way in ways for size in way.steps}
-    strokes |= {each.stroke for each in found if each.criterion in (STRENGTH, SUPPORT)}
+    strokes |= {each.stroke for each in found if each.part or each.criterion == SUPPORT}
     values = np.array(sorted({value + 0.0 for value in strokes}))
     strengths = path.strengths
     rows, parts = [], []
