@@ -42,6 +42,7 @@ What to do about it
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
+    Limits: how far a stroke may go
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
@@ -97,6 +98,7 @@ if _typing.TYPE_CHECKING:
         Elastic,
         ElasticError,
         Estimate,
+        Limits,
         State,
         StrokeError,
         UnknownError,
@@ -175,6 +177,7 @@ _HOMES = {
         "Elastic",
         "ElasticError",
         "Estimate",
+        "Limits",
         "State",
         "StrokeError",
         "UnknownError",
@@ -252,6 +255,7 @@ __all__ = [
     "FoldedSheet",
     "Gap",
     "Jacobian",
+    "Limits",
     "Margin",
     "Material",
     "Model",

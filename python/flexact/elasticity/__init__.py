@@ -3,11 +3,13 @@
 
 from .elastic import Elastic, State, elastic
 from .errors import ElasticError, Estimate, StrokeError, StrokeWarning, UnknownError
+from .limits import Limits
 
 __all__ = [
     "Elastic",
     "ElasticError",
     "Estimate",
+    "Limits",
     "State",
     "StrokeError",
     "StrokeWarning",
