@@ -33,6 +33,8 @@ COARSE = 8
 #: More beams a sheet than these are surely a mistake.
 _MOST = 1000
 
+#: A beam whose shear, EI/(G A k), is more than this in its length squared stays straight.
+_STRAIGHT = 10.0
 #: Deformations, from 0, that are stiff or held together, spatial and planar.
 _GROUPS = {False: ((0,), (1,), (2, 3), (4, 5)), True: ((0,), (1, 2))}
 
@@ -75,6 +77,11 @@ def divisible(data: ModelData, stiff: BoolArray, rigid: BoolArray) -> BoolArray:
             if len(group) == 2:
                 bends |= is_stiff & ~is_rigid
         found &= (planar != is_planar) | (fits & bends)
+    if data.properties is not None:
+        # What shears far more than it bends stays straight: pieces of it tell nothing new.
+        numbers, length = data.properties.stiffness, data.frames.length
+        shear = np.where(planar, numbers[:, 2], np.fmin(numbers[:, 4], numbers[:, 5]))
+        found &= ~(shear > _STRAIGHT * length**2)
     return np.asarray(found & (data.frames.length > 0.0))
 
 

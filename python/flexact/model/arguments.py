@@ -191,6 +191,18 @@ def numbers(given: object, wanted: int, what: str, unit: str = "") -> tuple[floa
     return parts
 
 
+def length_of(given: object, what: str) -> float:
+    """A positive length [m].
+
+    Raises:
+        ModelError: it is none.
+    """
+    (made,) = numbers_of_size(given, (1,), f"{what} is a number", "m")
+    if made <= 0.0:
+        raise model_error("bad-size", f"{what} is not positive", "give it in metres")
+    return made
+
+
 def polar(radius: Quantity, degrees: Quantity, z: Quantity = 0.0) -> Vector:
     """The place (x, y, z) [m] at a radius and an angle from x about z.
 

@@ -22,6 +22,7 @@ from .arguments import (
     call,
     count,
     direction,
+    length_of,
     listed,
     numbers_of_size,
     one_of,
@@ -66,15 +67,16 @@ def _flexures(
 ) -> tuple[Parts, tuple[list[Node], list[Node]]]:
     """Flexures by their words and numbers, and their ends on the ground and on the body."""
     beams, sizes = sizes_of(given)
-    plain = sizes._replace(reinforced=None)
+    plain = sizes._replace(reinforced=None, tapered=None)
     every = [*wanted]
-    round_, surplus = plain, given.keys() & {"breadth", "warping", "reinforced"}
+    whole = {"reinforced", "tapered"}
+    round_, surplus = plain, given.keys() & {"breadth", "warping", *whole}
     if any(widths or len(points) == 3 for _, points, widths in every):
-        surplus &= {"reinforced"}
+        surplus &= whole
     if any(len(widths) == 1 for _, _, widths in every):
         surplus = set()
         shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
-        round_ = Sizes(None, shape.y if shape else None, sizes.material)
+        round_ = Sizes(None, shape.y if shape else None, sizes.material, fillet=sizes.fillet)
     if surplus:
         raise model_error("surplus-size", f"{min(surplus)} is for sheets, which it has not")
     parts: Parts = {}
@@ -185,7 +187,7 @@ def add_infinity_hinge(
         p, q = (point(draft, each) for each in ends)
         low, way, wide = draft.seen(p.position), span(draft, p, q), unit(direction(width, "width"))
         length = math.hypot(*way)
-        away = length if aside is None else _size(aside, "the distance beside the sheet")
+        away = length if aside is None else length_of(aside, "the distance beside the sheet")
         yield "sheet", (p, q), [width]
         middle, beside = _along(low, way, 0.5), _along(low, wide, away)
         fold = _along(middle, wide, away + length / 4.0)
@@ -209,11 +211,11 @@ def add_folded_hinge(
     """Folded sheets whose fold lines meet at the origin, tilted out of the xy plane."""
 
     def wanted() -> Iterator[Wanted]:
-        r, slope = _size(radius, "the radius of the folds"), angle(tilt)
+        r, slope = length_of(radius, "the radius of the folds"), angle(tilt)
         if not 0.0 < slope < 90.0:
             what = f"fold lines that are tilted by {slope:g} degrees do not hold a point"
             raise model_error("out-of-range", what, "give a tilt between 0 and 90 degrees")
-        leaf = r / 2.0 if arm is None else _size(arm, "the length of a leaf")
+        leaf = r / 2.0 if arm is None else length_of(arm, "the length of a leaf")
         for radial, aside in _around(sheets, 3, "sheets"):
             line = _along((0.0, 0.0, sine(slope)), radial, sine(slope + 90.0))
             fold = _along(NO_VECTOR, line, r)
@@ -365,7 +367,7 @@ def add_vee(
     """A ball in a groove: two bars."""
     with call("vee", name):
         name = text(name, "the name of an assembly")
-        ball, size = point(draft, at), _size(length, "the length of the bars of a vee")
+        ball, size = point(draft, at), length_of(length, "the length of the bars of a vee")
         place, upward = draft.seen(ball.position), direction(up, "upward direction")
         wanted = _contacts(place, direction(groove, "groove"), upward, size, angle(opening))
         parts, (feet, _) = _flexures(draft, name, wanted, given)
@@ -388,7 +390,10 @@ def add_kinematic_mount(
     """Three vees about z, and the plate whose balls lie in them."""
 
     def wanted() -> Iterator[Wanted]:
-        r, size = _size(radius, "the radius of the balls"), _size(length, "the length of the bars")
+        r, size = (
+            length_of(radius, "the radius of the balls"),
+            length_of(length, "the length of the bars"),
+        )
         for k in range(3):
             ball = on_circle(NO_VECTOR, r, 120.0 * k)
             groove = on_circle(NO_VECTOR, 1.0, 120.0 * k + angle(turned))
@@ -466,20 +471,12 @@ def _around(n: int, least: int, what: str) -> Iterator[tuple[Vector, Vector]]:
 def _radii(given: tuple[Quantity, Quantity]) -> tuple[float, float]:
     """The outer and the inner radius [m]."""
     r, s = (
-        _size(each, f"the {word} radius")
+        length_of(each, f"the {word} radius")
         for word, each in zip(("outer", "inner"), given, strict=True)
     )
     if not s < r:
         raise model_error("bad-size", f"the inner radius, {s:g} m, is not less than the outer one")
     return r, s
-
-
-def _size(given: Quantity, what: str) -> float:
-    """A positive length [m]."""
-    (made,) = numbers_of_size(given, (1,), f"{what} is a number", "m")
-    if made <= 0.0:
-        raise model_error("bad-size", f"{what} is not positive", "give it in metres")
-    return made
 
 
 def _along(start: Vector, way: Vector, t: float) -> Vector:
