@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypedDict
 
 from ..core.elements import Class, kind_of
@@ -43,7 +43,7 @@ from .handles import (
     Sheet,
     Wire,
 )
-from .notches import CONTOURS, NotchContour, tapered_section
+from .notches import CONTOURS, NotchContour, said, tapered_section
 from .sections import Make, MaterialLike, Section, made_of, round_section, shape_of, sheet_section
 from .transform import NO_VECTOR, Vector, cross, unit
 
@@ -64,12 +64,12 @@ def add_truss(
 ) -> Element:
     """A bar between two points."""
     name = text(name, "the name of an element")
-    shape = round_section(section, thickness)
+    shape = round_section(draft.units, section, thickness)
     bar = kind(draft, "TRUSS")
-    make = made_of(bar, shape, material, "bar")
+    make = made_of(draft.units, bar, shape, material, "bar")
     slots = (position(draft, p), 0, position(draft, q), 0)
     number = draft.add_element(bar, slots, name, shape=shape)
-    draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+    draft.give_properties(len(draft.kinds) - 1, *make.numbers)
     return Element(number, draft)
 
 
@@ -90,7 +90,7 @@ def add_beam(
     a, b = point(draft, p), point(draft, q)
     slots = (position(draft, a), a.orientation, position(draft, b), b.orientation)
     number = draft.add_element(kind(draft, "BEAM"), slots, name, hint, released, make.shape)
-    draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+    draft.give_properties(len(draft.kinds) - 1, *make.numbers)
     return Element(number, draft)
 
 
@@ -107,7 +107,7 @@ def add_releasing_beam(
     """A beam of which deformations are released one by one, as if they were said afterwards."""
     beam = kind(draft, "BEAM")
     released = deformations(beam, release)
-    make = made_of(beam, shape_of(section), material, "beam")
+    make = made_of(draft.units, beam, shape_of(draft.units, section), material, "beam")
     element = add_beam(draft, p, q, y, (), name, make)
     index = draft.index_of(element.number)
     draft.state_deformations([(index, k) for k in released], Class.DEPENDENT)
@@ -136,7 +136,7 @@ def add_hinge(
     """A hinge between two points at one position; `method` is what users called."""
     with call(method, name):
         name = text(name, "the name of an element")
-        given = None if stiffness is None else _hinge_stiffness(stiffness, draft.planar)
+        given = None if stiffness is None else _hinge_stiffness(draft, stiffness)
         along = NO_VECTOR if axis is None else direction(axis, "axis")
         if draft.planar:
             if any(along[:2]):
@@ -162,12 +162,14 @@ def add_hinge(
         return Notch((Element(number, draft),), (near, far))
 
 
-def _hinge_stiffness(stiffness: Quantity | Sequence[Quantity], planar: bool) -> tuple[float, ...]:
+def _hinge_stiffness(draft: Draft, stiffness: Quantity | Sequence[Quantity]) -> tuple[float, ...]:
     """ESTIFF of a hinge."""
-    what = "the stiffness of a hinge is one number" + ("" if planar else ", or three")
-    made = numbers_of_size(stiffness, (1,) if planar else (1, 3), what, "N m/rad")
+    what = "the stiffness of a hinge is one number" + ("" if draft.planar else ", or three")
+    made = numbers_of_size(
+        stiffness, (1,) if draft.planar else (1, 3), what, draft.units.symbol("N m/rad")
+    )
     if min(made) < 0.0:
-        raise model_error("bad-size", "a stiffness is not negative", "give it in N m/rad")
+        raise model_error("bad-size", "a stiffness is not negative", "give one that is not")
     return made
 
 
@@ -192,6 +194,7 @@ def require_no_contour(sizes: Mapping[str, Quantity | None], material: MaterialL
 
 
 def contour_of(
+    draft: Draft,
     contour: str | NotchContour,
     sizes: Mapping[str, Quantity | None],
     material: MaterialLike | None,
@@ -207,7 +210,8 @@ def contour_of(
             "given-twice", "the stiffness of a notch follows from its contour", "leave one out"
         )
     if not isinstance(contour, NotchContour):
-        return NotchContour(contour, **sizes, material="steel" if material is None else material)
+        made = "steel" if material is None else material
+        return NotchContour(contour, **sizes, material=made, units=draft.units)
     if material is not None or any(value is not None for value in sizes.values()):
         raise model_error("given-twice", "the contour has its sizes already", "leave one out")
     return contour
@@ -240,7 +244,8 @@ def add_contour_notch(
     if length < contour.length * (1.0 - ROUNDING):
         raise model_error(
             "bad-size",
-            f"the notch is {contour.length:g} m long, and its ends are {length:g} m apart",
+            f"the notch is {said(draft.units, contour.length, 'm')} long, and its ends are "
+            f"{said(draft.units, length, 'm')} apart",
             "give points that are at least as far apart",
         )
     if contour.breadth < contour.thickness:
@@ -272,19 +277,19 @@ def add_contour_notch(
         for each, shift in zip(ei, (shifts[2], shifts[1]), strict=True)
     ]
     stiffness = [length / shifts[0], length / (torsion - left[0]), *ei, *shear]
-    mass = contour.mass(length)
+    beam, mass = kind(draft, "BEAM"), contour.mass(length)
     if draft.planar:
         stiffness = [stiffness[0], ei[1], shear[1]]
         mass = mass and (mass[0], mass[3])
     blank = Shape(CrossSection.RECT, contour.height, contour.breadth)
-    make = Make(blank, tuple(stiffness), mass)
+    make = made_of(draft.units, beam, blank, contour.material, "beam")
+    make = make._replace(stiffness=tuple(stiffness), mass=mass)
     names = [f"{name}, half {k}" if name else "" for k in (1, 2)]
     first = add_beam(draft, ends[0], near, y, (), names[0], make)
     hinge = add_hinge(draft, "notch", near, axis, None, name, independent, None)
     index = len(draft.kinds) - 1
-    draft.give_properties(index, tuple(1.0 / each for each in (left[1], left[0], left[0])))
-    if draft.planar:
-        draft.give_properties(index, (1.0 / left[1],))
+    turning = (left[1],) if draft.planar else (left[1], left[0], left[0])
+    draft.give_properties(index, tuple(1.0 / each for each in turning))
     second = add_beam(draft, hinge.q, ends[1], y, (), names[1], make)
     return CutNotch((first, *hinge.elements, second), (ends[0], *hinge.nodes, ends[1]))
 
@@ -347,8 +352,8 @@ def add_wire(
     """A wire flexure."""
     released = (2, 3) if draft.planar else (2, 3, 4, 5, 6)
     with call("wire", name):
-        shape = round_section(sizes.section, sizes.thickness)
-        make = made_of(kind(draft, "BEAM"), shape, sizes.material, "wire")
+        shape = round_section(draft.units, sizes.section, sizes.thickness)
+        make = made_of(draft.units, kind(draft, "BEAM"), shape, sizes.material, "wire")
         made = Wire(*_chain(draft, p, q, y, released, name, *_equal(make, beams)))
         _give_fillets(draft, sizes.fillet, made)
         return made
@@ -390,10 +395,9 @@ def _give_fillets(draft: Draft, fillet: Quantity | None, made: Part) -> None:
     """
     if fillet is None:
         return
-    radius = length_of(fillet, "the radius of a fillet")
-    give: Callable[[int, float], None] = getattr(draft, "give_fillet", lambda *_: None)
+    radius = length_of(draft.units, fillet, "the radius of a fillet")
     for end in {made.elements[0], made.elements[-1]}:
-        give(draft.index_of(end.number), radius)
+        draft.give_properties(draft.index_of(end.number), fillet=(radius,))
 
 
 #: Into how many beams of one section a tapered sheet is divided where nothing is said.
@@ -432,7 +436,7 @@ def _stepped(
     if sizes.tapered is None:
         share, thickness = several(sizes.reinforced, "the share of the length and the thickness")
         part = _share(share)
-        thick = length_of(thickness, "the thickness of the middle")
+        thick = length_of(draft.units, thickness, "the thickness of the middle")
         if not thick > t:
             raise model_error(
                 "bad-size", "the middle of a reinforced sheet is not thicker than the sheet"
@@ -446,7 +450,10 @@ def _stepped(
         ][1:]
     else:
         far = numbers_of_size(
-            sizes.tapered, (1, 2), "a taper ends with its thickness, or breadth and thickness", "m"
+            sizes.tapered,
+            (1, 2),
+            "a taper ends with its thickness, or breadth and thickness",
+            draft.units.symbol("m"),
         )
         t1, b1 = far[-1], far[0] if len(far) == 2 else b
         if not min(far) > 0.0:
@@ -457,9 +464,13 @@ def _stepped(
         ]
         places = [k / beams for k in range(1, beams)]
     made = [
-        made_of(kind(draft, "BEAM"), shape_of(each), sizes.material, "sheet").with_warping(
-            sizes.warping, 0.0
-        )
+        made_of(
+            draft.units,
+            kind(draft, "BEAM"),
+            Shape(CrossSection.RECT, *each),
+            sizes.material,
+            "sheet",
+        ).with_warping(sizes.warping, 0.0)
         for each in shapes
     ]
     return _sheet_of(draft, p, q, width, name, places, made)
@@ -547,8 +558,8 @@ def add_folded_sheet(
 
 
 def _sheet_make(draft: Draft, sizes: Sizes) -> Make:
-    shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
-    return made_of(kind(draft, "BEAM"), shape, sizes.material, "sheet")
+    shape = sheet_section(draft.units, sizes.section, sizes.thickness, sizes.breadth)
+    return made_of(draft.units, kind(draft, "BEAM"), shape, sizes.material, "sheet")
 
 
 def _sheet(

@@ -24,6 +24,7 @@ from ..core.elements import kind_of
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
 from ..util.records import cached_property, read_only
+from ..util.units import METRES, Units, units_of
 from .arguments import length_of, one_of
 from .data import CrossSection
 from .draft import Shape
@@ -89,6 +90,7 @@ class NotchContour:
         length: From end to end of the contour [m].
         radius: Of a circular contour or of its fillets [m]; 0 where it has none.
         material: What it is made of.
+        units: Those of `describe`; all numbers are in SI units.
     """
 
     contour: str
@@ -98,6 +100,7 @@ class NotchContour:
     length: float
     radius: float
     material: Material
+    units: Units
 
     def __init__(
         self,
@@ -109,8 +112,9 @@ class NotchContour:
         radius: Quantity | None = None,
         length: Quantity | None = None,
         material: MaterialLike = "steel",
+        units: str | Units = METRES,
     ) -> None:
-        """Check the sizes, numbers in metres or texts with their units.
+        """Take sizes, numbers or texts with their units such as "0.3 mm".
 
         Args:
             contour: One of `CONTOURS`.
@@ -120,10 +124,12 @@ class NotchContour:
             radius: Of the circle, or of the fillets.
             length: From end to end: of a fillet contour with its fillets, of an ellipse its axis.
             material: As of `Model.wire`.
+            units: Of numbers without a unit, and of what `describe` says: "m" or "mm".
 
         Raises:
             ModelError: a size is missing, not positive, of another contour, or fits no notch.
         """
+        known = units_of(units)
         kind = one_of(contour, CONTOURS, "the contour of a notch")
         needed, possible = _SIZES[kind]
         given = {"thickness": thickness, "breadth": breadth, "height": height}
@@ -140,7 +146,7 @@ class NotchContour:
                 raise model_error("surplus-size", f"a {kind} notch takes no {word}", "leave it out")
             if value is None:
                 continue
-            sizes[word] = length_of(value, f"the {word} of a notch")
+            sizes[word] = length_of(known, value, f"the {word} of a notch")
         t, r = sizes["thickness"], sizes.get("radius", 0.0)
         sizes.setdefault("height", t + 2.0 * r)
         depth = (sizes["height"] - t) / 2.0
@@ -156,14 +162,15 @@ class NotchContour:
         elif sizes["length"] < 2.0 * arc:
             raise model_error(
                 "bad-size",
-                f"the fillets alone are longer, {2.0 * arc:g} m, than the notch",
+                f"the fillets alone are longer, {said(known, 2.0 * arc, 'm')}, than the notch",
                 "the length is that with both fillets",
             )
         for word in ("thickness", "height", "breadth", "length"):
             object.__setattr__(self, word, sizes[word])
         object.__setattr__(self, "contour", kind)
         object.__setattr__(self, "radius", r)
-        object.__setattr__(self, "material", material_of(material))
+        object.__setattr__(self, "material", material_of(material, known))
+        object.__setattr__(self, "units", known)
 
     @property
     def depth(self) -> float:
@@ -253,18 +260,12 @@ class NotchContour:
     def stress_factor(self) -> float:
         """By what the stress of bending at the thinnest is larger than 6 M/(b t^2).
 
-        Of a fillet contour that of a shoulder, `stress_factor`; of others that of H. Neuber,
-        Kerbspannungslehre, 2nd edition 1958, for a deep hyperbolic notch with this radius at its
-        root, in bending. Where the cut is shallow it is an upper bound.
+        Of a fillet contour that of a shoulder, `stress_factor`; of others `deep_notch_factor`,
+        which is an upper bound where the cut is shallow.
         """
         if self.contour == "fillet":
             return stress_factor(self.thickness, self.radius, self.height)
-        q = self.thickness / 2.0 / self.root_radius
-        root = math.sqrt(q)
-        # The denominator cancels where q is small: 4 q root (1 - 2 q/5 + ...) is what is left.
-        if q < 1.0e-3:
-            return 1.0 + 0.4 * q
-        return 4.0 * q * root / (3.0 * (root + (q - 1.0) * math.atan(root)))
+        return deep_notch_factor(self.thickness, self.root_radius)
 
     @property
     def stress_per_moment(self) -> float:
@@ -283,25 +284,32 @@ class NotchContour:
 
     def describe(self) -> str:
         """All of it in words."""
-        sizes = [f"{self.thickness:g} m at the thinnest", f"{self.length:g} m long"]
-        sizes += [f"radius {self.radius:g} m"] if self.radius else []
-        sizes += [f"{self.height:g} m high", f"{self.breadth:g} m broad"]
+        sizes = [(self.thickness, "at the thinnest"), (self.length, "long")]
+        sizes += [(self.radius, "radius")] if self.radius else []
+        sizes += [(self.height, "high"), (self.breadth, "broad")]
+        of = f" of {self.material.name}" if self.material.name else ""
+        lengths = ", ".join(f"{said(self.units, size, 'm')} {word}" for size, word in sizes)
+        stiff = said(self.units, 1.0 / float(self.compliance[_RZ]), "N m/rad", 4)
+        stress = said(self.units, self.stress_per_angle * 1.0e-3, "Pa", 4)
         lines = [
-            f"{self.contour.capitalize()} notch of {self.material.name}: {', '.join(sizes)}.",
-            f"Stiffness about its axis: {1.0 / self.compliance[_RZ]:.4g} N m/rad.",
-            f"Peak stress at 1 mrad: {self.stress_per_angle * 1e-9:.4g} MPa, "
-            f"with the stress factor {self.stress_factor:.3f}.",
+            f"{self.contour.capitalize()} notch{of}: {lengths}.",
+            f"Stiffness about its axis: {stiff}.",
+            f"Peak stress: {stress} at 1 mrad, by the factor {self.stress_factor:.3f}.",
             "Compliances about its middle (Euler-Bernoulli with shear, Saint-Venant):",
         ]
-        for (what, unit), value in zip(MOTIONS, self.compliance, strict=True):
-            lines.append(f"  {what:<26}{value:.5g} {unit}")
-        lines.append("Published formulas against these:")
+        for (what, unit), value in zip(MOTIONS, self.compliance.tolist(), strict=True):
+            lines.append(f"  {what:<26}{said(self.units, value, unit, 5)}")
+        lines.append("Published formulas, against these:")
         for each in self.published:
-            range_ = f"holds for {each.holds}" if each.inside else f"only holds for {each.holds}"
-            lines.append(
-                f"  {each.what:<26}{100 * each.deviation:+.2f} %  {each.formula}; {range_}"
-            )
+            only = "" if each.inside else "not for this one: "
+            away = f"{100.0 * each.deviation:+.2f} %".replace("-0.00", "+0.00")
+            lines.append(f"  {each.what:<26}{away:<10}{each.formula} ({only}{each.holds})")
         return "\n".join(lines)
+
+
+def said(units: Units, value: float, unit: str, digits: int = 6) -> str:
+    """A number of an SI unit with its unit here."""
+    return f"{units.shown(value, unit):.{digits}g} {units.symbol(unit)}"
 
 
 def _arcs(beta: float, end: float) -> tuple[float, float]:
@@ -332,7 +340,7 @@ def _published(notch: NotchContour) -> Iterator[Published]:
     t, r, b, e = notch.thickness, notch.radius, notch.breadth, notch.material.E
     half, depth, ratio = notch.length / 2.0, notch.depth, t / r if r else 0.0
 
-    def said(
+    def entry(
         of: int | None, formula: str, source: str, value: float, holds: str, inside: bool = True
     ) -> Published:
         own = notch.stress_factor if of is None else float(notch.compliance[of])
@@ -343,9 +351,9 @@ def _published(notch: NotchContour) -> Iterator[Published]:
         formula: str, source: str, one: float, cube: float, holds: str, inside: bool = True
     ) -> Iterator[Published]:
         """Three compliances, by the integrals of 1/t and of 1/t^3 along the notch."""
-        yield said(_RZ, formula, source, 12.0 * cube / (e * b), holds, inside)
-        yield said(_RY, formula, source, 12.0 * one / (e * b**3), holds, inside)
-        yield said(_X, formula, source, one / (e * b), holds, inside)
+        yield entry(_RZ, formula, source, 12.0 * cube / (e * b), holds, inside)
+        yield entry(_RY, formula, source, 12.0 * one / (e * b**3), holds, inside)
+        yield entry(_X, formula, source, one / (e * b), holds, inside)
 
     if notch.contour == "circular":
         one, cube = _arcs(t / (2.0 * r), math.asin(min(half / r, 1.0)))
@@ -359,20 +367,20 @@ def _published(notch: NotchContour) -> Iterator[Published]:
             ),
             whole and ratio <= 0.1,
         )
-        yield said(
+        yield entry(
             *(_RZ, "Smith and Chetwynd", "Foundations of Ultraprecision Mechanism Design (1992)"),
             24.0 * (0.565 * ratio + 0.166) * r / (e * b * t**3),
             "half circles, thickness from a fifth of the radius to all of it",
             whole and 0.2 <= ratio <= 1.0,
         )
         root = math.sqrt(ratio / 2.0)
-        yield said(
+        yield entry(
             *(_RZ, "Schotborgh and others", "Precision Engineering 29 (2005), 41-47"),
             12.0 / (e * b * t**2 * (-0.0089 + 1.3556 * root - 0.5227 * root**2)),
             "half circles, thickness of 0.05 to 0.8 of the radius",
             whole and 0.05 <= ratio <= 0.8,
         )
-        yield said(
+        yield entry(
             *(None, "Smith", "Flexures (2000): (1 + t/2R)^(9/20)", (1.0 + ratio / 2.0) ** 0.45),
             *("thickness up to 4.6 times the radius", ratio < 4.6),
         )
@@ -417,6 +425,26 @@ def tapered_section(
     return made, 1.0 / (made * one)
 
 
+def deep_notch_factor(thickness: float, radius: float) -> float:
+    """By what the stress of bending is larger in a neck between two deep notches.
+
+    H. Neuber, Kerbspannungslehre, 2nd edition 1958: deep hyperbolic notches in plane stress.
+
+    Args:
+        thickness: Of the neck [m].
+        radius: Of curvature at the roots of the notches [m].
+
+    Returns:
+        The largest stress over 6 M/(b t^2), 1 or more.
+    """
+    q = thickness / 2.0 / radius
+    root = math.sqrt(q)
+    # The denominator cancels where q is small: 4 q root (1 - 2 q/5 + ...) is what is left of it.
+    if q < 1.0e-3:
+        return 1.0 + 0.4 * q
+    return 4.0 * q * root / (3.0 * (root + (q - 1.0) * math.atan(root)))
+
+
 def stress_factor(thickness: float, radius: float, height: float = math.inf) -> float:
     """By what the stress of bending is larger at a fillet, where a flat bar meets a shoulder.
 
@@ -441,10 +469,8 @@ def stress_factor(thickness: float, radius: float, height: float = math.inf) -> 
         return 1.0
     q, share = min(sharp, 20.0), 2.0 * shoulder / whole
     row = _SHOULDER[q > 2.0]
-    made = math.fsum(
-        share**k * (c + c1 * math.sqrt(q) + c2 * q) for k, (c, c1, c2) in enumerate(row)
-    )
-    return max(made, 1.0) * max(sharp / 20.0, 1.0) ** _CORNER
+    made = sum(share**k * (c + c1 * math.sqrt(q) + c2 * q) for k, (c, c1, c2) in enumerate(row))
+    return float(max(made, 1.0) * max(sharp / 20.0, 1.0) ** _CORNER)
 
 
 #: Beyond so many thicknesses the height of a shoulder changes nothing.
