@@ -22,6 +22,7 @@ from ..core.elements import (
 )
 from ..model.data import Appearance, ModelData
 from ..model.deformations import AT_P, AT_Q
+from ..model.parts.chains import Chain
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .errors import ElasticError
@@ -93,8 +94,11 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
     there = np.ones(which.shape, np.int32)
     if beams == 1:
         return (there,)
-    for row in _uniform_rows(data):
-        there[row] = len(row)
+    for chain in data.chains:
+        rows = list(_uniform_rows(data, chain))
+        # Of a tapered sheet no two beams are alike: many of them are a mesh already.
+        for row in [list(chain.elements)] if len(rows) >= COARSE else rows:
+            there[row] = len(row)
     wanted = COARSE if beams == "auto" else beams
     pieces = np.where(which, -(-wanted // there), 1).astype(np.int32)
     if beams != "auto" or not which.any():
@@ -102,20 +106,19 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
     return pieces, np.where(which, 2 * pieces, 1).astype(np.int32)
 
 
-def _uniform_rows(data: ModelData) -> Iterator[list[int]]:
-    """Elements of each sheet that the deck divides; others begin where `ESTIFF` or `EM` change."""
+def _uniform_rows(data: ModelData, chain: Chain) -> Iterator[list[int]]:
+    """Elements of a sheet that the deck divides; others begin where `ESTIFF` or `EM` change."""
     said = data.properties
-    for chain in data.chains:
-        row = [chain.elements[0]]
-        for element in chain.elements[1:]:
-            if said is not None and not all(
-                np.array_equal(numbers[element], numbers[row[-1]], equal_nan=True)
-                for numbers in (said.stiffness, said.mass)
-            ):
-                yield row
-                row = []
-            row.append(element)
-        yield row
+    row = [chain.elements[0]]
+    for element in chain.elements[1:]:
+        if said is not None and not all(
+            np.array_equal(numbers[element], numbers[row[-1]], equal_nan=True)
+            for numbers in (said.stiffness, said.mass)
+        ):
+            yield row
+            row = []
+        row.append(element)
+    yield row
 
 
 def bending_pairs(kinds: IntArray) -> tuple[tuple[int, int, BoolArray], ...]:

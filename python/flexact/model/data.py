@@ -247,7 +247,9 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     round_ = looks.cross_section == CrossSection.CIRC
     solid = round_ | (looks.cross_section == CrossSection.RECT)
     area = np.where(solid, np.where(round_, math.pi / 4.0, 1.0) * b * h, 0.0)
-    stiff = np.nan_to_num(data.properties.stiffness[:, 0])
+    # A hinge has no EA, and that of what holds everything, as half of a notch, may stand for more.
+    bends = ~np.isin(forms_of(data.arrays)[0], (0, Form.RIGID))
+    stiff = np.where(bends, np.nan_to_num(data.properties.stiffness[:, 0]), 0.0)
     mass = np.nan_to_num(data.properties.mass[:, 0])
     # Of a rigid link the mass is that of all of it.
     per_length = member_table()[data.arrays.element_kind] == Member.BEAM

@@ -255,10 +255,10 @@ def add_contour_notch(
             "exchange breadth and thickness and turn the axis, or model it as a beam",
         )
     y = None
-    if not draft.planar:
-        wanted = unit(direction(axis or NO_VECTOR, "axis"))
-        y = cross(wanted, unit(along))
-        if math.hypot(*y) < 1.0 - _PARALLEL:
+    if not draft.planar and axis is not None:
+        about, way = unit(direction(axis, "axis")), unit(along)
+        y = cross(about, way)
+        if abs(sum(a * b for a, b in zip(about, way, strict=True))) > _PARALLEL:
             raise model_error(
                 "parallel-vector", "the axis of a notch is across it", "from p to q it is the notch"
             )
@@ -289,7 +289,12 @@ def add_contour_notch(
     hinge = add_hinge(draft, "notch", near, axis, None, name, independent, None)
     index = len(draft.kinds) - 1
     turning = (left[1],) if draft.planar else (left[1], left[0], left[0])
-    draft.give_properties(index, tuple(1.0 / each for each in turning))
+    # The neck is a section of the hinge, and its curvature a fillet, so that its stress is known.
+    draft.say_looks(
+        [index], {"shape": Shape(CrossSection.RECT, contour.thickness, contour.breadth)}
+    )
+    stiff = tuple(1.0 / each for each in turning)
+    draft.give_properties(index, stiff, strength=make.strength, fillet=(contour.root_radius,))
     second = add_beam(draft, hinge.q, ends[1], y, (), names[1], make)
     return CutNotch((first, *hinge.elements, second), (ends[0], *hinge.nodes, ends[1]))
 
@@ -434,8 +439,14 @@ def _stepped(
     t, b = make.shape.y, make.shape.z
     beams = _beams(beams)
     if sizes.tapered is None:
-        share, thickness = several(sizes.reinforced, "the share of the length and the thickness")
-        part = _share(share)
+        given = several(sizes.reinforced, "a share of the length and a thickness")
+        if len(given) != 2:
+            raise model_error(
+                "bad-number",
+                "a reinforced sheet has a share of its length and a thickness there",
+                'give both, such as (0.7, "2 mm"), or the share alone',
+            )
+        part, thickness = _share(given[0]), given[1]
         thick = length_of(draft.units, thickness, "the thickness of the middle")
         if not thick > t:
             raise model_error(

@@ -468,7 +468,7 @@ def stress_factor(thickness: float, radius: float, height: float = math.inf) -> 
     if sharp <= 0.1:
         return 1.0
     q, share = min(sharp, 20.0), 2.0 * shoulder / whole
-    row = _SHOULDER[q > 2.0]
+    row = _SHOULDER[1 if q > 2.0 else 0]
     made = sum(share**k * (c + c1 * math.sqrt(q) + c2 * q) for k, (c, c1, c2) in enumerate(row))
     return float(max(made, 1.0) * max(sharp / 20.0, 1.0) ** _CORNER)
 
