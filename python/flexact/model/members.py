@@ -281,21 +281,19 @@ def add_contour_notch(
     if draft.planar:
         stiffness = [stiffness[0], ei[1], shear[1]]
         mass = mass and (mass[0], mass[3])
-    blank = Shape(CrossSection.RECT, contour.height, contour.breadth)
-    make = made_of(draft.units, beam, blank, contour.material, "beam")
-    make = make._replace(stiffness=tuple(stiffness), mass=mass)
+    # The section is that of the neck, where its stress is known by the hinge.
+    neck = Shape(CrossSection.RECT, contour.thickness, contour.breadth)
+    make = made_of(draft.units, beam, neck, contour.material, "beam")
+    half_make = Make(None, tuple(stiffness), mass, expansion=make.expansion)
     names = [f"{name}, half {k}" if name else "" for k in (1, 2)]
-    first = add_beam(draft, ends[0], near, y, (), names[0], make)
+    first = add_beam(draft, ends[0], near, y, (), names[0], half_make)
     hinge = add_hinge(draft, "notch", near, axis, None, name, independent, None)
     index = len(draft.kinds) - 1
     turning = (left[1],) if draft.planar else (left[1], left[0], left[0])
-    # The neck is a section of the hinge, and its curvature a fillet, so that its stress is known.
-    draft.say_looks(
-        [index], {"shape": Shape(CrossSection.RECT, contour.thickness, contour.breadth)}
-    )
+    draft.say_looks([index], {"shape": neck})
     stiff = tuple(1.0 / each for each in turning)
-    draft.give_properties(index, stiff, strength=make.strength, fillet=(contour.root_radius,))
-    second = add_beam(draft, hinge.q, ends[1], y, (), names[1], make)
+    draft.give_properties(index, stiff, strength=make.strength, fillet=(contour.even_radius,))
+    second = add_beam(draft, hinge.q, ends[1], y, (), names[1], half_make)
     return CutNotch((first, *hinge.elements, second), (ends[0], *hinge.nodes, ends[1]))
 
 

@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray
 from ..core.elements import kind_of
@@ -264,8 +265,20 @@ class NotchContour:
         which is an upper bound where the cut is shallow.
         """
         if self.contour == "fillet":
-            return stress_factor(self.thickness, self.radius, self.height)
-        return deep_notch_factor(self.thickness, self.root_radius)
+            return float(stress_factor(self.thickness, self.radius, self.height))
+        return float(deep_notch_factor(self.thickness, self.root_radius))
+
+    @property
+    def even_radius(self) -> float:
+        """Radius of the roots of deep notches with its stress factor [m]: FILLET of its hinge."""
+        if self.contour != "fillet":
+            return self.root_radius
+        low, high = 1.0e-6 * self.thickness, 1.0e6 * self.thickness
+        while high > low * (1.0 + 1.0e-12):
+            middle = math.sqrt(low * high)
+            sharp = deep_notch_factor(self.thickness, middle) > self.stress_factor
+            low, high = (middle, high) if sharp else (low, middle)
+        return high
 
     @property
     def stress_per_moment(self) -> float:
@@ -425,7 +438,7 @@ def tapered_section(
     return made, 1.0 / (made * one)
 
 
-def deep_notch_factor(thickness: float, radius: float) -> float:
+def deep_notch_factor(thickness: ArrayLike, radius: ArrayLike) -> FloatArray:
     """By what the stress of bending is larger in a neck between two deep notches.
 
     H. Neuber, Kerbspannungslehre, 2nd edition 1958: deep hyperbolic notches in plane stress.
@@ -437,15 +450,17 @@ def deep_notch_factor(thickness: float, radius: float) -> float:
     Returns:
         The largest stress over 6 M/(b t^2), 1 or more.
     """
-    q = thickness / 2.0 / radius
-    root = math.sqrt(q)
+    q = np.asarray(thickness) / 2.0 / np.asarray(radius)
     # The denominator cancels where q is small: 4 q root (1 - 2 q/5 + ...) is what is left of it.
-    if q < 1.0e-3:
-        return 1.0 + 0.4 * q
-    return 4.0 * q * root / (3.0 * (root + (q - 1.0) * math.atan(root)))
+    safe = np.maximum(q, 1.0e-3)
+    root = np.sqrt(safe)
+    full = 4.0 * safe * root / (3.0 * (root + (safe - 1.0) * np.arctan(root)))
+    return np.asarray(np.where(q < 1.0e-3, 1.0 + 0.4 * q, full))
 
 
-def stress_factor(thickness: float, radius: float, height: float = math.inf) -> float:
+def stress_factor(
+    thickness: ArrayLike, radius: ArrayLike, height: ArrayLike = math.inf
+) -> FloatArray:
     """By what the stress of bending is larger at a fillet, where a flat bar meets a shoulder.
 
     The fit of W. C. Young and R. G. Budynas, Roark's Formulas for Stress and Strain, 7th edition,
@@ -456,21 +471,23 @@ def stress_factor(thickness: float, radius: float, height: float = math.inf) -> 
 
     Args:
         thickness: Of the bar [m].
-        radius: Of the fillet [m].
+        radius: Of the fillet [m]; NaN where there is none, with the factor 1.
         height: Of what it is clamped to [m]; without one it is much higher.
 
     Returns:
         The largest stress over 6 M/(b t^2), 1 or more.
     """
-    whole = min(height, _HIGH * thickness)
+    whole = np.minimum(height, _HIGH * np.asarray(thickness))
     shoulder = (whole - thickness) / 2.0
-    sharp = shoulder / radius
-    if sharp <= 0.1:
-        return 1.0
-    q, share = min(sharp, 20.0), 2.0 * shoulder / whole
-    row = _SHOULDER[1 if q > 2.0 else 0]
-    made = sum(share**k * (c + c1 * math.sqrt(q) + c2 * q) for k, (c, c1, c2) in enumerate(row))
-    return float(max(made, 1.0) * max(sharp / 20.0, 1.0) ** _CORNER)
+    sharp = shoulder / np.asarray(radius)
+    q, share = np.clip(sharp, 0.1, 20.0), 2.0 * shoulder / whole
+    # (2, 4, ...): coefficients in the share of both fits.
+    fits = np.tensordot(_SHOULDER, np.stack([np.ones_like(q), np.sqrt(q), q]), 1)
+    made = np.where(
+        q > 2.0, *(np.polynomial.polynomial.polyval(share, c, tensor=False) for c in fits[::-1])
+    )
+    made = np.maximum(made, 1.0) * np.maximum(sharp / 20.0, 1.0) ** _CORNER
+    return np.asarray(np.where(sharp > 0.1, made, 1.0))
 
 
 #: Beyond so many thicknesses the height of a shoulder changes nothing.
@@ -478,13 +495,15 @@ _HIGH = 3.0
 #: Power with which stress grows towards a corner of 270 degrees.
 _CORNER = 0.4555
 #: C1 to C4, each c + c1 sqrt(h/r) + c2 h/r, for h/r up to 2 and from there on.
-_SHOULDER = (
-    (
-        *((1.007, 1.000, -0.031), (-0.270, -2.404, 0.749)),
-        *((0.677, 1.133, -0.904), (-0.414, 0.271, 0.186)),
-    ),
-    (
-        *((1.042, 0.982, -0.036), (-3.599, 1.619, -0.431)),
-        *((6.084, -5.607, 1.158), (-2.527, 3.006, -0.691)),
-    ),
+_SHOULDER = np.array(
+    [
+        [
+            *((1.007, 1.000, -0.031), (-0.270, -2.404, 0.749)),
+            *((0.677, 1.133, -0.904), (-0.414, 0.271, 0.186)),
+        ],
+        [
+            *((1.042, 0.982, -0.036), (-3.599, 1.619, -0.431)),
+            *((6.084, -5.607, 1.158), (-2.527, 3.006, -0.691)),
+        ],
+    ]
 )
