@@ -307,7 +307,7 @@ def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: 
     """Analyse a deck as was chosen, while a bar says how far it is."""
     announce_wait(deck, model, chosen.method)
     if chosen.accuracy is not None and not chosen.beyond:
-        chosen.accuracy.require_within(model.size)
+        chosen.accuracy.require_within(model.size, model.units)
     return result_of(
         model,
         asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy),

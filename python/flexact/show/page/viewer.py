@@ -256,7 +256,7 @@ def _presses(presses: Sequence[Press], frame: Frame, length: float) -> dict[str,
         "node": integers([frame.new[each.node] for each, _ in rows]),
         "offset": floats(np.reshape(offset, (-1, 3)) / frame.size),
         "way": floats(np.reshape(way, (-1, 3)) / frame.size),
-        "note": presses_in_words(length) if rows else "",
+        "note": presses_in_words(length, frame.drawing.data.units) if rows else "",
     }
 
 

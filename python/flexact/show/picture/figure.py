@@ -310,7 +310,7 @@ def _caption(drawing: Drawing, subject: Subject) -> str:
     elif subject.stress is not None:
         about = "Relative values, only their ratios matter."
         if subject.stress.presses:
-            about = f"{about} {presses_in_words(subject.stress.values.length)}"
+            about = f"{about} {presses_in_words(subject.stress.values.length, drawing.data.units)}"
     elif movement is None:
         about = "Arrows: declared degrees of freedom." * (len(drawing.arrows[0]) > 0)
     else:
