@@ -116,7 +116,7 @@ def test_its_integrals_are_exact(name: str) -> None:
 @pytest.mark.parametrize("name", SIZES)
 def test_closed_forms_that_are_published_agree(name: str) -> None:
     """Paros and Weisbord, Smith, Lobontiu: bending without approximation."""
-    full = [each for each in contour(name).published if each.holds == "all sizes, bending alone"]
+    full = [each for each in contour(name).published if each.holds == "all sizes, by beam theory"]
     assert len(full) == 3
     assert max(abs(each.deviation) for each in full) < 1e-8
 
@@ -171,6 +171,14 @@ def test_the_factor_of_a_fillet(ratio: float) -> None:
     assert (
         stress_factor(1.0, ratio) == stress_factor(1.0, ratio, 3.0) == stress_factor(2, 2 * ratio)
     )
+
+
+def test_a_notch_with_fillets_has_a_radius_that_says_its_factor() -> None:
+    """That of deep notches stands with its hinge, which knows no contour."""
+    notch = contour("fillet")
+    found = deep_notch_factor(notch.thickness, notch.even_radius)
+    assert found == pytest.approx(notch.stress_factor, rel=1e-9)
+    assert stress_factor(1.0, [0.1, math.nan]).tolist() == [stress_factor(1.0, 0.1), 1.0]
 
 
 def test_the_factor_of_a_fillet_goes_on_beyond_its_charts() -> None:

@@ -317,7 +317,8 @@ class NotchContour:
             only = "" if each.inside else "not for this one: "
             away = f"{100.0 * each.deviation:+.2f} %".replace("-0.00", "+0.00")
             lines.append(f"  {each.what:<26}{away:<10}{each.formula} ({only}{each.holds})")
-        return "\n".join(lines)
+        sources = dict.fromkeys(f"  {each.formula}: {each.source}" for each in self.published)
+        return "\n".join([*lines, "Sources:", *sources])
 
 
 def said(units: Units, value: float, unit: str, digits: int = 6) -> str:
@@ -340,12 +341,10 @@ def _arcs(beta: float, end: float) -> tuple[float, float]:
 
 _PAROS = "Paros and Weisbord"
 _PAROS_IN = "Machine Design 37 (1965), 151-156"
-_SMITH_IN = (
-    "S. T. Smith, V. G. Badami, J. S. Dale and Y. Xu, Rev. Sci. Instrum. 68 (1997), 1474-1483"
-)
+_SMITH_IN = "Review of Scientific Instruments 68 (1997), 1474-1483"
 _LOBONTIU = "Lobontiu and others"
-_LOBONTIU_IN = "J. Mech. Des. 123 (2001), 346-352"
-_ALL = "all sizes, bending alone"
+_LOBONTIU_IN = "Journal of Mechanical Design 123 (2001), 346-352"
+_ALL = "all sizes, by beam theory"
 
 
 def _published(notch: NotchContour) -> Iterator[Published]:
@@ -381,7 +380,7 @@ def _published(notch: NotchContour) -> Iterator[Published]:
             whole and ratio <= 0.1,
         )
         yield entry(
-            *(_RZ, "Smith and Chetwynd", "Foundations of Ultraprecision Mechanism Design (1992)"),
+            *(_RZ, "Smith and Chetwynd", "Foundations of Ultraprecision Mechanism Design, 1992"),
             24.0 * (0.565 * ratio + 0.166) * r / (e * b * t**3),
             "half circles, thickness from a fifth of the radius to all of it",
             whole and 0.2 <= ratio <= 1.0,
@@ -394,7 +393,12 @@ def _published(notch: NotchContour) -> Iterator[Published]:
             whole and 0.05 <= ratio <= 0.8,
         )
         yield entry(
-            *(None, "Smith", "Flexures (2000): (1 + t/2R)^(9/20)", (1.0 + ratio / 2.0) ** 0.45),
+            *(
+                None,
+                "Smith",
+                "Flexures: Elements of Elastic Mechanisms, 2000",
+                (1.0 + ratio / 2.0) ** 0.45,
+            ),
             *("thickness up to 4.6 times the radius", ratio < 4.6),
         )
     elif notch.contour == "elliptic":
@@ -415,7 +419,9 @@ def _published(notch: NotchContour) -> Iterator[Published]:
         turn = math.atan(math.sqrt(k2)) / math.sqrt(k2)
         cube = 0.5 / (1.0 + k2) ** 2 + 0.75 / (1.0 + k2) + 0.75 * turn
         one, cube = 2.0 * half / t * turn, half / t**3 * cube
-        yield from closed(_LOBONTIU, "Compliant Mechanisms (2002)", one, cube, _ALL)
+        yield from closed(
+            _LOBONTIU, "Compliant Mechanisms: Design of Flexure Hinges, 2002", one, cube, _ALL
+        )
 
 
 def tapered_section(
