@@ -434,3 +434,28 @@ def test_what_makes_no_sense_is_refused_in_words(what: str) -> None:
     with pytest.raises(ModelError, match=words) as caught:
         make(Model())
     assert code_of(caught) == code
+
+
+@pytest.mark.parametrize("planar", [False, True])
+def test_a_linkage_has_the_verdict_of_its_hinges(planar: bool) -> None:
+    """A parallelogram of four hinges: one motion; in space three things twice, by Gruebler."""
+    found = []
+    for sizes in ({}, NOTCH):
+        model = Model(planar=planar)
+        ends = []
+        for x in (0.0, 0.1):
+            points: list[flexact.Node] = []
+            for y in (0.0, 0.1):
+                if sizes:
+                    made = model.notch(
+                        *((x, y - 0.01), None if planar else "z", (x, y + 0.01)), **sizes
+                    )
+                else:
+                    made = model.notch(model.node(x, y), None if planar else "z")
+                points += [made.p, made.q]
+            model.body(points[1:3])
+            ends.append((points[0], points[3]))
+        model.fix(*(each[0] for each in ends))
+        model.body([each[1] for each in ends])
+        found.append(counts(model))
+    assert found[0] == found[1] == ((1, 0) if planar else (1, 3))

@@ -78,12 +78,21 @@ def divisible(data: ModelData, stiff: BoolArray, rigid: BoolArray) -> BoolArray:
             if len(group) == 2:
                 bends |= is_stiff & ~is_rigid
         found &= (planar != is_planar) | (fits & bends)
-    if data.properties is not None:
-        # What shears far more than it bends stays straight: pieces of it tell nothing new.
-        numbers, length = data.properties.stiffness, data.frames.length
-        shear = np.where(planar, numbers[:, 2], np.fmin(numbers[:, 4], numbers[:, 5]))
-        found &= ~(shear > _STRAIGHT * length**2)
-    return np.asarray(found & (data.frames.length > 0.0))
+    return np.asarray(found & (data.frames.length > 0.0) & ~stays_straight(data))
+
+
+def stays_straight(data: ModelData) -> BoolArray:
+    """Which beams shear far more than they bend, (elements,), as do the halves of a notch.
+
+    Pieces of them tell nothing new, and they have no stress that says anything.
+    """
+    if data.properties is None:
+        return np.zeros(data.arrays.element_kind.shape, np.bool_)
+    numbers = data.properties.stiffness
+    planar = data.arrays.deformation_class[3] == Class.NONE
+    shear = np.where(planar, numbers[:, 2], np.fmin(numbers[:, 4], numbers[:, 5]))
+    found = member_table()[data.arrays.element_kind] == Member.BEAM
+    return np.asarray(found & (shear > _STRAIGHT * data.frames.length**2))
 
 
 def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray, ...]:
