@@ -183,7 +183,7 @@ class CutNotch(Notch):
         return {
             "half 1": Body((first,), (p, near)),
             "hinge": Notch((hinge,), (near, far)),
-            "half 2": Body((second,), (far, q)),
+            "half 2": Body((second,), (q, far)),
         }
 
     @property

@@ -293,7 +293,8 @@ def add_contour_notch(
     draft.say_looks([index], {"shape": neck})
     stiff = tuple(1.0 / each for each in turning)
     draft.give_properties(index, stiff, strength=make.strength, fillet=(contour.even_radius,))
-    second = add_beam(draft, hinge.q, ends[1], y, (), names[1], half_make)
+    # From its end: a body that carries it stands for that point.
+    second = add_beam(draft, ends[1], hinge.q, y, (), names[1], half_make)
     return CutNotch((first, *hinge.elements, second), (ends[0], *hinge.nodes, ends[1]))
 
 

@@ -147,7 +147,8 @@ class Parts:
         """Of each of `bodies`, index of the position node for which it stands."""
         names, nodes = self.data.element_names, self.data.arrays.element_node[0]
         first = (
-            min(body.elements, key=lambda i: (own_number(names[i]), i)) for body in self.bodies
+            min(body.elements, key=lambda i: (is_half(names[i]), own_number(names[i]), i))
+            for body in self.bodies
         )
         return tuple(int(nodes[i]) - 1 for i in first)
 
