@@ -23,6 +23,7 @@ Mechanisms
     ReinforcedSheet: a sheet with a rigid middle
     polar: a place at a radius and an angle
     Material: what sheets and wires are made of
+    NotchContour: compliances and stress of a notch, with what is published beside
     Configuration: where all nodes of a model are
 
 Whether it is exactly constrained
@@ -119,6 +120,7 @@ if _typing.TYPE_CHECKING:
     )
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.model import Model
+    from .model.notches import NotchContour
     from .model.reading import read, read_text
     from .model.sections import Material
     from .show.notebook.output import Results, viewer
@@ -202,6 +204,7 @@ _HOMES = {
         "jacobian",
     ),
     "model.model": ("Model",),
+    "model.notches": ("NotchContour",),
     "model.reading": (
         "read",
         "read_text",
@@ -263,6 +266,7 @@ __all__ = [
     "Motion",
     "Node",
     "Notch",
+    "NotchContour",
     "Place",
     "Proof",
     "ReinforcedSheet",
