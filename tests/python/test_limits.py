@@ -16,7 +16,8 @@ from stiffness_decks import cantilever, deck, elastic
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.elasticity.stresses import edge_of, stress_factor
+from flexact.elasticity.stresses import edge_of
+from flexact.model.notches import stress_factor
 
 #: E and G [Pa], strength and that of fatigue: fatigue so low that strokes stay small.
 YOUNG, SHEAR, STRENGTH, FATIGUE = 200e9, 80e9, 400e6, 20e6
@@ -126,31 +127,6 @@ def test_von_mises_of_a_rectangle_under_torsion_and_pull() -> None:
     assert both.von_mises(1) == pytest.approx(math.hypot(normal, math.sqrt(3) * shear), rel=1e-3)
 
 
-#: Of the factor's four coefficients those of 1, sqrt(h/r) and h/r: h/r from 2 to 20, up to 2.
-_SHARP = (
-    *((1.058, 1.002, -0.038), (-3.652, 1.639, -0.436)),
-    *((6.170, -5.687, 1.175), (-2.558, 3.046, -0.701)),
-)
-_BLUNT = (
-    *((1.006, 0.967, 0.013), (-0.270, -2.372, 0.708)),
-    *((0.662, 1.157, -0.908), (-0.405, 0.249, -0.200)),
-)
-
-
-def test_the_factor_of_a_fillet_is_that_of_peterson() -> None:
-    """Beside the polynomials of W. D. Pilkey, Peterson's Stress Concentration Factors, 2nd
-    edition, Wiley 1997, chapter 3 (flat bar with shoulder fillets, bending), for a step to three
-    times the depth."""
-    for ratio in (0.06, 0.1, 0.15, 0.2, 0.3):
-        h = 1.0 / ratio
-        rows = _SHARP if h > 2.0 else _BLUNT
-        c = [one + other * math.sqrt(h) + last * h for one, other, last in rows]
-        wanted = sum(each * (2.0 / 3.0) ** k for k, each in enumerate(c))
-        assert stress_factor(np.array(1.0), np.array(ratio)) == pytest.approx(wanted, rel=0.05)
-    assert stress_factor(np.array(1.0), np.array(np.nan)) == 1.0
-    assert stress_factor(np.array(1.0), np.array(5.0)) == 1.0
-
-
 def test_a_fillet_counts_at_the_ends_of_a_part_alone() -> None:
     """A cantilever of two elements with a moment all along: the factor is that of one end."""
     radius = 0.2 * THICK
@@ -254,6 +230,36 @@ def test_a_short_sheet_as_a_notch_between_a_lever_and_the_ground() -> None:
     # The force at the lever's end bends the root more, by half of the notch in the lever.
     share = (long - short / 2.0) / (long - short / 2.0 + short / 2.0)
     assert found.high == pytest.approx(theta * share * (long - short / 2.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("planar", [False, True])
+def test_a_notch_reaches_the_stress_of_its_contour(planar: bool) -> None:
+    """A long lever on a circular notch: the angle times the peak stress of an angle of the
+    contour, which `test_notches` holds against published formulas."""
+    neck = flexact.NotchContour(
+        "circular", thickness=0.5e-3, radius=2.5e-3, breadth=0.01, material=STEEL
+    )
+    model = flexact.Model(planar=planar)
+    places = [(0, 0), (0.005, 0), (0.5, 0)] if planar else [(0, 0, 0), (0.005, 0, 0), (0.5, 0, 0)]
+    model.notch(places[0], None if planar else "y", places[1], "neck", contour=neck)
+    model.rigid(places[1], places[2])
+    model.fix(places[0])
+    found = flexact.elastic(model).limits(places[2], "y" if planar else "z")
+    # From the middle of the notch; the force bends it by less than the length over the lever.
+    assert found.high / 0.4975 == pytest.approx(0.5 * FATIGUE / neck.stress_per_angle, rel=1e-4)
+    assert found.low == pytest.approx(-found.high, rel=1e-6)
+    assert found.part == "neck"
+    assert found.notes == ()
+
+
+def test_a_fillet_of_a_sheet_shortens_the_stroke_by_its_factor() -> None:
+    one, other = (
+        flexact.elastic(guide(fillet=fillet), beams=8).limits("middle", "x")
+        for fillet in (None, 0.2 * THICK)
+    )
+    factor = float(stress_factor(np.array(THICK), np.array(0.2 * THICK)))
+    assert factor > 1.3
+    assert other.high == pytest.approx(one.high / factor, rel=2e-3)
 
 
 def column() -> Any:

@@ -26,6 +26,7 @@ from ..util.units import Units
 from . import equilibria
 from .equilibria import number_given, value_at
 from .errors import ElasticError, Estimate, StrokeError
+from .mesh import stays_straight
 from .points import Coordinate, Points, words_of_direction
 from .solution import Held, Policy, Solution
 from .stresses import Sections
@@ -249,8 +250,10 @@ class Strengths(Frozen):
                 f"against is {' or '.join(map(repr, AGAINST))}, not {in_short(against)}"
             )
         data = points.data
-        is_member = np.isin(member_table()[data.arrays.element_kind], (Member.BAR, Member.BEAM))
-        found = np.flatnonzero(is_member & (policy.stiff & ~policy.rigid).any(axis=0))
+        member = member_table()[data.arrays.element_kind]
+        elastic = (policy.stiff & ~policy.rigid).any(axis=0) & ~stays_straight(data)
+        bears = np.isin(member, (Member.BAR, Member.BEAM)) | sections.is_known
+        found = np.flatnonzero(bears & elastic)
         if not found.size:
             raise ElasticError(
                 "nothing that bends, twists or stretches has a stiffness, so that no stress is "
@@ -268,7 +271,7 @@ class Strengths(Frozen):
             what = "fatigue strength" if against == "fatigue" else "strength"
             raise ElasticError(_missing(points, missing, what))
         breaking = np.where(np.isnan(strength), fatigue, strength)
-        hinges = points.parts.data.arrays.element_number[~is_member & policy.stiff.any(axis=0)]
+        hinges = points.parts.data.arrays.element_number[~bears & elastic]
         left_out = ""
         if hinges.size:
             named = (part_words(points.parts.of_element(data.element_index[e])) for e in hinges)

@@ -5,7 +5,8 @@ Of a straight member the normal force, both bendings and the torsion of Saint-Ve
 normal stress s, linear over the section, and the shear t, whose components are those of a
 gradient with a constant Laplacian, both s^2 and |t|^2 have Laplacians that are nowhere negative:
 s^2 + 3 t^2 is largest on the boundary, and only that is looked at. Shear of bending and
-restrained warping are left out: of a slender member both are small.
+restrained warping are left out: of a slender member both are small. The stress at fillets and in
+notches is larger by a factor of bending (`flexact.model.notches`), which counts for all of it.
 """
 
 from __future__ import annotations
@@ -19,8 +20,10 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import Dual, Member, Role, dual_table, member_table, role_table
 from ..model.data import CrossSection, ModelData
+from ..model.notches import deep_notch_factor, stress_factor
 from ..util.records import Frozen
 from .errors import ElasticError
+from .mesh import stays_straight
 
 #: The axis about which it bends (1: y, 2: z), and the end, of each bending.
 _BENDINGS = {
@@ -125,22 +128,6 @@ def edge_of(ratio: FloatArray) -> Edge:
     )
 
 
-def stress_factor(thickness: FloatArray, radius: FloatArray) -> FloatArray:
-    """By what bending stress is larger at a fillet where a sheet runs into something thick.
-
-    That of a flat bar in bending with a step to three times its depth, 0.9072 (r/t)^(-1/3), and 1
-    at the least: what is larger still, as clamps and bodies are, does hardly more. R. L. Norton,
-    Machine Design, 4th edition, Prentice Hall 2011, appendix C, filleted flat bar in bending,
-    a fit to R. E. Peterson, Stress Concentration Factors, Wiley 1974; for r/t up to 0.3.
-
-    Args:
-        thickness: Of the sheet [m].
-        radius: Of the fillet [m]; NaN where there is none, with the factor 1.
-    """
-    share = np.asarray(radius) / np.asarray(thickness)
-    return np.where(share > 0.0, np.maximum(0.9072 * np.cbrt(1.0 / share), 1.0), 1.0)
-
-
 class Peaks(NamedTuple):
     """The largest stresses [Pa] in elements; 0 where no section is known."""
 
@@ -151,18 +138,30 @@ class Peaks(NamedTuple):
     fillets at the ends."""
 
 
+class Necks(NamedTuple):
+    """Hinges of known section, as notches have them, and what stands beside each."""
+
+    hinge: IntArray
+    """(k,) index of the element."""
+    half: IntArray
+    """(k,) of the half of the notch whose end is the neck, or of the hinge where it has none."""
+    end: IntArray
+    """(k,) which end of the half that is: 0 p, 1 q."""
+
+
 @dataclass(frozen=True, eq=False)
 class Sections(Frozen):
     """What the stresses of a model's elements hang on.
 
     Attributes:
         data: The model as given.
-        is_known: (elements,) which are bars and beams of known section.
+        is_known: (elements,) which have a known section: bars, beams, and the hinges of notches.
         is_round: (elements,) which of them are round.
         size: (2, elements) sizes along local y and z [m], 1 where not known.
-        factor: (2, elements) at p and q: of a fillet there.
+        factor: (2, elements) at p and q: of a fillet there, or of a notch.
         edge: Of the shapes of the rectangles.
         shape: (elements,) which of these each is of.
+        necks: The hinges among them.
     """
 
     data: ModelData
@@ -172,15 +171,19 @@ class Sections(Frozen):
     factor: FloatArray
     edge: Edge
     shape: IntArray
+    necks: Necks
 
     @classmethod
     def of(cls, data: ModelData) -> Sections:
         """Of a model."""
-        looks = data.appearance
+        looks, member = data.appearance, member_table()[data.arrays.element_kind]
         size = looks.dimensions.T
-        is_member = np.isin(member_table()[data.arrays.element_kind], (Member.BAR, Member.BEAM))
+        is_hinge = member == Member.HINGE
         is_round = looks.cross_section == CrossSection.CIRC
-        is_known = is_member & (is_round | (looks.cross_section == CrossSection.RECT))
+        is_known = np.isin(member, (Member.BAR, Member.BEAM)) & ~stays_straight(data)
+        is_known = (is_known & is_round) | (
+            (is_known | is_hinge) & (looks.cross_section == CrossSection.RECT)
+        )
         is_known &= (size > 0.0).all(axis=0)
         size = np.where(is_known, size, 1.0)
         ratio, shape = np.unique(size.max(axis=0) / size.min(axis=0), return_inverse=True)
@@ -189,9 +192,10 @@ class Sections(Frozen):
             np.asarray(is_known),
             np.asarray(is_round),
             size,
-            _fillets(data, size.min(axis=0)),
+            _factors(data, size.min(axis=0), is_hinge),
             edge_of(ratio),
             shape.astype(np.int32),
+            _necks(data, np.flatnonzero(is_known & is_hinge)),
         )
 
     def require(self, element: int) -> None:
@@ -223,10 +227,16 @@ class Sections(Frozen):
         last = np.append(first[1:], owner.size) - 1
         at_p, at_q = largest[0, first] * self.factor[0], largest[1, last] * self.factor[1]
         inside = np.maximum.reduceat(largest.max(axis=0), first)
-        return Peaks(
-            np.maximum.reduceat(normal.max(axis=0), first),
-            np.array([at_p, at_q, np.maximum(inside, np.maximum(at_p, at_q))]),
-        )
+        normal = np.maximum.reduceat(normal.max(axis=0), first)
+        made = np.array([at_p, at_q, np.maximum(inside, np.maximum(at_p, at_q))])
+        if (k := self.necks.hinge).size:
+            # In the neck is what the half beside it carries there.
+            piece = np.where(self.necks.end == 0, first, last)[self.necks.half]
+            ends = np.arange(k.size)
+            of_neck = self._at_ends(_of_necks(carried, piece, self.necks), k)
+            normal[k] = of_neck[0][self.necks.end, ends]
+            made[:, k] = of_neck[1][self.necks.end, ends] * self.factor[0, k]
+        return Peaks(normal, made)
 
     def _at_ends(self, carried: Carried, owner: IntArray) -> tuple[FloatArray, FloatArray]:
         """(2, pieces) the largest normal stress, and that of von Mises, at p and q of pieces."""
@@ -255,11 +265,43 @@ class Sections(Frozen):
         return np.where(is_known, normal, 0.0), np.where(is_known, np.sqrt(largest), 0.0)
 
 
-def _fillets(data: ModelData, thickness: FloatArray) -> FloatArray:
-    """(2, elements) the factor at both ends: 1 but at the ends of parts with a fillet."""
+def _of_necks(carried: Carried, piece: IntArray, necks: Necks) -> Carried:
+    """What halves carry beside necks; of a hinge alone its moment, which bends the thickness."""
+    moments = carried.moments[:, :, piece].copy()
+    alone = necks.half == necks.hinge
+    torque = carried.torque[piece]
+    # The thickness is along y, as of a half, so that it is bent about z.
+    moments[1, :, alone] = torque[alone, None]
+    return Carried(carried.normal[piece], np.where(alone, 0.0, torque), moments)
+
+
+def _necks(data: ModelData, hinges: np.ndarray) -> Necks:
+    """Each hinge with the half of its notch that turns with one of its two nodes."""
+    nodes = data.arrays.element_node
+    # The end of a half by the orientation node that turns with it.
+    beside = {
+        int(nodes[2 * end + 1, half]): (half, end)
+        for half in np.flatnonzero(stays_straight(data)).tolist()
+        for end in (0, 1)
+    }
+    rows = []
+    for hinge in hinges.tolist():
+        found = (beside[node] for node in nodes[:, hinge].tolist() if node > 0 and node in beside)
+        rows.append((hinge, *next(found, (hinge, 0))))
+    made = np.array(rows, np.int32).reshape(-1, 3).T
+    return Necks(*made)
+
+
+def _factors(data: ModelData, thickness: FloatArray, is_hinge: BoolArray) -> FloatArray:
+    """(2, elements) at both ends: 1 but at those of parts with a fillet, and of necks."""
     made = np.ones((2, thickness.size))
-    if data.properties is not None:
-        made[:] = stress_factor(thickness, data.properties.fillet[:, 0])
+    if data.properties is None:
+        return made
+    radius = data.properties.fillet[:, 0]
+    given = radius > 0.0
+    sheet, neck = given & ~is_hinge, given & is_hinge
+    made[:, sheet] = stress_factor(thickness[sheet], radius[sheet])
+    made[:, neck] = deep_notch_factor(thickness[neck], radius[neck])
     # Where two beams of one part meet nothing is wider.
     for chain in data.chains:
         for k, (element, against) in enumerate(zip(chain.elements, chain.reversed, strict=True)):

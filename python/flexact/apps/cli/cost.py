@@ -138,7 +138,8 @@ VERB = Verb(
         ),
         (
             "How far the stage may go before a sheet is stressed to half of its strength",
-            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --strength --support 0.5",
+            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --strength "
+            "--support 0.5",
         ),
         (
             "Two kinds of files at once",
