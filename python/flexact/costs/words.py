@@ -269,8 +269,9 @@ def _limit_in_words(both: Sequence[Limit], limits: Limits) -> str:
     last = both[-1]
     size = in_words(Number(abs(last.stroke)), limits.unit)
     sign = "+-" if len(both) == 2 else "-" if math.copysign(1.0, last.stroke) < 0.0 else "+"
-    what = f"{last.reason} at {sign}{size}"
-    return f"{what}, {last.place}" if last.place else what
+    is_end = last.criterion == REACH and not last.part
+    what = f"{last.reason} {'' if is_end else 'at '}{sign}{size}"
+    return f"{what}{' ' if is_end else ', '}{last.place}" if last.place else what
 
 
 def _worst(curve: StrokeCurve, unit: str) -> tuple[str, ...]:

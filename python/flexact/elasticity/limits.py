@@ -401,7 +401,11 @@ class Path:
         """(d,) stiffness in some of the directions of the driven point, by their places."""
         rows = []
         for at in self.at(stroke):
-            own = np.diagonal(at.compliance(self._point, self._coordinates).matrix)
+            found = at.compliance(self._point, self._coordinates)
+            own = np.diagonal(found.matrix)
+            # What is left of rounding is of what is rigid.
+            rigid = np.abs(np.diagonal(found.finite)) < at.solver.least_compliance
+            own = np.where(rigid & np.isfinite(own), 0.0, own)
             with np.errstate(divide="ignore"):
                 rows.append(1.0 / own[list(coordinates)])
         return Estimate.of(*rows).value
@@ -413,7 +417,7 @@ class Path:
 
 
 def supported(at: Solution, points: Points, drive: Coordinate) -> list[int]:
-    """Which directions of the driven point are supported, by their places: not that of the drive.
+    """Which directions of the driven point are supported, by their places: not what is held.
 
     Args:
         at: The undeformed state in which all that is fixed is rigid.
@@ -425,7 +429,9 @@ def supported(at: Solution, points: Points, drive: Coordinate) -> list[int]:
     answer = at.compliance(point, found)
     own = np.abs(np.diagonal(answer.finite))
     moves = (own > _SUPPORTED * own.max(initial=0.0)) | (answer.loose != 0.0).any(axis=1)
-    return [k for k, each in enumerate(found) if not moves[k] and each != drive]
+    return [
+        k for k, each in enumerate(found) if not (moves[k] or answer.is_held[k] or each == drive)
+    ]
 
 
 class Asked(NamedTuple):
@@ -464,7 +470,7 @@ class _Way:
                 self._look_before(error, here)
                 break
             if here == self.asked.far < self.end:
-                self._keep(REACH, here, "it was followed no farther")
+                self._keep(REACH, here, "it was not followed beyond")
                 self.end = here
         # What is found behind the end in the same step does not matter any more.
         yield from (each for each in self.found.values() if abs(each.stroke) <= self.end)
@@ -484,10 +490,8 @@ class _Way:
             self._look(here, here + _BEFORE * (reached - here))
         if self.end == math.inf:
             self.end = reached
-            at = f", at {error.place}" if error.place else ""
-            self._keep(
-                REACH, reached, f"no equilibrium is found beyond: it snaps, or is stretched{at}"
-            )
+            at = f"(it stops at {error.place})" if error.place else ""
+            self._keep(REACH, reached, "no equilibrium is found beyond", at)
 
     def _look(self, here: float, there: float) -> None:
         """Keep what reaches its limit on a step."""
@@ -495,8 +499,9 @@ class _Way:
         # What has no answer there raises before anything is kept.
         usage, lost = path.usage(to), path.lost(to)
         least = 0.0 if asked.support is None else asked.support
-        with np.errstate(invalid="ignore"):
-            kept = path.supports(to, asked.supported) / self.first
+        # What is rigid loses nothing.
+        kept = np.where(np.isfinite(self.first), path.supports(to, asked.supported), np.inf)
+        kept /= np.where(np.isfinite(self.first), self.first, 1.0)
         if STRENGTH not in self.found and usage >= asked.share:
             place = self._root(lambda s: asked.share - path.usage(s), here, there)
             self._keep(STRENGTH, place, *self._strength(place, asked.share))
@@ -566,6 +571,17 @@ class _Way:
         return here if found is None else here + found.place * (there - here)
 
 
+def _notes(found: Sequence[Limit], strengths: Strengths) -> Iterator[str]:
+    if strengths.left_out:
+        yield strengths.left_out
+    for sense in (-1.0, 1.0):
+        sizes = [(sense * each.stroke, each.criterion) for each in found]
+        lost = [size for size, criterion in sizes if criterion == STABILITY and size >= 0.0]
+        if lost and max(sizes)[0] > lost[0]:
+            yield "strokes beyond where it buckles are those of the path on which it does not"
+            return
+
+
 def limits_of(path: Path, asked: Asked) -> Limits:
     """How far a stroke may go, in SI units."""
     ways = [_Way(path, asked, sense) for sense in (-1.0, 1.0)]
@@ -594,5 +610,5 @@ def limits_of(path: Path, asked: Asked) -> Limits:
         table[:, 1],
         tuple(path.names[k] for k in asked.supported),
         table[:, 2:],
-        (strengths.left_out,) if strengths.left_out else (),
+        tuple(_notes(found, strengths)),
     )

@@ -79,7 +79,7 @@ _NEAR = np.concatenate([np.linspace(0.0, 1.0, 33), np.linspace(1.0, 3.0, 17)[1:]
 #: Places along half of the short side, from its middle to the corner.
 _ACROSS = np.linspace(0.0, 1.0, 33)
 #: Odd numbers of the series.
-_ODD = np.arange(1.0, 160.0, 2.0)
+_ODD = np.arange(1.0, 80.0, 2.0)
 
 
 class Edge(NamedTuple):
