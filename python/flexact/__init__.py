@@ -23,6 +23,7 @@ Mechanisms
     ReinforcedSheet: a sheet with a rigid middle
     polar: a place at a radius and an angle
     Material: what sheets and wires are made of
+    NotchContour: compliances and stress of a notch, with what is published beside
     Configuration: where all nodes of a model are
 
 Whether it is exactly constrained
@@ -44,6 +45,7 @@ With stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
     PointTable, StrokeTable: stiffness in any frame at a point, and along a stroke
     Warmed: a state in which something is warm: drift, thermal centre
+    Limits: how far a stroke may go
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
@@ -99,6 +101,7 @@ if _typing.TYPE_CHECKING:
         Elastic,
         ElasticError,
         Estimate,
+        Limits,
         PointTable,
         State,
         StrokeError,
@@ -122,6 +125,7 @@ if _typing.TYPE_CHECKING:
     )
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.model import Model
+    from .model.notches import NotchContour
     from .model.reading import read, read_text
     from .model.sections import Material
     from .show.notebook.output import Results, viewer
@@ -181,6 +185,7 @@ _HOMES = {
         "ElasticError",
         "Estimate",
         "PointTable",
+        "Limits",
         "State",
         "StrokeError",
         "StrokeTable",
@@ -207,6 +212,7 @@ _HOMES = {
         "jacobian",
     ),
     "model.model": ("Model",),
+    "model.notches": ("NotchContour",),
     "model.reading": (
         "read",
         "read_text",
@@ -260,6 +266,7 @@ __all__ = [
     "FoldedSheet",
     "Gap",
     "Jacobian",
+    "Limits",
     "Margin",
     "Material",
     "Model",
@@ -267,6 +274,7 @@ __all__ = [
     "Motion",
     "Node",
     "Notch",
+    "NotchContour",
     "Place",
     "PointTable",
     "Proof",

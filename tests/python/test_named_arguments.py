@@ -142,6 +142,7 @@ Asked = tuple[dict[str, Any], Callable[[Any], Any]]
 #: Of each argument the forms that it takes, and what is asked with it.
 ARGUMENTS: dict[tuple[str, str], Asked] = {
     ("Elastic.along", "node"): (FORMS, lambda n: elastic().along(n, "x", 1e-3)),
+    ("Elastic.limits", "point"): (FORMS, lambda n: elastic().limits(n, "x", 0.01).high),
     ("Elastic.critical_misalignment", "node"): (
         FEET,
         lambda n: elastic().critical_misalignment(n, "ry"),
@@ -195,6 +196,7 @@ ARGUMENTS: dict[tuple[str, str], Asked] = {
     ("State.stress", "element"): (ELEMENTS, lambda e: state().stress(e, 5)),
     ("State.resultants", "element"): (ELEMENTS, lambda e: state().resultants(e)),
     ("State.peak_stress", "element"): (ELEMENTS, lambda e: state().peak_stress(e)),
+    ("State.von_mises", "part"): (ELEMENTS, lambda e: state().von_mises(e)),
     ("Motion.at", "point"): (FORMS, lambda n: motion().at(n).displacement),
     ("Motion.of", "body"): (
         {"name": "stage", "handle": MODEL.part("stage")},

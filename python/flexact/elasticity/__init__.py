@@ -3,12 +3,14 @@
 
 from .elastic import Elastic, State, Warmed, elastic
 from .errors import ElasticError, Estimate, StrokeError, StrokeWarning, UnknownError
+from .limits import Limits
 from .tables import PointTable, StrokeTable
 
 __all__ = [
     "Elastic",
     "ElasticError",
     "Estimate",
+    "Limits",
     "PointTable",
     "State",
     "StrokeError",

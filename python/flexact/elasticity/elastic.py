@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -50,9 +51,10 @@ from .errors import (
     matched_by_sign,
     require_within,
 )
+from .limits import Asked, Limits, Path, Strengths, limits_of, share_given, supported
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
-from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
+from .reduced import Reducer, Resultants, resultants_of, verdict_of
 from .solution import (
     DRIVES,
     HELD,
@@ -419,10 +421,7 @@ class Elastic(Frozen):
             StrokeError: a value was not reached; `reached` is the last one that was.
         """
         drive = self.points.coordinate(node, coordinate)
-        if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:
-            raise ElasticError(
-                f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
-            )
+        self._require_free(drive)
         given = list(values) if isinstance(values, (range, Iterator)) else values
         kind = self.points.kinds[drive.node]
         unit = self.points.unit(drive)
@@ -503,6 +502,72 @@ class Elastic(Frozen):
         if not states:
             raise ElasticError("a table along a stroke has one value at least")
         return stroke_table_of(states, self.points.coordinate(node, coordinate), coordinate, seen)
+
+    def limits(
+        self,
+        point: object,
+        coordinate: str,
+        share: float = 0.5,
+        support: float | None = None,
+        against: str | None = None,
+        drive: str | None = None,
+    ) -> Limits:
+        """How far a stroke may go each way from rest, and what ends it.
+
+        The stress of von Mises (`State.von_mises`) is compared with the strength of each part that
+        bends, twists or stretches. Supported are those directions of the point in which it does
+        not move with all that is fixed rigid. It is followed until the strength itself is
+        reached, or as far as the model is large, a right angle of a turn, or no equilibrium is
+        found; without the deck's loads. Numbers are in the model's units.
+
+        Args:
+            point: Of the coordinate: a number, a name, also of a body, or (x, y, z).
+            coordinate: "x", "y", "z", "rx", "ry" or "rz".
+            share: Of the strength, above 0 and at most 1.
+            support: Part of the stiffness at rest to which that of a supported direction may fall;
+                None where that does not matter.
+            against: "strength", or "fatigue"; by default of each part the strength of fatigue
+                where it is given.
+            drive: "free": the force of the drive stays constant; "locked": it is held where it
+                is; by default as the model has it.
+
+        Raises:
+            UnknownError: there is no such coordinate.
+            ElasticError: it is fixed; a part has no strength, or no known section; a choice is
+                none; or it is over-constrained, and held rigid.
+            StrokeError: what is off was not reached.
+        """
+        driven = self.points.coordinate(point, coordinate)
+        self._require_free(driven)
+        share = share_given(share, "a share of a strength")
+        if support is not None:
+            support = share_given(support, "a part of a stiffness")
+        how = self if drive is None else replace(self, drive=choice(drive, DRIVES, "drive"))
+        self.require_stiffness()
+        is_locked = how.drive == "locked"
+        strengths = self.strengths(against)
+        with self._in_units():
+            starts = how._assembled()
+        path = Path(starts, self.points, driven, is_locked, strengths)
+        rigid = replace(how, held="rigid", beams=1, off=()).solvers[0]
+        held = how.locked | {driven} if is_locked else how.locked
+        there = supported(at_rest(rigid, held), self.points, driven)
+        far = math.pi / 2.0 if path.is_turn else self.data.size
+        return limits_of(path, Asked(share, support, tuple(there), far)).shown(self.units)
+
+    def strengths(self, against: str | None = None) -> Strengths:
+        """What the stress in the elastic parts is compared with, in SI units.
+
+        Raises:
+            ElasticError: a part has no strength, or no known section; or nothing is elastic.
+        """
+        return Strengths.of(self.points, self.policy, self.solvers[-1].sections, against)
+
+    def _require_free(self, drive: Coordinate) -> None:
+        if self.data.arrays.coordinate_class[drive.axis, drive.node] == Class.FIXED:
+            raise ElasticError(
+                f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
+            )
 
     @contextmanager
     def _in_units(self) -> Iterator[None]:
@@ -771,8 +836,32 @@ class State(Frozen):
             UnknownError: there is no such element.
             ElasticError: its section is not known.
         """
-        which = self.model.points.elements(element)
-        return float(self._shown(lambda at: max(peak_of(at, e) for e in which), "Pa"))
+        which = self._of_known_section(element)
+        return float(self._shown(lambda at: at.peaks.normal[which].max(), "Pa"))
+
+    def von_mises(self, part: object) -> float:
+        """The largest stress of von Mises anywhere in an element, or part, of known section.
+
+        In the model's unit, Pa or MPa. Of normal force, both bendings and torsion; times the
+        factor of a fillet at the ends of the part (`FILLET`). Not of shear of bending and
+        restrained warping.
+
+        Args:
+            part: The number or handle of an element, or the name of a part.
+
+        Raises:
+            ModelError: no part, or several, have this name.
+            UnknownError: there is no such element.
+            ElasticError: its section is not known.
+        """
+        which = self._of_known_section(part)
+        return float(self._shown(lambda at: at.peaks.von_mises[2, which].max(), "Pa"))
+
+    def _of_known_section(self, given: object) -> list[int]:
+        which = list(self.model.points.elements(given))
+        for element in which:
+            self.finest.solver.sections.require(element)
+        return which
 
     @property
     def energy(self) -> float:

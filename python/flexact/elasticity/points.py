@@ -19,6 +19,11 @@ from ..util.text import in_short
 from .errors import UnknownError
 
 
+def words_of_direction(direction: str) -> str:
+    """Such as "along x" or "about z"."""
+    return f"about {direction[1:]}" if direction.startswith("r") else f"along {direction}"
+
+
 class Point(NamedTuple):
     """A point; -1 where it has no position or no orientation."""
 

@@ -41,6 +41,7 @@ from ..util.units import Units
 from .errors import ElasticError
 from .mesh import Mesh, bending_pairs
 from .points import Coordinate, Point, Points
+from .stresses import Peaks, Sections, carried_by
 
 HELD = ("elastic", "rigid")
 DRIVES = ("free", "locked")
@@ -297,6 +298,11 @@ class Solver:
         return int(self.mesh.data.arrays.element_number.size)
 
     @cached_property
+    def sections(self) -> Sections:
+        """What stresses hang on, of the deck's elements."""
+        return Sections.of(self.mesh.own)
+
+    @cached_property
     def at_rest(self) -> ElasticState:
         """As the deck gives it, without stress."""
         value = np.asfortranarray(self.mesh.data.arrays.node_value)
@@ -489,6 +495,13 @@ class Solution:
     def stress(self) -> FloatArray:
         """(6, elements) stresses of the deck's elements."""
         return self.solver.mesh.stress(self.raw.stress)
+
+    @cached_property
+    def peaks(self) -> Peaks:
+        """The largest stresses [Pa] in the deck's elements, all along."""
+        mesh = self.solver.mesh
+        carried = carried_by(mesh.data, self.raw.stress)
+        return self.solver.sections.peaks(carried, mesh.owner, mesh.first)
 
     @cached_property
     def energy(self) -> float:

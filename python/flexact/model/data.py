@@ -29,7 +29,7 @@ from ..util.records import Frozen, cached_property
 from ..util.units import METRES, Units
 from .names import part_name
 from .parts.chains import Chain, chains_of, directions_across
-from .parts.forms import Form, forms_of
+from .parts.forms import Form, forms_of, is_member
 
 
 class CrossSection(IntEnum):
@@ -255,7 +255,9 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     round_ = looks.cross_section == CrossSection.CIRC
     solid = round_ | (looks.cross_section == CrossSection.RECT)
     area = np.where(solid, np.where(round_, math.pi / 4.0, 1.0) * b * h, 0.0)
-    stiff = np.nan_to_num(data.properties.stiffness[:, 0])
+    # That of a hinge is no EA.
+    member = is_member(data.arrays.element_kind, Member.BAR, Member.BEAM)
+    stiff = np.where(member, np.nan_to_num(data.properties.stiffness[:, 0]), 0.0)
     mass = np.nan_to_num(data.properties.mass[:, 0])
     # Of a rigid link the mass is that of all of it.
     per_length = member_table()[data.arrays.element_kind] == Member.BEAM
