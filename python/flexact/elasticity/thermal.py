@@ -31,7 +31,6 @@ from ..util.units import Units
 from .equilibria import Imperfection, number_given
 from .errors import ElasticError, Estimate
 from .points import Points
-from .reduced import peak_of
 from .tables import NAMES, carried, cross_matrix, listed, offset_given, plain, words_of
 
 if TYPE_CHECKING:
@@ -381,9 +380,10 @@ def found_in(state: Warmed) -> dict[str, Any]:
     force = np.where(stretches, state.best(lambda at: at.stress[0]), 0.0)
     worst = _first_largest(np.abs(force))
     peaks: list[tuple[float, str]] = []
+    known = state.finest.solver.sections.is_known
     for part in parts.all:
-        with suppress(ElasticError):
-            every = [max(peak_of(at, e) for e in part.elements) for at in state.meshes]
+        if which := [e for e in part.elements if known[e]]:
+            every = [at.peaks.von_mises[2, which].max() for at in state.meshes]
             peaks.append((float(Estimate.of(*every)), part.name))
     stress = None
     if peaks:
