@@ -31,6 +31,7 @@ def load(name: str, *, for_good: bool = False) -> ModuleType:
 FEATURES = {
     "show": ("flexact.api", "show_model"),
     "html": ("flexact.show.notebook.output", "html_of_model"),
+    "at_rest": ("flexact.costs.at_rest", "json_of"),
 }
 
 
