@@ -68,6 +68,7 @@ from .solution import (
     policy_of,
     releases_given,
 )
+from .state_space import StateSpace, state_space_of
 from .tolerance import Linear, Pair
 
 Match = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
@@ -529,6 +530,17 @@ class Elastic(Frozen):
             self.require_determined()
         return tuple(equilibria.assembled(each, self.off, self.locked) for each in self.solvers)
 
+    def state_space(
+        self,
+        inputs: object,
+        outputs: object,
+        damping: ArrayLike = 0.01,
+        modes: int | None = None,
+    ) -> StateSpace:
+        """The linear system from forces or base motion to displacements, at rest; see `State`."""
+        at_rest = self.assembled() if self.off else self.undeformed()
+        return at_rest.state_space(inputs, outputs, damping, modes)
+
     def __repr__(self) -> str:
         """The choices."""
         return f"<Elastic {self.data.name!r}: {self.words}>"
@@ -839,6 +851,42 @@ class State(Frozen):
         """Motions without any stiffness."""
         return tuple(
             loose_motion(self.finest, k) for k in range(self.finest.tangent.loose.shape[2])
+        )
+
+    def state_space(
+        self,
+        inputs: object,
+        outputs: object,
+        damping: ArrayLike = 0.01,
+        modes: int | None = None,
+    ) -> StateSpace:
+        """The linear system about this state, of the finer mesh: A, B, C, D, poles and response.
+
+        Args:
+            inputs: One, or a list: a force or moment on (point, coordinate); the motion of what
+                is fixed or locked, (clamp, coordinate, "motion"), of all clamps as one
+                ("ground", coordinate, "motion"); a pair of opposite forces ((p, "y"), (q, "y")).
+                Or texts: "stage:y", "stage:y-base:y", "base:y motion".
+            outputs: One, or a list: (point, coordinate); a difference ((p, "y"), (q, "y")); with
+                "velocity" behind, its rate. Or texts: "stage:y", "stage:y-base:y",
+                "stage:y velocity".
+            damping: Modal ratio, one or one a mode; of base motion it acts on the relative one.
+            modes: How many, the slowest; what others do statically is in D. None: all.
+
+        Raises:
+            UnknownError: a point or coordinate is not there.
+            ElasticError: nothing has a mass or a stiffness; something is not understood, a force
+                is on what is held, or what is moved is not held; or the mesh is too large.
+        """
+        self.model.require_mass()
+        self.finest.require_stiffness()
+        mesh = self.finest.solver.mesh
+        label = f"{self.label}; held {self.model.held}, drive {self.model.drive}"
+        if mesh.pieces.max(initial=1) > 1:
+            label += f", {int(mesh.pieces.max())} beams a sheet"
+        given = inputs, outputs, damping, modes
+        return state_space_of(
+            self.finest, self.model.points, *given, label, self.model.data.units
         )
 
     def describe(self) -> str:
