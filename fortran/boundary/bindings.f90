@@ -44,11 +44,13 @@ end subroutine describe_names
 
 ! Read a deck. What it holds is given where there is room for it, how many nodes and elements it
 ! has in any case; so is whether it is planar and has more digits than its numbers hold, and whether
-! it says how elements are drawn, their stiffness or mass, and loads, of which the other arrays are.
+! it says how elements are drawn, what they are made of, and loads, of which the other arrays are;
+! length_power is the power of ten of the unit of its lengths in metres: all numbers here are in SI.
 subroutine read_deck(n, text, most_nodes, most_elements, valued_nodes, valued_elements, nodes, places, elements, vectors, &
                      element_name, node_name, cross_section, drawn, dimensions, colour, edge_colour, opacity, &
-                     stiffness, mass, node_mass, force, increment, node_count, element_count, is_planar, has_long_numbers, &
-                     has_appearance, has_properties, has_loads, gravity, diag_count, diag_number, diag_text)
+                     stiffness, mass, strength, expansion, fillet, node_mass, force, increment, node_count, element_count, &
+                     is_planar, has_long_numbers, has_appearance, has_properties, has_loads, length_power, gravity, &
+                     diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_deck, only: read_text => read_deck
    use flexact_deck_model, only: deck_model_t
@@ -66,9 +68,10 @@ subroutine read_deck(n, text, most_nodes, most_elements, valued_nodes, valued_el
    real(c_double), intent(inout) :: dimensions(2, valued_elements), colour(3, valued_elements)
    real(c_double), intent(inout) :: edge_colour(3, valued_elements), opacity(valued_elements)
    real(c_double), intent(inout) :: stiffness(6, valued_elements), mass(5, valued_elements), node_mass(6, valued_nodes)
+   real(c_double), intent(inout) :: strength(2, valued_elements), expansion(1, valued_elements), fillet(1, valued_elements)
    real(c_double), intent(inout) :: force(3, valued_nodes), increment(3, valued_nodes)
    integer(c_int), intent(out) :: node_count, element_count, is_planar, has_long_numbers
-   integer(c_int), intent(out) :: has_appearance, has_properties, has_loads
+   integer(c_int), intent(out) :: has_appearance, has_properties, has_loads, length_power
    real(c_double), intent(out) :: gravity(3)
    integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
@@ -87,14 +90,16 @@ subroutine read_deck(n, text, most_nodes, most_elements, valued_nodes, valued_el
    has_appearance = 0
    has_properties = 0
    has_loads = 0
+   length_power = 0
    gravity = 0
    if (diagnostics%has_errors()) return
    call give_sizes(deck, node_count, element_count, is_planar, has_long_numbers, has_appearance, has_properties, has_loads)
+   length_power = deck%length_power
    if (node_count <= most_nodes .and. element_count <= most_elements) &
       call give_model(deck, nodes, places, elements, vectors, element_name, node_name)
    if (node_count > valued_nodes .or. element_count > valued_elements) return
    call give_appearance(deck, cross_section, drawn, dimensions, colour, edge_colour, opacity)
-   call give_properties(deck, stiffness, mass, node_mass)
+   call give_properties(deck, stiffness, mass, strength, expansion, fillet, node_mass)
    call give_loads(deck, force, increment, gravity)
 end subroutine read_deck
 

@@ -65,14 +65,17 @@ contains
       end associate
    end subroutine give_appearance
 
-   !> Stiffness and mass, if the deck gives them.
-   pure subroutine give_properties(deck, stiffness, mass, node_mass)
+   !> What parts are made of, if the deck gives it.
+   pure subroutine give_properties(deck, stiffness, mass, strength, expansion, fillet, node_mass)
       type(deck_model_t), intent(in) :: deck
-      real(wp), intent(inout) :: stiffness(:, :), mass(:, :), node_mass(:, :)
+      real(wp), intent(inout) :: stiffness(:, :), mass(:, :), strength(:, :), expansion(:, :), fillet(:, :), node_mass(:, :)
 
       if (.not. allocated(deck%properties)) return
       stiffness(:, :deck%model%elements) = deck%properties%stiffness
       mass(:, :deck%model%elements) = deck%properties%mass
+      strength(:, :deck%model%elements) = deck%properties%strength
+      expansion(:, :deck%model%elements) = deck%properties%expansion
+      fillet(:, :deck%model%elements) = deck%properties%fillet
       node_mass(:, :deck%model%nodes) = deck%properties%node_mass
    end subroutine give_properties
 

@@ -9,6 +9,7 @@ module flexact_deck
    use flexact_deck_picture, only: read_picture
    use flexact_deck_model, only: deck_model_t
    use flexact_deck_properties, only: read_properties
+   use flexact_deck_units, only: read_units
    use flexact_deck_warping, only: check_warping_nodes, excuse_fixed_warping, note_warping
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
@@ -41,6 +42,7 @@ contains
       deck%text => text
       deck%diagnostics => diagnostics
       associate (all_statements => statements(:count))
+         call read_units(all_statements, deck)
          call read_elements(all_statements, deck)
          if (deck%model%elements > 0) then
             call excuse_fixed_warping(all_statements, deck)

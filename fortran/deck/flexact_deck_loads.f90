@@ -36,6 +36,7 @@ contains
       do i = 1, size(statements)
          if (statements(i)%role /= role_load) cycle
          operands = operands_of(deck%text, deck%diagnostics, statements(i))
+         operands%length_power = deck%length_power
          if (keywords(statements(i)%what)%name == 'GRAVITY') then
             call take(operands, gravity_of(deck), deck%loads%gravity, stated%gravity)
             cycle
@@ -84,8 +85,10 @@ contains
       case (node_position)
          meaning%form = 'a position node takes Fx Fy Fz'
       case (node_angle)
+         meaning%lengths = 1
          meaning%form = 'an orientation node of planar elements takes one moment'
       case (node_orientation)
+         meaning%lengths = 1
          meaning%form = 'an orientation node takes the moments Mx My Mz'
          meaning%most = axes
       end select
@@ -96,6 +99,7 @@ contains
       type(meaning_t) :: meaning
 
       meaning%what = 'gravity'
+      meaning%lengths = 1
       meaning%least = 2
       meaning%numbers = merge(3, 2, any(deck%model%node_kind == node_position .or. deck%model%node_kind == node_orientation))
       meaning%form = 'GRAVITY takes gx gy gz, in a plane gx gy'

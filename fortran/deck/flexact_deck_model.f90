@@ -40,6 +40,8 @@ module flexact_deck_model
       integer, allocatable :: warping_class(:, :)
       !> Whether each element is stated as a beam with warping.
       logical, allocatable :: has_warping(:)
+      !> Power of ten of the unit of its lengths in metres.
+      integer :: length_power = 0
       !> How the elements are to be drawn, where the deck says something about it.
       type(appearance_t), allocatable :: appearance
       !> Stiffness and mass, where the deck says something about them.

@@ -19,6 +19,8 @@ module flexact_deck_numbers
       integer :: passed_over = 0
       !> More than these, and none of them is used.
       integer :: most = huge(1)
+      !> The power of the length in the unit of each.
+      integer :: lengths(6) = 0
       !> Which of them cannot be less than zero.
       logical :: not_negative(6) = .false.
    end type meaning_t
@@ -44,9 +46,9 @@ contains
       given = 0
       last = 0
       do
-         call operands%real_number('number', next)
-         if (.not. operands%fine) return
          given = given + 1
+         call operands%real_number('number', next, meaning%lengths(min(given, size(meaning%lengths))))
+         if (.not. operands%fine) return
          if (given <= meaning%numbers) then
             value(given) = next
             if (meaning%not_negative(given) .and. next < 0.0_wp .and. negative%first == 0) negative = operands%word

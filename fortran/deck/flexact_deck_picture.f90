@@ -57,6 +57,7 @@ contains
       group%of_elements = group%of_elements .and. statement%what > 0
       if (statement%what == 0) return
       operands = operands_of(deck%text, deck%diagnostics, statement)
+      operands%length_power = deck%length_power
       select case (keywords(statement%what)%name)
       case ('BEAMPROPS', 'GRAPHICS')
          group%of_elements = .true.

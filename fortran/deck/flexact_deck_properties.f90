@@ -1,17 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The statements that give stiffness and mass: ESTIFF, EM (EMASS) and XM (MASS).
-!> Of two for one thing the last counts.
+!> The statements that give what parts are made of: ESTIFF, EM (EMASS), STRENGTH, EXPANSION, FILLET
+!> and XM (MASS). Of two for one thing the last counts.
 module flexact_deck_properties
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use flexact_deck_model, only: deck_model_t, take_node, take_element
    use flexact_deck_numbers, only: meaning_t, take_numbers
+   use flexact_deck_units, only: powers_of_length
    use flexact_diagnostics, only: span_t
    use flexact_element_table, only: element_kinds, listed_numbers, member_hinge
    use flexact_keywords, only: keywords, role_property
    use flexact_kinds, only: wp
    use flexact_operands, only: operands_t, operands_of
    use flexact_properties, only: make_properties, node_mass_meant
-   use flexact_slots, only: node_orientation
+   use flexact_slots, only: node_orientation, node_angle
    use flexact_statement, only: statement_t
    implicit none
    private
@@ -19,7 +20,7 @@ module flexact_deck_properties
 
    !> Where each thing was stated last.
    type :: places_t
-      type(span_t), allocatable :: stiffness(:), mass(:), node_mass(:)
+      type(span_t), allocatable :: stiffness(:), mass(:), strength(:), expansion(:), fillet(:), node_mass(:)
    end type places_t
 
 contains
@@ -34,6 +35,7 @@ contains
       associate (elements => deck%model%elements, nodes => deck%model%nodes)
          allocate (deck%properties, source=make_properties(elements, nodes))
          allocate (stated%stiffness(elements), stated%mass(elements), stated%node_mass(nodes))
+         allocate (stated%strength(elements), stated%expansion(elements), stated%fillet(elements))
       end associate
       do i = 1, size(statements)
          if (statements(i)%role == role_property) call read_statement(statements(i), deck, stated)
@@ -48,6 +50,7 @@ contains
       integer :: owner
 
       operands = operands_of(deck%text, deck%diagnostics, statement)
+      operands%length_power = deck%length_power
       associate (name => keywords(statement%what)%name, properties => deck%properties, model => deck%model)
          if (name == 'XM' .or. name == 'MASS') then
             call take_node(deck, operands, owner)
@@ -57,12 +60,19 @@ contains
          end if
          call take_element(deck, operands, owner)
          if (owner == 0) return
-         if (name == 'ESTIFF') then
+         select case (name)
+         case ('ESTIFF')
             call take(operands, stiffness_of(model%element_kind(owner)), properties%stiffness(:, owner), &
                       stated%stiffness(owner))
-         else
+         case ('STRENGTH')
+            call take(operands, strength_of(), properties%strength(:, owner), stated%strength(owner))
+         case ('EXPANSION')
+            call take(operands, expansion_of(), properties%expansion(:, owner), stated%expansion(owner))
+         case ('FILLET')
+            call take(operands, fillet_of(), properties%fillet(:, owner), stated%fillet(owner))
+         case default
             call take(operands, mass_of(model%element_kind(owner)), properties%mass(:, owner), stated%mass(owner))
-         end if
+         end select
       end associate
    end subroutine read_statement
 
@@ -87,6 +97,7 @@ contains
 
       meaning%what = 'a stiffness of '//trim(element_kinds(kind)%keyword)
       meaning%numbers = listed_numbers(element_kinds(kind)%stiffness)
+      meaning%lengths = powers_of_length(element_kinds(kind)%stiffness)
       meaning%not_negative = .true.
       select case (trim(element_kinds(kind)%keyword))
       case ('BEAM')
@@ -113,6 +124,7 @@ contains
 
       meaning%what = 'a mass of '//trim(element_kinds(kind)%keyword)
       meaning%numbers = listed_numbers(element_kinds(kind)%mass)
+      meaning%lengths = powers_of_length(element_kinds(kind)%mass)
       ! Jyz may be.
       meaning%not_negative = [.true., .true., .true., .true., .false., .false.]
       keyword = trim(element_kinds(kind)%keyword)
@@ -129,6 +141,34 @@ contains
       end select
    end function mass_of
 
+   function strength_of() result(meaning)
+      type(meaning_t) :: meaning
+
+      meaning%what = 'a strength'
+      meaning%numbers = 2
+      meaning%lengths = -2
+      meaning%not_negative = .true.
+      meaning%form = 'STRENGTH takes the stress at which the material yields or breaks, and the one that it bears for good'
+   end function strength_of
+
+   function expansion_of() result(meaning)
+      type(meaning_t) :: meaning
+
+      meaning%what = 'an expansion'
+      meaning%numbers = 1
+      meaning%form = 'EXPANSION takes one number, the expansion of the material with temperature'
+   end function expansion_of
+
+   function fillet_of() result(meaning)
+      type(meaning_t) :: meaning
+
+      meaning%what = 'a radius'
+      meaning%numbers = 1
+      meaning%lengths = 1
+      meaning%not_negative = .true.
+      meaning%form = 'FILLET takes one number, the radius of the fillets at both ends'
+   end function fillet_of
+
    function mass_of_node(kind) result(meaning)
       integer, intent(in) :: kind
       type(meaning_t) :: meaning
@@ -137,6 +177,7 @@ contains
       meaning%numbers = node_mass_meant(kind)
       meaning%not_negative = [.true., .false., .false., .true., .false., .true.]
       meaning%form = 'XM takes one number, a mass or in a plane a moment of inertia'
+      if (kind == node_orientation .or. kind == node_angle) meaning%lengths = 2
       if (kind == node_orientation) meaning%form = 'XM of an orientation takes Jxx, Jxy, Jxz, Jyy, Jyz, Jzz'
    end function mass_of_node
 end module flexact_deck_properties

@@ -148,7 +148,7 @@ contains
       type(sizes_t), intent(inout) :: sizes
       real(wp) :: value
 
-      call operands%real_number('size', value)
+      call operands%real_number('size', value, 1)
       if (.not. operands%fine) return
       if (value <= 0.0_wp) then
          call operands%diagnostics%warning('bad-size', operands%word, &

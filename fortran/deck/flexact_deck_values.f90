@@ -36,6 +36,7 @@ contains
       do i = 1, size(statements)
          if (statements(i)%role /= role_value) cycle
          operands = operands_of(deck%text, deck%diagnostics, statements(i))
+         operands%length_power = deck%length_power
          call take_node(deck, operands, node)
          if (node == 0) then
             ! The node that may have been meant is not known.
@@ -65,27 +66,28 @@ contains
 
       select case (kind)
       case (node_planar_position)
-         call take_values(operands, coordinate(:2), 'X n x y for a node of planar elements', value)
+         call take_values(operands, coordinate(:2), 1, 'X n x y for a node of planar elements', value)
       case (node_position)
-         call take_values(operands, coordinate, 'X n x y z', value)
+         call take_values(operands, coordinate, 1, 'X n x y z', value)
       case (node_angle)
-         call take_values(operands, ['angle'], 'X n angle for an orientation node of planar elements', value)
+         call take_values(operands, ['angle'], 0, 'X n angle for an orientation node of planar elements', value)
       case default
-         call take_values(operands, euler_parameter, 'X n lambda0 lambda1 lambda2 lambda3 for an orientation node', value)
+         call take_values(operands, euler_parameter, 0, 'X n lambda0 lambda1 lambda2 lambda3 for an orientation node', value)
          if (operands%fine) call check_norm(operands, value)
       end select
    end subroutine read_value
 
-   !> Take the numbers of a statement of this form; their place becomes the word
-   !> that was taken last.
-   subroutine take_values(operands, what, form, value)
+   !> Take the numbers of a statement of this form, in whose units a length has a power; their
+   !> place becomes the word that was taken last.
+   subroutine take_values(operands, what, lengths, form, value)
       type(operands_t), intent(inout) :: operands
       character(len=*), intent(in) :: what(:), form
+      integer, intent(in) :: lengths
       real(wp), intent(inout) :: value(4)
       integer :: i, first
 
       do i = 1, size(what)
-         call operands%real_number(what(i), value(i))
+         call operands%real_number(what(i), value(i), lengths)
          if (i == 1) first = operands%word%first
       end do
       if (operands%fine) call operands%finish(form)

@@ -12,7 +12,7 @@ module flexact_keywords
    public :: why_uncovered, instead_of_uncovered
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
    public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture, &
-             role_property, role_load, role_ending
+             role_property, role_load, role_ending, role_units
 
    integer, parameter :: block_kinematics = 1
    integer, parameter :: block_dynamics = 2
@@ -36,6 +36,7 @@ module flexact_keywords
    integer, parameter :: role_property = 9
    integer, parameter :: role_load = 10
    integer, parameter :: role_ending = 11
+   integer, parameter :: role_units = 12
 
    type :: keyword_t
       character(len=13) :: name
@@ -65,6 +66,7 @@ module flexact_keywords
                                  keyword_t('RLSE', kin, role_deformation, 'ei', 1, any_number), &
                                  keyword_t('INPUTE', kin, role_deformation, 'ei', 1, any_number), &
                                  keyword_t('DYNE', kin, role_deformation, 'ei', 1, any_number), &
+                                 keyword_t('UNITS', kin, role_units, 'w', 1, 1), &
                                  keyword_t('OUTLEVEL', kin, form, 'r', 1, 2), &
                                  keyword_t('PLBEAR', kin, no, 'w', 0, any_number), &
                                  keyword_t('PLBELT', kin, no, 'w', 0, any_number), &
@@ -74,6 +76,9 @@ module flexact_keywords
                                  keyword_t('EM', dyn, give, 'er', 2, any_number), &
                                  keyword_t('EMASS', dyn, give, 'er', 2, any_number), &
                                  keyword_t('ESTIFF', dyn, give, 'er', 2, any_number), &
+                                 keyword_t('STRENGTH', dyn, give, 'er', 2, any_number), &
+                                 keyword_t('EXPANSION', dyn, give, 'er', 2, any_number), &
+                                 keyword_t('FILLET', dyn, give, 'er', 2, any_number), &
                                  keyword_t('EDAMP', dyn, form, 'er', 2, any_number), &
                                  keyword_t('EDAMPP', dyn, form, 'er', 2, any_number), &
                                  keyword_t('ESIG', dyn, form, 'er', 2, any_number), &

@@ -99,10 +99,11 @@ contains
       if (last > 1) call read_integer(word(:last - 1), value, status)
    end function leading_integer
 
-   !> A real number: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3. is_short: whether it has so few digits
-   !> that they can be known again.
-   subroutine read_real(word, value, status, is_short)
+   !> A real number times a power of ten, rounded once: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3.
+   !> is_short: whether it has so few digits that they can be known again.
+   subroutine read_real(word, power, value, status, is_short)
       character(len=*), intent(in) :: word
+      integer, intent(in) :: power
       real(wp), intent(out) :: value
       integer, intent(out) :: status
       logical, intent(out) :: is_short
@@ -114,10 +115,11 @@ contains
       call take_apart(word, decimal, status)
       is_short = decimal%significant <= short_digits
       if (status /= number_fine) return
+      decimal%exponent = decimal%exponent + power
       settled = .false.
       if (abs(decimal%exponent) <= exact_power .and. .not. decimal%long) call convert(decimal, value, settled)
       if (settled) return
-      read (word, *, iostat=io) value
+      call read_slowly(word, power, value, io)
       if (io /= 0 .or. .not. ieee_is_finite(value)) then
          value = 0.0_wp
          ! A vanishing mantissa or exponent reads as zero; only the other end fails.
@@ -125,6 +127,29 @@ contains
       end if
       if (decimal%significant > 0 .and. .not. abs(value) > 0) is_short = .false.
    end subroutine read_real
+
+   !> As the run time reads it, with another exponent.
+   subroutine read_slowly(word, power, value, io)
+      character(len=*), intent(in) :: word
+      integer, intent(in) :: power
+      real(wp), intent(out) :: value
+      integer, intent(out) :: io
+      type(decimal_t) :: tail
+      character(len=16) :: exponent
+      character(len=:), allocatable :: shifted
+      integer :: last, status
+
+      last = scan(word, 'eEdD') - 1
+      if (power == 0) then
+         read (word, *, iostat=io) value
+         return
+      end if
+      if (last < 0) last = len(word)
+      if (last < len(word)) call take_exponent(word(last + 1:), tail, status)
+      write (exponent, '("e", i0)') tail%exponent + power
+      shifted = word(:last)//trim(exponent)
+      read (shifted, *, iostat=io) value
+   end subroutine read_slowly
 
    !> Mantissa times or over an exact power of ten, where that surely rounds as
    !> the number itself does.

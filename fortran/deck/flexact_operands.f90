@@ -23,6 +23,8 @@ module flexact_operands
       logical :: fine = .true.
       !> Whether every real number so far has so few digits that they can be known again.
       logical :: is_short = .true.
+      !> Power of ten of the unit of lengths in metres.
+      integer :: length_power = 0
       !> What is wrong with one is a warning, and the statement is not used.
       logical :: forgiving = .false.
       integer, private :: position = 1
@@ -118,17 +120,21 @@ contains
       end if
    end subroutine positive_integer
 
-   !> Take a real number; zero where it is missing or wrong.
-   subroutine real_number(self, what, value)
+   !> Take a real number, in SI; zero where it is missing or wrong. lengths: the power of the
+   !> length in its unit.
+   subroutine real_number(self, what, value, lengths)
       class(operands_t), intent(inout) :: self
       character(len=*), intent(in) :: what
       real(wp), intent(out) :: value
-      integer :: status
+      integer, intent(in), optional :: lengths
+      integer :: status, power
       logical :: is_short
 
       value = 0.0_wp
       if (.not. required(self, what)) return
-      call read_real(self%text(self%word%first:self%word%last), value, status, is_short)
+      power = 0
+      if (present(lengths)) power = lengths*self%length_power
+      call read_real(self%text(self%word%first:self%word%last), power, value, status, is_short)
       self%is_short = self%is_short .and. is_short
       if (status /= number_fine) call wrong_number(self, what, status)
    end subroutine real_number

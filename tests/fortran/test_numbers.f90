@@ -101,7 +101,7 @@ contains
       integer :: got_status
       logical :: is_short
 
-      call read_real(word, got, got_status, is_short)
+      call read_real(word, 0, got, got_status, is_short)
       call tally%check(transfer(got, 0_int64) == transfer(value, 0_int64) .and. got_status == status, 'real '//word)
    end subroutine expect_real
 
@@ -122,6 +122,6 @@ contains
       real(wp) :: value
       integer :: status
 
-      call read_real(word, value, status, is_short)
+      call read_real(word, 0, value, status, is_short)
    end function is_short
 end program test_numbers

@@ -26,11 +26,14 @@ def read_deck(
     opacity: _Floats,
     stiffness: _Floats,
     mass: _Floats,
+    strength: _Floats,
+    expansion: _Floats,
+    fillet: _Floats,
     node_mass: _Floats,
     force: _Floats,
     increment: _Floats,
     /,
-) -> tuple[int, int, int, int, int, int, int, _Floats, _Ints, _Ints, _Bytes]: ...
+) -> tuple[int, int, int, int, int, int, int, int, _Floats, _Ints, _Ints, _Bytes]: ...
 def find_tokens(text: _Bytes, lines: _Ints, words: _Ints, /) -> None: ...
 def check_model(
     text: _Bytes,

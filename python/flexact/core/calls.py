@@ -54,12 +54,14 @@ _OF_MODEL, _OF_JACOBIAN = 1_000, 4_000
 #: be a node, without and with stiffness, mass, loads and pictures.
 _OF_BYTE, _OF_LINE = 3, 110
 _OF_ELEMENT, _OF_END = (110, 210), (120, 200)
-#: How statements of these begin: EM, ESTIFF, XM, MASS, XF, FORCE, DELXF, GRAVITY, VISUALIZATION.
+#: How statements of these begin: EM, ESTIFF, XM, MASS, XF, FORCE, DELXF, GRAVITY, VISUALIZATION;
+#: FILLET, EXPANSION and STRENGTH alone are rare.
 _VALUES = [256 * a + b for a, b in (b"EM", b"ES", b"XM", b"MA", b"XF", b"FO", b"DE", b"GR", b"VI")]
 #: What a deck says of elements and nodes, in the order of its arrays.
 _SAID = (
     *("cross_section", "drawn", "dimensions", "colour", "edge_colour", "opacity"),
-    *("stiffness", "mass", "node_mass", "force", "increment"),
+    *("stiffness", "mass", "strength", "expansion", "fillet"),
+    *("node_mass", "force", "increment"),
 )
 #: Lines that begin with more blanks count as elements.
 _INDENT = 4
@@ -172,7 +174,7 @@ def read_deck(text: bytes) -> RawDeck:
         room = _Room(1, 1, False)
     made = room.made()
     found = _core.read_deck(data, *made)
-    nodes, elements, planar, long, drawn, given, loaded = found[:7]
+    nodes, elements, planar, long, drawn, given, loaded, power = found[:8]
     needed = _Room(nodes, elements, (drawn or given or loaded) == 1)
     if any(np.greater(needed, room)):
         # What the first reading took serves the second, whether the system has it back or not.
@@ -181,7 +183,7 @@ def read_deck(text: bytes) -> RawDeck:
         found = _core.read_deck(data, *made)
     element_name, node_name, *said = made[4:]
     # What was read lies in larger arrays.
-    many = (elements,) * 8 + (nodes,) * 3
+    many = (elements,) * 11 + (nodes,) * 3
     views = [each[..., :count].T for each, count in zip(said, many, strict=True)]
     views[1] = views[1] == 1
 
@@ -193,11 +195,12 @@ def read_deck(text: bytes) -> RawDeck:
         element_name[:, :elements],
         node_name[:, :nodes],
         planar == 1,
-        found[8:],
+        found[9:],
         of(0, 6) if drawn else {},
-        of(6, 9) if given else {},
-        of(9, 11) | {"gravity": found[7].copy()} if loaded else {},
+        of(6, 12) if given else {},
+        of(12, 14) | {"gravity": found[8].copy()} if loaded else {},
         long == 1,
+        power,
     )
 
 
@@ -236,7 +239,7 @@ class _Room(NamedTuple):
     @property
     def bytes(self) -> int:
         """What it takes."""
-        return (60 + 96 * self.is_valued) * self.nodes + (80 + 168 * self.is_valued) * self.elements
+        return (60 + 96 * self.is_valued) * self.nodes + (80 + 200 * self.is_valued) * self.elements
 
     def made(self) -> tuple[AnyArray, ...]:
         """The arrays, as the core takes them; it wants none without a column."""
@@ -245,10 +248,10 @@ class _Room(NamedTuple):
         names = (np.empty((2, n), np.int32, order="F") for n in (elements, nodes))
         drawn = (np.empty(of_element, np.int32) for _ in range(2))
         look = (np.empty((n, of_element), order="F") for n in (2, 3, 3))
-        heavy = (np.empty((n, of_element), order="F") for n in (6, 5))
+        made = (np.empty((n, of_element), order="F") for n in (6, 5, 2, 1, 1))
         loaded = (np.empty((n, of_node), order="F") for n in (6, 3, 3))
         opacity = np.empty(of_element)
-        return *room_for(nodes, elements), *names, *drawn, *look, opacity, *heavy, *loaded
+        return *room_for(nodes, elements), *names, *drawn, *look, opacity, *made, *loaded
 
 
 def _most_in(text: ByteArray) -> tuple[_Room, int]:

@@ -75,6 +75,8 @@ class RawDeck(NamedTuple):
     """Those of `Loads`, likewise."""
     has_long_numbers: bool
     """Whether its geometry was typed with more digits than its numbers hold."""
+    length_power: int
+    """Power of ten of the unit of its lengths in metres; its numbers are in SI."""
 
 
 class RawCount(NamedTuple):

@@ -21,7 +21,6 @@ from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
-from ..model.data import Properties
 from ..util.records import Frozen, cached_property
 from .designs import (
     Misalignment,
@@ -265,7 +264,7 @@ class ElasticDesign(Frozen):
             mass[node] = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
         else:
             mass[node, 0] = 1.0
-        properties = Properties(given.stiffness, np.full_like(given.mass, math.nan), mass)
+        properties = replace(given, mass=np.full_like(given.mass, math.nan), node_mass=mass)
         return replace(self.elastic, data=replace(data, properties=properties)).undeformed()
 
     @cached_property

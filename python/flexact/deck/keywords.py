@@ -135,6 +135,18 @@ _WORDS: dict[tuple[str, Block | None], Words] = {
     ("ESTIFF", None): Words("e …", "", "properties"),
     ("EM", None): Words("e …", "", "properties"),
     ("EMASS", None): Words("e …", "", "properties"),
+    ("STRENGTH", None): Words(
+        "e s [f]",
+        "the stress at which the material yields or breaks (Pa), and the amplitude of reversed "
+        "stress that it bears for good",
+        "properties",
+    ),
+    ("EXPANSION", None): Words(
+        "e a", "expansion of the material with temperature (1/K)", "properties"
+    ),
+    ("FILLET", None): Words(
+        "e r", "the radius of the fillets at both ends of a sheet or wire (m)", "material"
+    ),
     ("XM", None): Words("n …", "", "properties"),
     ("MASS", None): Words("n …", "", "properties"),
     ("XF", None): _FORCE,
@@ -162,6 +174,14 @@ _WORDS: dict[tuple[str, Block | None], Words] = {
     ("DONOTDRAW", None): Words("e…", "elements that are left out", "pictures"),
     ("BEAMVIS", None): _OLDER,
     ("TRUSSVIS", None): _OLDER,
+    ("UNITS", None): Words(
+        "m or mm",
+        "the unit of lengths, metres without it. With `mm` all numbers of the deck with a length "
+        "in them follow: positions and `CROSSDIM` in mm, forces in N, `XF` of orientations in "
+        "N mm, `ESTIFF` in N, N mm^2, mm^2, N/mm and N mm/rad, `STRENGTH` in MPa, `EM` in kg/mm "
+        "and kg mm, `XM` in kg and kg mm^2, `GRAVITY` in mm/s^2. Angles stay in rad",
+        "values",
+    ),
     ("OUTLEVEL", None): _unused("a [b]", "how much a program writes to its log"),
     ("EDAMP", None): _unused("e …", "damping of an element"),
     ("EDAMPP", None): _unused("e …", "damping of an element"),
@@ -278,11 +298,18 @@ LOAD: dict[int, tuple[Meaning, ...]] = {
     NodeKind.ANGLE: _all("M", "N m"),
 }
 GRAVITY = _all("gx, gy, gz", "m/s^2")
+#: Of elements of all kinds.
+OF_MATERIAL: dict[str, tuple[Meaning, ...]] = {
+    "STRENGTH": _all("strength, fatigue strength", "Pa"),
+    "EXPANSION": _all("expansion", "1/K"),
+    "FILLET": _all("radius", "m"),
+}
 
 
 def of_element(keyword: str, kind: ElementKind) -> tuple[Meaning, ...]:
-    """The numbers behind the element of ESTIFF, EM or EMASS; none where they mean nothing."""
-    return {"ESTIFF": kind.stiffness, "EM": kind.mass, "EMASS": kind.mass}.get(keyword, ())
+    """The numbers behind the element of ESTIFF, EM, STRENGTH or others; none without meaning."""
+    by_kind = {"ESTIFF": kind.stiffness, "EM": kind.mass, "EMASS": kind.mass}
+    return by_kind.get(keyword, ()) or OF_MATERIAL.get(keyword, ())
 
 
 def of_node(keyword: str, kind: int) -> tuple[Meaning, ...]:

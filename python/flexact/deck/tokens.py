@@ -165,14 +165,15 @@ Key = tuple[str, int]
 
 #: Of all elements; their numbers are their own, whatever their keywords.
 ELEMENT = "element"
-#: Which has no number.
-GRAVITY = "GRAVITY"
+#: Which have no number.
+GRAVITY, UNITS = "GRAVITY", "UNITS"
 #: What a statement is written as again, by block and keyword.
 _WRITTEN_AS = {
-    **{(Block.KINEMATICS, word): word for word in ("X", "FIX", "DYNX", "RLSE", "DYNE")},
+    **{(Block.KINEMATICS, word): word for word in (UNITS, "X", "FIX", "DYNX", "RLSE", "DYNE")},
     (Block.KINEMATICS, "INPUTX"): "DYNX",
     (Block.KINEMATICS, "INPUTE"): "DYNE",
     **{(Block.DYNAMICS, word): word for word in ("ESTIFF", "EM", "XM", "XF", "DELXF", GRAVITY)},
+    **{(Block.DYNAMICS, word): word for word in ("STRENGTH", "EXPANSION", "FILLET")},
     (Block.DYNAMICS, "EMASS"): "EM",
     (Block.DYNAMICS, "MASS"): "XM",
     (Block.DYNAMICS, "FORCE"): "XF",
@@ -189,7 +190,7 @@ def key_of(line: Line) -> Key | None:
     if line.keyword is None:
         return None
     word = _WRITTEN_AS.get((line.keyword.block, line.keyword.name))
-    if word == GRAVITY:
+    if word in (GRAVITY, UNITS):
         return word, 0
     return None if word is None or not owner else (word, owner)
 

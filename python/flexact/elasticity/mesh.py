@@ -20,7 +20,7 @@ from ..core.elements import (
     member_table,
     role_table,
 )
-from ..model.data import Appearance, ModelData, Properties
+from ..model.data import Appearance, ModelData
 from ..model.deformations import AT_P, AT_Q
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
@@ -281,9 +281,7 @@ def _divided(mesh: Mesh) -> ModelData:
     if look is not None:
         look = Appearance(*(getattr(look, name)[owner] for name in Appearance.__dataclass_fields__))
     if given is not None:
-        none = np.full((2 * new, given.node_mass.shape[1]), np.nan)
-        node_mass = np.vstack([given.node_mass, none])
-        given = Properties(given.stiffness[owner], given.mass[owner], node_mass)
+        given = given.of_elements(owner, 2 * new)
     return replace(
         own,
         arrays=arrays,

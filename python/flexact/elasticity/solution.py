@@ -150,8 +150,7 @@ def elastic_arrays(data: ModelData, notch: FloatArray) -> ElasticArrays:
     """Stiffness and mass of a model, as the core takes them; NaN where nothing is given."""
     given, ne = data.properties, data.arrays.element_number.size
     if given is None:
-        shapes = (ne, 6), (ne, 5), (data.arrays.node_number.size, 6)
-        given = Properties(*(np.full(shape, np.nan) for shape in shapes))
+        given = Properties.none(ne, data.arrays.node_number.size)
     stiffness, mass, node_mass = (
         np.asfortranarray(each.T) for each in (given.stiffness, given.mass, given.node_mass)
     )

@@ -18,7 +18,7 @@ from ..util.text import in_short
 from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import COORDINATES, ambiguous, one_line, own_number, unknown
-from .transform import NO_VECTOR, Vector, on_circle
+from .transform import NO_VECTOR, Place, Vector, on_circle
 
 #: What gives three parts and still is no vector.
 UNORDERED = (str, bytes, bytearray, set, frozenset, dict)
@@ -53,11 +53,9 @@ def real(part: object, unit: str = "") -> float:
         QuantityError: the text says no unit, or another kind of one.
         TypeError, ValueError, OverflowError: it is no number.
     """
-    if isinstance(part, str) and unit:
-        return measured(part, unit)
-    if isinstance(part, (str, bytes, bytearray, complex)):
+    if isinstance(part, (bytes, bytearray, complex)) or (isinstance(part, str) and not unit):
         raise TypeError
-    return float(part)  # type: ignore[arg-type]
+    return measured(part, unit) if unit else float(part)  # type: ignore[arg-type]
 
 
 def several(given: object, what: str) -> tuple[object, ...]:
@@ -191,22 +189,30 @@ def numbers(given: object, wanted: int, what: str, unit: str = "") -> tuple[floa
     return parts
 
 
-def polar(radius: Quantity, degrees: Quantity, z: Quantity = 0.0) -> Vector:
-    """The place (x, y, z) [m] at a radius and an angle from x about z.
+def polar(radius: Quantity, degrees: Quantity, z: Quantity = 0.0) -> tuple[float, ...]:
+    """The place (x, y, z) at a radius and an angle from x about z.
 
     To the last bit where the angle is a multiple of 30 degrees.
 
     Args:
-        radius: Distance from the z axis [m].
+        radius: Distance from the z axis, in the units of the model, or a text with its unit.
         degrees: The angle, right-handed [degrees].
-        z: Height [m].
+        z: Height, likewise.
+
+    Returns:
+        Numbers in the unit of those that were given; in metres where these have their units,
+        which a model with other units knows.
 
     Raises:
-        ModelError: one of them is no finite number.
+        ModelError: one of them is no finite number, or one has a unit and the other none.
     """
     what = "a polar place is a radius, an angle and a height"
     r, height = (numbers_of_size(each, (1,), what, "m")[0] for each in (radius, z))
-    return on_circle((0.0, 0.0, height), r, angle(degrees))
+    made = on_circle((0.0, 0.0, height), r, angle(degrees))
+    said = [isinstance(each, str) for each in (radius, z) if isinstance(each, str) or each]
+    if any(said) and not all(said):
+        raise model_error("bad-number", f"{what}: give both with their units, or none")
+    return made if any(said) else tuple(made)
 
 
 @contextmanager
@@ -328,11 +334,13 @@ def place(draft: Draft, given: Iterable[Quantity]) -> tuple[float, float, float,
 
 
 def coordinates(draft: Draft, given: Iterable[Quantity]) -> Vector:
-    """Three numbers [m], or two where z is zero.
+    """Three numbers in SI, or two where z is zero.
 
     Raises:
         ModelError: they are none, or z is not zero in a planar model.
     """
+    if isinstance(given, Place):
+        return given
     parts = given
     if not isinstance(given, UNORDERED) and isinstance(given, Iterable):
         try:
@@ -341,7 +349,7 @@ def coordinates(draft: Draft, given: Iterable[Quantity]) -> Vector:
             parts = ()
         if len(parts) == 2:
             parts = (*parts, 0.0)
-    x, y, z = vector(parts, "position", "m")  # type: ignore[arg-type]
+    x, y, z = vector(parts, "position", draft.units.symbol("m"))  # type: ignore[arg-type]
     if draft.planar and z != 0.0:
         raise model_error("no-coordinate", "a planar model has no coordinate z")
     return x, y, z

@@ -33,7 +33,7 @@ from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .members import Sizes, add_rigid, add_sheet, add_wire, span, width_across
 from .names import part_name
 from .sections import Make, Section, shape_of
-from .transform import on_circle
+from .transform import Place, on_circle
 
 #: Of one guide.
 _MOST_SHEETS = 1000
@@ -55,8 +55,8 @@ def add_body(
     with call("body", name):
         name = text(name, "the name of a body")
         nodes, links, old_name = _members(draft, points)
-        make, said = Make(shape_of(section)), _shape_said(*looks)
-        masses = _masses(mass, draft.planar)
+        make, said = Make(shape_of(draft.units, section)), _shape_said(draft, *looks)
+        masses = _masses(draft, mass)
         components = draft.rigid_components()
         first = Node(*components.carrier(nodes[0].position, nodes[0].orientation), draft)
         for node in nodes[1:]:
@@ -80,15 +80,15 @@ def add_body(
     return Body(tuple(links), nodes)
 
 
-def _shape_said(shape: object, thickness: Quantity | None) -> Said:
+def _shape_said(draft: Draft, shape: object, thickness: Quantity | None) -> Said:
     """As what a body is drawn, and how thick; nothing where neither is given."""
     said: Said = {}
     if thickness is not None:
         (said["body_thickness"],) = numbers_of_size(
-            thickness, (1,), "a thickness is one number", "m"
+            thickness, (1,), "a thickness is one number", draft.units.symbol("m")
         )
         if said["body_thickness"] <= 0.0:
-            raise model_error("bad-size", "a thickness is not positive", "give it in metres")
+            raise model_error("bad-size", "a thickness is not positive", "give one that is")
         shape = shape or "hull"
     if shape is not None:
         known = {each.name.lower(): int(each) for each in BodyShape if each}
@@ -160,9 +160,10 @@ def _from_first(draft: Draft, indices: list[int], first: Node) -> list[int]:
     return [*start, *(i for i in indices if i not in start)]
 
 
-def _masses(given: Mass, planar: bool) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _masses(draft: Draft, given: Mass) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Mass, and Jxx, Jxy, Jxz, Jyy, Jyz, Jzz or one J in the plane; empty where not given."""
     own_mass, inertia = given
+    unit = draft.units.symbol("kg m2")
     mass: tuple[float, ...] = ()
     if own_mass is not None:
         mass = numbers_of_size(own_mass, (1,), "a mass is one number", "kg")
@@ -170,11 +171,11 @@ def _masses(given: Mass, planar: bool) -> tuple[tuple[float, ...], tuple[float, 
             raise model_error("bad-size", "a mass is not negative", "give it in kg")
     if inertia is None:
         return mass, ()
-    if planar:
+    if draft.planar:
         what = "the moment of inertia in a plane is one number"
-        return mass, numbers_of_size(inertia, (1,), what, "kg m2")
+        return mass, numbers_of_size(inertia, (1,), what, unit)
     what = "moments of inertia are Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy, Jyz, Jzz"
-    values = numbers_of_size(inertia, (3, 6), what, "kg m2")
+    values = numbers_of_size(inertia, (3, 6), what, unit)
     if len(values) == 3:
         values = values[0], 0.0, 0.0, values[1], 0.0, values[2]
     return mass, values
@@ -241,12 +242,11 @@ def add_parallel_guide(
         p, q = (point(draft, each) for each in ends)
         if width is None and not draft.planar:
             width = width_across(span(draft, p, q), (x, y, z), "the offset is along the sheets")
-        size = 2 if draft.planar else 3
         rows = []
         for end in (p, q):
-            here = draft.seen(end.position)[:size]
+            here = draft.seen(end.position)
             further = (
-                at_place(draft, [a + k * b for a, b in zip(here, (x, y, z), strict=False)])
+                at_place(draft, Place(here[0] + k * x, here[1] + k * y, here[2] + k * z))
                 for k in range(1, number)
             )
             rows.append([end, *further])
@@ -299,7 +299,7 @@ def add_hexapod(
         if of_points:
             near, far = (_six(draft, side, k) for k, side in enumerate(of_points))
         else:
-            near, far = _zigzag(*sides, height, spread, at)
+            near, far = _zigzag(draft, *sides, height, spread, at)
         ends = [point(draft, each) for each in near], [point(draft, each) for each in far]
         names = numbered(prefixed(name, "wire"), 6, draft.parts_by_name)
         wires = [
@@ -324,18 +324,24 @@ def _six(draft: Draft, given: object, start: int) -> list[Point]:
 
 
 def _zigzag(
-    base: object, platform: object, height: object, spread: object, at: Sequence[Quantity]
+    draft: Draft,
+    base: object,
+    platform: object,
+    height: object,
+    spread: object,
+    at: Sequence[Quantity],
 ) -> tuple[list[Point], list[Point]]:
     """Ends of the six wires: at 0, 120, 240 degrees below, at 60, 180, 300 degrees above."""
     if height is None:
         raise model_error("bad-number", "a hexapod of two radii needs its height")
     what = "a radius or the height of a hexapod is a number"
-    r, s, h = (numbers_of_size(each, (1,), what, "m")[0] for each in (base, platform, height))
+    unit = draft.units.symbol("m")
+    r, s, h = (numbers_of_size(each, (1,), what, unit)[0] for each in (base, platform, height))
     if r <= 0.0 or s <= 0.0:
         raise model_error("bad-size", "a radius of a hexapod is not positive")
     angles = numbers_of_size(spread, (1, 2), "the spread of a hexapod is one angle or two", "deg")
     beta, gamma = angles[0] / 2.0, angles[-1] / 2.0
-    centre = vector(at, "centre of the base", "m")
+    centre = vector(at, "centre of the base", unit)
     top = centre[0], centre[1], centre[2] + h
     near: list[Point] = [
         on_circle(centre, r, 120.0 * (k // 2) + (beta if k % 2 else -beta))

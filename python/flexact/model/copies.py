@@ -223,7 +223,9 @@ def _copies(
     if join is True:
         tolerance = ROUNDING * max(source.size, target.size)
     elif join is not False:
-        tolerance = numbers_of_size(join, (1,), "join is True, False or a distance", "m")[0]
+        tolerance = numbers_of_size(
+            join, (1,), "join is True, False or a distance", target.units.symbol("m")
+        )[0]
     copying = _Copying(source, *chosen, target, tolerance)
     made: list[Copy] = []
     with _all_or_nothing(target):
@@ -498,7 +500,7 @@ class _Copying:
         if index in source.rigid:
             target.rigid.add(new)
         target.say_looks([new], source.said.get(index, {}))
-        target.give_properties(new, source.stiffness.get(index), source.mass.get(index))
+        target.give_properties(new, *source.properties_of(index))
         return new
 
     def _say_of_nodes(self, move: Transform, nodes: dict[int, int]) -> None:

@@ -26,6 +26,7 @@ from ..core.raw import RawCount, RawFrames
 from ..deck.diagnostics import Diagnostic, Problems, Severity, Source, decode, problems_of, warning
 from ..deck.rendering import DeckError, ModelError
 from ..util.records import Frozen, cached_property
+from ..util.units import METRES, Units
 from .names import part_name
 from .parts.chains import Chain, chains_of, directions_across
 from .parts.forms import Form, forms_of
@@ -138,12 +139,17 @@ class Loads(Frozen):
 
 
 #: How many numbers an element or a node has at most of each.
-NUMBERS = {"stiffness": 6, "mass": 5, "node_mass": 6}
+NUMBERS = {
+    **{"stiffness": 6, "mass": 5, "strength": 2, "expansion": 1, "fillet": 1},
+    "node_mass": 6,
+}
+#: Those of elements.
+OF_ELEMENTS = tuple(NUMBERS)[:5]
 
 
 @dataclass(frozen=True, eq=False)
 class Properties(Frozen):
-    """Stiffness and mass; whether a mechanism is exactly constrained does not depend on them.
+    """What parts are made of; whether a mechanism is exactly constrained does not depend on it.
 
     A row holds the numbers of one statement of the deck language, in its order, and NaN
     behind them. A row of NaN: nothing is given.
@@ -154,6 +160,10 @@ class Properties(Frozen):
             truss EA; of a hinge the stiffness about its axis [N m/rad] and about the others.
         mass: (elements, 5) of EM. Of a beam mass [kg/m], then Jxx, Jyy, Jzz, Jyz [kg m] per
             length; of a planar beam mass and J; of a truss or a rigid link mass.
+        strength: (elements, 2) of STRENGTH: the stress at which the material yields or breaks
+            [Pa], and the amplitude that it bears for good.
+        expansion: (elements, 1) of EXPANSION, of the material's length with temperature [1/K].
+        fillet: (elements, 1) of FILLET: the radius of the fillets at the ends [m].
         node_mass: (nodes, 6) of XM. Of a position its mass [kg]; of an orientation Jxx, Jxy,
             Jxz, Jyy, Jyz, Jzz, of a planar one J [kg m^2].
 
@@ -163,7 +173,22 @@ class Properties(Frozen):
 
     stiffness: FloatArray
     mass: FloatArray
+    strength: FloatArray
+    expansion: FloatArray
+    fillet: FloatArray
     node_mass: FloatArray
+
+    @classmethod
+    def none(cls, elements: int, nodes: int) -> Properties:
+        """Of so many elements and nodes nothing is given."""
+        count = {name: elements for name in OF_ELEMENTS} | {"node_mass": nodes}
+        return cls(**{name: np.full((count[name], n), np.nan) for name, n in NUMBERS.items()})
+
+    def of_elements(self, which: IntArray, new_nodes: int = 0) -> Properties:
+        """Those of some elements, one or several times, and of so many more nodes."""
+        none = np.full((new_nodes, self.node_mass.shape[1]), np.nan)
+        tables = {name: getattr(self, name)[which] for name in OF_ELEMENTS}
+        return Properties(**tables, node_mass=np.vstack([self.node_mass, none]))
 
     def __post_init__(self) -> None:
         """Check the arrays and make them read-only."""
@@ -367,6 +392,7 @@ class ModelData(Frozen):
             so that these are not what was typed, though they may look like it.
         began_as: The deck that a model started as which was changed since; its comments stay.
         called: What calls of a script released: indices of elements, and deformations from 1.
+        units: In which numbers are given and said; all arrays are in SI.
     """
 
     arrays: ModelArrays
@@ -383,6 +409,7 @@ class ModelData(Frozen):
     has_long_numbers: bool = False
     began_as: Source | None = None
     called: frozenset[tuple[int, int]] = frozenset()
+    units: Units = METRES
 
     def __post_init__(self) -> None:
         """Make the arrays read-only; without names of nodes all of them are empty."""

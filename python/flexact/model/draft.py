@@ -16,7 +16,8 @@ from ..deck.rendering import ModelError, model_error
 from ..util.groups import grouped
 from ..util.records import cached_property
 from ..util.text import in_short
-from .data import NUMBERS
+from ..util.units import METRES, Units
+from .data import NUMBERS, OF_ELEMENTS
 from .names import one_line, part_name
 from .transform import NO_VECTOR, Transform, Vector
 
@@ -146,9 +147,11 @@ Slots = tuple[int, int, int, int]
 class Draft:
     """Nodes and elements as columns: by number those of nodes, by index those of elements."""
 
-    def __init__(self, planar: bool) -> None:
+    def __init__(self, planar: bool, units: Units = METRES) -> None:
         """Start without nodes or elements."""
         self.planar = planar
+        #: In which numbers without a unit are given; all that is kept is in SI.
+        self.units = units
         #: In which places and directions are given; None: in the model's own.
         self.frame: Transform | None = None
         self.node_kind: dict[int, int] = {}
@@ -177,6 +180,9 @@ class Draft:
         self.said: dict[int, Said] = {}
         self.stiffness: dict[int, Numbers] = {}
         self.mass: dict[int, Numbers] = {}
+        self.strength: dict[int, Numbers] = {}
+        self.expansion: dict[int, Numbers] = {}
+        self.fillet: dict[int, Numbers] = {}
         #: Classes that were stated for single deformations, by index.
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
@@ -302,7 +308,7 @@ class Draft:
         for name in ("kinds", "numbers", "slots", "vectors", "classes"):
             column = getattr(self, name)
             setattr(self, name, [column[i] for i in kept])
-        for name in ("names", "said", "stiffness", "mass"):
+        for name in ("names", "said", *OF_ELEMENTS):
             column = getattr(self, name)
             setattr(self, name, {new[i]: each for i, each in column.items() if i in new})
         self.stated = {(new[i], k): value for (i, k), value in self.stated.items() if i in new}
@@ -334,22 +340,32 @@ class Draft:
                 self.said.setdefault(i, {}).update(said)
 
     def give_properties(
-        self, index: int, stiffness: Numbers | None = None, mass: Numbers | None = None
+        self,
+        index: int,
+        stiffness: Numbers | None = None,
+        mass: Numbers | None = None,
+        strength: Numbers | None = None,
+        expansion: Numbers | None = None,
+        fillet: Numbers | None = None,
     ) -> None:
-        """Give an element the numbers of ESTIFF, of EM, or of both; see `Properties`.
+        """Give an element the numbers of ESTIFF, EM, STRENGTH and others; see `Properties`.
 
         What is not given stays as it was.
 
         Raises:
             ModelError: there are too many numbers, or one is not finite; nothing has changed.
         """
-        if stiffness is not None:
-            _require_numbers("stiffness", stiffness, "stiffness")
-        if mass is not None:
-            _require_numbers("mass", mass, "mass")
-            self.mass[index] = mass
-        if stiffness is not None:
-            self.stiffness[index] = stiffness
+        given = dict(zip(OF_ELEMENTS, (stiffness, mass, strength, expansion, fillet), strict=True))
+        for name, numbers in given.items():
+            if numbers is not None:
+                _require_numbers(name, numbers, name)
+        for name, numbers in given.items():
+            if numbers is not None:
+                getattr(self, name)[index] = numbers
+
+    def properties_of(self, index: int) -> tuple[Numbers | None, ...]:
+        """What was given of an element, in the order of `give_properties`."""
+        return tuple(getattr(self, name).get(index) for name in OF_ELEMENTS)
 
     def give_node_mass(self, number: int, values: Numbers) -> None:
         """Give a node the numbers of XM; see `Properties`.

@@ -12,7 +12,7 @@ from ..core.elements import AXES, Class, NodeKind, is_position, kind_of
 from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
 from ..util.groups import groups_of
 from ..util.text import in_short
-from .data import NUMBERS, Appearance, Loads, ModelData, Properties, rows_of
+from .data import NUMBERS, OF_ELEMENTS, Appearance, Loads, ModelData, Properties, rows_of
 from .draft import Draft, Shape, classes_of
 from .transform import Vector
 
@@ -29,7 +29,7 @@ _LOOKS: dict[str, tuple[int, ...]] = {
 
 def draft_of(data: ModelData) -> Draft:
     """The draft that gives the same arrays."""
-    draft = Draft(data.planar)
+    draft = Draft(data.planar, data.units)
     a = data.arrays
     numbers = a.node_number.tolist()
     draft.node_kind = dict(zip(numbers, a.node_kind.tolist(), strict=True))
@@ -49,8 +49,8 @@ def draft_of(data: ModelData) -> Draft:
         number: name for number, name in zip(numbers, data.node_names, strict=True) if name
     }
     if data.properties is not None:
-        draft.stiffness = dict(rows_of(data.properties.stiffness))
-        draft.mass = dict(rows_of(data.properties.mass))
+        for name in OF_ELEMENTS:
+            setattr(draft, name, dict(rows_of(getattr(data.properties, name))))
         draft.node_mass = {numbers[i]: row for i, row in rows_of(data.properties.node_mass)}
     if data.loads is not None:
         draft.force, draft.increment = (
@@ -128,6 +128,7 @@ def data_of(draft: Draft, name: str) -> ModelData:
         given_appearance=_appearance(draft, elements),
         properties=_properties(draft, elements, numbers),
         loads=_loads(draft, numbers),
+        units=draft.units,
         has_long_numbers=draft.has_long_numbers,
         began_as=draft.began_as,
         called=frozenset(at for at, given in draft.stated.items() if given == Class.DEPENDENT),
@@ -196,16 +197,18 @@ def _appearance(draft: Draft, elements: int) -> Appearance | None:
 
 
 def _properties(draft: Draft, elements: int, node_numbers: Sequence[int]) -> Properties | None:
-    """Stiffness and mass; None where nothing is said."""
-    if not (draft.stiffness or draft.mass or draft.node_mass):
+    """What parts are made of; None where nothing is said."""
+    if not (draft.node_mass or any(getattr(draft, name) for name in OF_ELEMENTS)):
         return None
     place = {number: i for i, number in enumerate(node_numbers)} if draft.node_mass else {}
-    tables = {name: np.full((elements, NUMBERS[name]), np.nan) for name in ("stiffness", "mass")}
-    tables["node_mass"] = np.full((len(node_numbers), NUMBERS["node_mass"]), np.nan)
     at_nodes = {place[n]: row for n, row in draft.node_mass.items() if n in place}
-    for table, said in zip(tables.values(), (draft.stiffness, draft.mass, at_nodes), strict=True):
+    every = {name: (elements, getattr(draft, name)) for name in OF_ELEMENTS}
+    every["node_mass"] = len(node_numbers), at_nodes
+    tables = {}
+    for name, (size, said) in every.items():
+        tables[name] = np.full((size, NUMBERS[name]), np.nan)
         for i, row in said.items():
-            table[i, : len(row)] = row
+            tables[name][i, : len(row)] = row
     return Properties(**tables)
 
 

@@ -172,7 +172,7 @@ def load(
         given = several(x, f"the components of a {what}") or given
     if len(given) == 2:
         given = (*given, 0.0)
-    made = vector(given, what, unit)  # type: ignore[arg-type]
+    made = vector(given, what, draft.units.symbol(unit))  # type: ignore[arg-type]
     if draft.planar and made[2]:
         raise model_error("bad-number", f"the {what} has a z component in a planar model")
     return draft.turned(made)
@@ -191,7 +191,7 @@ def moment(
     given = (x, y, z) if y is not None or z is not None else (0.0, 0.0, x)
     if any(given[:2]):
         raise model_error("bad-number", "a planar moment is one number, that about z")
-    return vector((0.0, 0.0, given[2]), "moment", "N m")  # type: ignore[arg-type]
+    return vector((0.0, 0.0, given[2]), "moment", draft.units.symbol("N m"))  # type: ignore[arg-type]
 
 
 def delete_elements(draft: Draft, indices: Iterable[int], ends: bool = False) -> None:
@@ -304,18 +304,18 @@ def make_of(
         indices = indices_of(draft, found)
         sheet = isinstance(found, Sheet)
         if sheet:
-            shape = sheet_section(section, thickness, breadth)
+            shape = sheet_section(draft.units, section, thickness, breadth)
         else:
-            shape = round_section(section, thickness)
+            shape = round_section(draft.units, section, thickness)
         p, q = draft.slots[indices[0]][0], draft.slots[indices[-1]][2]
         for index in indices:
             kind = element_kinds()[draft.kinds[index] - 1]
             given = shape or draft.said.get(index, {}).get("shape")
-            made = made_of(kind, given, material, "sheet" if sheet else "wire")
+            made = made_of(draft.units, kind, given, material, "sheet" if sheet else "wire")
             if sheet:
                 length = math.dist(draft.node_value[p][:3], draft.node_value[q][:3])
                 made = made.with_warping(warping, length)
-            draft.give_properties(index, made.stiffness, made.mass)
+            draft.give_properties(index, *made.numbers)
             if made.shape is not None:
                 draft.say_looks([index], {"shape": made.shape})
 
@@ -351,7 +351,7 @@ def give_looks(
     indices = drawn_elements(draft, target)
     is_sheet = isinstance(target, (Sheet, FoldedSheet))
     said: Said = {
-        "shape": sheet_shape(section) if is_sheet else shape_of(section),
+        "shape": (sheet_shape if is_sheet else shape_of)(draft.units, section),
         "colour": None if colour is None else _colour(colour, "colour"),
         "edge_colour": None if edge_colour is None else _colour(edge_colour, "colour of the edges"),
     }

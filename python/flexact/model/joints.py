@@ -48,7 +48,7 @@ from .members import (
     width_across,
 )
 from .sections import sheet_section
-from .transform import IDENTITY, NO_VECTOR, Vector, cross, on_circle, sine, unit
+from .transform import IDENTITY, NO_VECTOR, Place, Vector, cross, on_circle, sine, unit
 
 _MOST_ARMS = 1000
 #: Sheets of a cartwheel miss its centre by no more than this part of their length; axes of a
@@ -73,8 +73,8 @@ def _flexures(
         surplus &= {"reinforced"}
     if any(len(widths) == 1 for _, _, widths in every):
         surplus = set()
-        shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
-        round_ = Sizes(None, shape.y if shape else None, sizes.material)
+        shape = sheet_section(draft.units, sizes.section, sizes.thickness, sizes.breadth)
+        round_ = Sizes(None, shape and f"{shape.y!r}m", sizes.material)
     if surplus:
         raise model_error("surplus-size", f"{min(surplus)} is for sheets, which it has not")
     parts: Parts = {}
@@ -185,7 +185,7 @@ def add_infinity_hinge(
         p, q = (point(draft, each) for each in ends)
         low, way, wide = draft.seen(p.position), span(draft, p, q), unit(direction(width, "width"))
         length = math.hypot(*way)
-        away = length if aside is None else _size(aside, "the distance beside the sheet")
+        away = length if aside is None else _size(draft, aside, "the distance beside the sheet")
         yield "sheet", (p, q), [width]
         middle, beside = _along(low, way, 0.5), _along(low, wide, away)
         fold = _along(middle, wide, away + length / 4.0)
@@ -209,11 +209,11 @@ def add_folded_hinge(
     """Folded sheets whose fold lines meet at the origin, tilted out of the xy plane."""
 
     def wanted() -> Iterator[Wanted]:
-        r, slope = _size(radius, "the radius of the folds"), angle(tilt)
+        r, slope = _size(draft, radius, "the radius of the folds"), angle(tilt)
         if not 0.0 < slope < 90.0:
             what = f"fold lines that are tilted by {slope:g} degrees do not hold a point"
             raise model_error("out-of-range", what, "give a tilt between 0 and 90 degrees")
-        leaf = r / 2.0 if arm is None else _size(arm, "the length of a leaf")
+        leaf = r / 2.0 if arm is None else _size(draft, arm, "the length of a leaf")
         for radial, aside in _around(sheets, 3, "sheets"):
             line = _along((0.0, 0.0, sine(slope)), radial, sine(slope + 90.0))
             fold = _along(NO_VECTOR, line, r)
@@ -365,7 +365,7 @@ def add_vee(
     """A ball in a groove: two bars."""
     with call("vee", name):
         name = text(name, "the name of an assembly")
-        ball, size = point(draft, at), _size(length, "the length of the bars of a vee")
+        ball, size = point(draft, at), _size(draft, length, "the length of the bars of a vee")
         place, upward = draft.seen(ball.position), direction(up, "upward direction")
         wanted = _contacts(place, direction(groove, "groove"), upward, size, angle(opening))
         parts, (feet, _) = _flexures(draft, name, wanted, given)
@@ -388,7 +388,10 @@ def add_kinematic_mount(
     """Three vees about z, and the plate whose balls lie in them."""
 
     def wanted() -> Iterator[Wanted]:
-        r, size = _size(radius, "the radius of the balls"), _size(length, "the length of the bars")
+        r, size = (
+            _size(draft, radius, "the radius of the balls"),
+            _size(draft, length, "the length of the bars"),
+        )
         for k in range(3):
             ball = on_circle(NO_VECTOR, r, 120.0 * k)
             groove = on_circle(NO_VECTOR, 1.0, 120.0 * k + angle(turned))
@@ -414,7 +417,7 @@ def add_spider(
 
     def wanted() -> Iterator[Wanted]:
         kind = one_of(layout, LAYOUTS, "the layout of a spider")
-        r, s = _radii(radii)
+        r, s = _radii(draft, radii)
         # How far from the centre a folded arm turns aside: there its leaves are equal.
         corner = (s + math.sqrt(2.0 * r * r - s * s)) / 2.0
         for radial, aside in _around(arms, 2, "arms"):
@@ -442,7 +445,7 @@ def add_diaphragm(
     """A membrane as radial sheets or wires in the xy plane, with its ring and its hub."""
 
     def wanted() -> Iterator[Wanted]:
-        r, s = _radii(radii)
+        r, s = _radii(draft, radii)
         for radial, aside in _around(sheets, 3, "sheets"):
             ends = _along(NO_VECTOR, radial, r), _along(NO_VECTOR, radial, s)
             yield ("wire", ends, ()) if wires else ("sheet", ends, [aside])
@@ -463,25 +466,26 @@ def _around(n: int, least: int, what: str) -> Iterator[tuple[Vector, Vector]]:
         )
 
 
-def _radii(given: tuple[Quantity, Quantity]) -> tuple[float, float]:
+def _radii(draft: Draft, given: tuple[Quantity, Quantity]) -> tuple[float, float]:
     """The outer and the inner radius [m]."""
     r, s = (
-        _size(each, f"the {word} radius")
+        _size(draft, each, f"the {word} radius")
         for word, each in zip(("outer", "inner"), given, strict=True)
     )
     if not s < r:
-        raise model_error("bad-size", f"the inner radius, {s:g} m, is not less than the outer one")
+        small = f"{draft.units.shown(s, 'm'):g} {draft.units.symbol('m')}"
+        raise model_error("bad-size", f"the inner radius, {small}, is not less than the outer one")
     return r, s
 
 
-def _size(given: Quantity, what: str) -> float:
+def _size(draft: Draft, given: Quantity, what: str) -> float:
     """A positive length [m]."""
-    (made,) = numbers_of_size(given, (1,), f"{what} is a number", "m")
+    (made,) = numbers_of_size(given, (1,), f"{what} is a number", draft.units.symbol("m"))
     if made <= 0.0:
-        raise model_error("bad-size", f"{what} is not positive", "give it in metres")
+        raise model_error("bad-size", f"{what} is not positive", "give one that is")
     return made
 
 
-def _along(start: Vector, way: Vector, t: float) -> Vector:
+def _along(start: Vector, way: Vector, t: float) -> Place:
     """A part of the way from a place."""
-    return start[0] + t * way[0], start[1] + t * way[1], start[2] + t * way[2]
+    return Place(start[0] + t * way[0], start[1] + t * way[1], start[2] + t * way[2])

@@ -49,12 +49,12 @@ def add_truss(
 ) -> Element:
     """A bar between two points."""
     name = text(name, "the name of an element")
-    shape = round_section(section, thickness)
+    shape = round_section(draft.units, section, thickness)
     bar = kind(draft, "TRUSS")
-    make = made_of(bar, shape, material, "bar")
+    make = made_of(draft.units, bar, shape, material, "bar")
     slots = (position(draft, p), 0, position(draft, q), 0)
     number = draft.add_element(bar, slots, name, shape=shape)
-    draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+    draft.give_properties(len(draft.kinds) - 1, *make.numbers)
     return Element(number, draft)
 
 
@@ -75,7 +75,7 @@ def add_beam(
     a, b = point(draft, p), point(draft, q)
     slots = (position(draft, a), a.orientation, position(draft, b), b.orientation)
     number = draft.add_element(kind(draft, "BEAM"), slots, name, hint, released, make.shape)
-    draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+    draft.give_properties(len(draft.kinds) - 1, *make.numbers)
     return Element(number, draft)
 
 
@@ -92,7 +92,7 @@ def add_releasing_beam(
     """A beam of which deformations are released one by one, as if they were said afterwards."""
     beam = kind(draft, "BEAM")
     released = deformations(beam, release)
-    make = made_of(beam, shape_of(section), material, "beam")
+    make = made_of(draft.units, beam, shape_of(draft.units, section), material, "beam")
     element = add_beam(draft, p, q, y, (), name, make)
     index = draft.index_of(element.number)
     draft.state_deformations([(index, k) for k in released], Class.DEPENDENT)
@@ -121,7 +121,7 @@ def add_hinge(
     """A hinge between two points at one position; `method` is what users called."""
     with call(method, name):
         name = text(name, "the name of an element")
-        given = None if stiffness is None else _hinge_stiffness(stiffness, draft.planar)
+        given = None if stiffness is None else _hinge_stiffness(draft, stiffness)
         along = NO_VECTOR if axis is None else direction(axis, "axis")
         if draft.planar:
             if any(along[:2]):
@@ -148,12 +148,14 @@ def add_hinge(
         return Notch((Element(number, draft),), (near, q))
 
 
-def _hinge_stiffness(stiffness: Quantity | Sequence[Quantity], planar: bool) -> tuple[float, ...]:
+def _hinge_stiffness(draft: Draft, stiffness: Quantity | Sequence[Quantity]) -> tuple[float, ...]:
     """ESTIFF of a hinge."""
-    what = "the stiffness of a hinge is one number" + ("" if planar else ", or three")
-    made = numbers_of_size(stiffness, (1,) if planar else (1, 3), what, "N m/rad")
+    what = "the stiffness of a hinge is one number" + ("" if draft.planar else ", or three")
+    made = numbers_of_size(
+        stiffness, (1,) if draft.planar else (1, 3), what, draft.units.symbol("N m/rad")
+    )
     if min(made) < 0.0:
-        raise model_error("bad-size", "a stiffness is not negative", "give it in N m/rad")
+        raise model_error("bad-size", "a stiffness is not negative", "give one that is not")
     return made
 
 
@@ -210,8 +212,8 @@ def add_wire(
     """A wire flexure."""
     released = (2, 3) if draft.planar else (2, 3, 4, 5, 6)
     with call("wire", name):
-        shape = round_section(sizes.section, sizes.thickness)
-        make = made_of(kind(draft, "BEAM"), shape, sizes.material, "wire")
+        shape = round_section(draft.units, sizes.section, sizes.thickness)
+        make = made_of(draft.units, kind(draft, "BEAM"), shape, sizes.material, "wire")
         return Wire(*_chain(draft, p, q, y, released, name, make, beams))
 
 
@@ -306,8 +308,8 @@ def add_folded_sheet(
 
 
 def _sheet_make(draft: Draft, sizes: Sizes) -> Make:
-    shape = sheet_section(sizes.section, sizes.thickness, sizes.breadth)
-    return made_of(kind(draft, "BEAM"), shape, sizes.material, "sheet")
+    shape = sheet_section(draft.units, sizes.section, sizes.thickness, sizes.breadth)
+    return made_of(draft.units, kind(draft, "BEAM"), shape, sizes.material, "sheet")
 
 
 def _sheet(

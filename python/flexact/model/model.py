@@ -21,6 +21,7 @@ from ..util.loading import feature
 from ..util.quantities import Quantity
 from ..util.records import read_only
 from ..util.text import in_short
+from ..util.units import METRES, Units, units_of
 from . import assemblies, copies, edits, joints, members
 from .arguments import (
     Direction,
@@ -74,7 +75,8 @@ class Model:
     guides), say what is fixed and independent, and hand the model to `flexact.analyse`.
     Where a point is wanted, a handle, a name, a place (x, y, z) or a body will do;
     where a part is wanted, its handle or its name. A model that was read from a deck has
-    the same methods; `handle` makes points from node numbers. Positions are in metres.
+    the same methods; `handle` makes points from node numbers. Where [m] stands, a number is in the
+    units of the model.
 
     The arrays are read-only and made once; a change of the model makes new ones and
     leaves the old ones as they are. Nodes are in ascending order of their numbers,
@@ -83,13 +85,19 @@ class Model:
     Args:
         planar: A model in the xy plane: two coordinates and one angle a point.
         name: What the model is called in results.
+        units: "m" or "mm". With "mm" numbers without a unit are in mm, N, MPa, N mm and N/mm, in
+            what is given and in what comes back; densities are in kg/m3, masses in kg. A text says
+            its own unit, such as "0.3 mm" or "210 GPa".
     """
 
-    def __init__(self, *unnamed: object, planar: bool = False, name: str = "") -> None:
+    def __init__(
+        self, *unnamed: object, planar: bool = False, name: str = "", units: str | Units = METRES
+    ) -> None:
         """Start an empty model.
 
         Raises:
             TypeError: something is given without its name.
+            QuantityError: there are no such units.
         """
         if unnamed:
             given = in_short(unnamed[0])
@@ -99,7 +107,8 @@ class Model:
             )
         self._planar = bool(planar)
         self._name = text(name, "the name of a model")
-        self._draft: Draft | None = Draft(self._planar)
+        self._units = units_of(units)
+        self._draft: Draft | None = Draft(self._planar, self._units)
         self._data: ModelData | None = None
 
     @classmethod
@@ -112,6 +121,7 @@ class Model:
         require_kind(data, ModelData, "a model starts as the data of one")
         model = cls.__new__(cls)
         model._planar, model._name = data.planar, data.name
+        model._units = data.units
         model._draft, model._data = None, data
         return model
 
@@ -146,6 +156,11 @@ class Model:
     def name(self) -> str:
         """What the model is called; the path of a deck."""
         return self._name
+
+    @property
+    def units(self) -> str:
+        """The units of its numbers, "m" or "mm"."""
+        return self._units.name
 
     @property
     def planar(self) -> bool:
@@ -330,7 +345,9 @@ class Model:
         `section` is how it is drawn, see `look`.
         """
         with call("rigid", name):
-            return members.add_rigid(self._change(), p, q, name, Make(shape_of(section)))
+            return members.add_rigid(
+                self._change(), p, q, name, Make(shape_of(self._units, section))
+            )
 
     def hinge(
         self,

@@ -17,6 +17,7 @@ from ..deck.diagnostics import Diagnostic, Problems, Severity, Source, problems_
 from ..deck.rendering import DeckError
 from ..util.decks import DeckFile
 from ..util.loading import load
+from ..util.units import METRES, MILLIMETRES
 from .data import Appearance, DeckNames, Loads, ModelData, Properties, slips_in
 from .model import Model
 
@@ -131,6 +132,7 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
         properties=Properties(**deck.properties) if is_given else None,
         loads=Loads(**deck.loads) if is_loaded else None,
         has_long_numbers=deck.has_long_numbers,
+        units=MILLIMETRES if deck.length_power else METRES,
     )
     slips = tuple(slips_in(made))
     return replace(made, found=problems.and_also(slips)) if slips else made

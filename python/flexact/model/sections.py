@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 from ..core.elements import Member, NodeKind
@@ -13,6 +13,7 @@ from ..core.raw import ElementKind
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity, QuantityError
 from ..util.text import in_short
+from ..util.units import METRES, Units, units_of
 from .arguments import numbers, numbers_of_size, real
 from .data import CrossSection
 from .draft import Shape
@@ -25,64 +26,134 @@ class Material:
 
     Attributes:
         name: What it is called.
-        E: Young's modulus [Pa]; given as a number or as a text with its unit, "210 GPa".
-        G: Shear modulus [Pa], likewise.
-        density: Mass per volume [kg/m3], likewise; 0 leaves masses out.
+        E: Young's modulus [Pa].
+        G: Shear modulus [Pa].
+        density: Mass per volume [kg/m3]; 0 leaves masses out.
+        strength: Stress at which it yields, or breaks [Pa]; None where it is not known.
+        fatigue: Amplitude of reversed stress that it bears for good [Pa]; None likewise.
+        expansion: Of its length with temperature [1/K]; None likewise.
 
     Raises:
-        ModelError: a modulus is not positive and finite, or the density is negative.
+        ModelError: a modulus or a strength is not positive and finite, or the density is negative.
     """
 
     name: str
     E: float
     G: float
-    density: float = 0.0
+    density: float
+    strength: float | None
+    fatigue: float | None
+    expansion: float | None
 
-    def __init__(self, name: str, E: Quantity, G: Quantity, density: Quantity = 0.0) -> None:  # noqa: N803
-        """Check the values."""
+    def __init__(
+        self,
+        name: str = "",
+        E: Quantity | None = None,  # noqa: N803
+        G: Quantity | None = None,  # noqa: N803
+        density: Quantity = 0.0,
+        strength: Quantity | None = None,
+        fatigue: Quantity | None = None,
+        expansion: Quantity | None = None,
+        *,
+        units: str | Units = METRES,
+    ) -> None:
+        """Take numbers, or texts with their units such as "210 GPa".
+
+        Args:
+            name: What it is called.
+            E: Young's modulus.
+            G: Shear modulus.
+            density: Mass per volume [kg/m3].
+            strength: Stress at which it yields, or breaks.
+            fatigue: Amplitude of reversed stress that it bears for good.
+            expansion: Of its length with temperature [1/K].
+            units: Of numbers without a unit: moduli and strengths are in Pa, with "mm" in MPa.
+        """
         object.__setattr__(self, "name", name)
-        for what, value in (("E", E), ("G", G), ("density", density)):
+        pressure = units_of(units).symbol("Pa")
+        for what, unit, given in (
+            ("E", pressure, E),
+            ("G", pressure, G),
+            ("density", "kg/m3", density),
+            ("strength", pressure, strength),
+            ("fatigue", pressure, fatigue),
+            ("expansion", "1/K", expansion),
+        ):
+            if given is None and what not in ("E", "G"):
+                object.__setattr__(self, what, None)
+                continue
             try:
-                number = real(value, "kg/m3" if what == "density" else "Pa")
+                number = real(given, unit)
             except QuantityError as error:
-                raise model_error(
-                    "bad-material", f"{what} of the material {in_short(self.name)}: {error}"
-                ) from None
+                raise model_error("bad-material", f"{what} of {self._words}: {error}") from None
             except (TypeError, ValueError, OverflowError):
                 number = math.nan
-            if not (math.isfinite(number) and number >= 0.0 and (number or what == "density")):
+            may_be_zero = what in ("density", "expansion")
+            if not (math.isfinite(number) and (number >= 0.0 or what == "expansion")) or (
+                number == 0.0 and not may_be_zero
+            ):
                 raise model_error(
                     "bad-material",
-                    f"{what} of the material {in_short(self.name)} cannot be {in_short(value)}",
-                    "give E and G in Pa and the density in kg/m3",
+                    f"{what} of {self._words} cannot be {in_short(given)}",
+                    f"give E, G and strengths in {pressure}, the density in kg/m3, the expansion "
+                    "in 1/K",
                 )
             object.__setattr__(self, what, number)
 
+    @property
+    def _words(self) -> str:
+        return f"the material {in_short(self.name)}" if self.name else "a material"
 
-#: E, G and density of common materials.
-#: steel: EN 1993-1-1, 3.2.6; density EN 1991-1-1, table A.4.
-#: spring steel: patented cold drawn wire, EN 10270-1 (E 206, G 81.5 GPa, 7.85 kg/dm3).
-#: stainless steel: EN 1993-1-4, 2.1.3, with nu = 0.3; density of 1.4301, EN 10088-1.
-#: aluminium: EN 1999-1-1, 3.2.5.
-#: titanium: Ti-6Al-4V annealed, ASM data sheets MTP643 and MTP644.
+
+#: Common materials.
+#: steel: EN 1993-1-1, 3.2.6 and S235 of table 3.1; density EN 1991-1-1, table A.4.
+#: spring steel: E, G and density of EN 10270-1; strength that of 50CrV4, quenched and tempered
+#: (tensile 1350 MPa); fatigue as below.
+#: tool steel: AISI H13 at 45 HRC (tensile 1420 MPa), Uddeholm, Orvar Supreme; fatigue as below.
+#: stainless steel: EN 1993-1-4, 2.1.3, 1.4301, with nu = 0.3; density EN 10088-1.
+#: aluminium: EN 1999-1-1, 3.2.5. Aluminium 7075-T6: The Aluminum Association, typical values;
+#: fatigue at 5e8 cycles.
+#: titanium: Ti-6Al-4V annealed, ASM data sheets MTP643 and MTP644; fatigue smooth, at 1e7 cycles.
+#: beryllium copper: C17200 TH04 strip, Materion, the lower ends of the ranges; fatigue at 1e8.
+#: PLA: printed, the weaker direction, Stratasys; PA12: sintered, EOS PA 2200; nu is 0.36, 0.4.
+#: Fatigue of both steels: endurance limit 0.5 of the tensile strength, at most 700 MPa, times
+#: 4.51 of it to the power -0.265 for a machined surface, Shigley, eq. (6-8) and table 6-2.
 MATERIALS: Mapping[str, Material] = {
     material.name: material
     for material in (
-        Material("steel", 210.0e9, 81.0e9, 7850.0),
-        Material("spring steel", 206.0e9, 81.5e9, 7850.0),
-        Material("stainless steel", 200.0e9, 200.0e9 / 2.6, 7900.0),
-        Material("aluminium", 70.0e9, 27.0e9, 2700.0),
-        Material("titanium", 113.8e9, 44.0e9, 4430.0),
+        Material("steel", 210.0e9, 81.0e9, 7850.0, 235.0e6, None, 12.0e-6),
+        Material("spring steel", 206.0e9, 81.5e9, 7850.0, 1200.0e6, 450.0e6, 12.0e-6),
+        Material("tool steel", 210.0e9, 81.0e9, 7800.0, 1280.0e6, 460.0e6, 11.0e-6),
+        Material("stainless steel", 200.0e9, 200.0e9 / 2.6, 7900.0, 210.0e6, None, 16.0e-6),
+        Material("aluminium", 70.0e9, 27.0e9, 2700.0, None, None, 23.0e-6),
+        Material("aluminium 7075-T6", 71.7e9, 26.9e9, 2810.0, 503.0e6, 159.0e6, 23.4e-6),
+        Material("titanium", 113.8e9, 44.0e9, 4430.0, 830.0e6, 510.0e6, 8.6e-6),
+        Material("beryllium copper", 131.0e9, 50.0e9, 8360.0, 1130.0e6, 310.0e6, 17.8e-6),
+        Material("PLA", 2.54e9, 2.54e9 / 2.72, 1264.0, 26.0e6, None, 101.0e-6),
+        Material("PA12", 1.65e9, 1.65e9 / 2.8, 930.0, 48.0e6, None, None),
     )
 }
-_SPELLINGS = {"aluminum": "aluminium", "ti-6al-4v": "titanium"}
+#: Spellings that people use, in small letters.
+_SPELLINGS = {
+    **{name.lower(): name for name in MATERIALS},
+    "aluminum": "aluminium",
+    "ti-6al-4v": "titanium",
+    "ti6al4v": "titanium",
+    "al 7075-t6": "aluminium 7075-T6",
+    "7075-t6": "aluminium 7075-T6",
+    "aluminum 7075-t6": "aluminium 7075-T6",
+    "becu": "beryllium copper",
+    "c17200": "beryllium copper",
+    "h13": "tool steel",
+    "50crv4": "spring steel",
+}
 
-#: What stands for a material: itself, the name of a common one, or E, G and density by name.
+#: What stands for a material: itself, the name of a common one, or its values by name.
 MaterialLike = Material | str | Mapping[str, Quantity]
 
 
-def material_of(given: MaterialLike) -> Material:
-    """The material that is meant.
+def material_of(given: MaterialLike, units: Units = METRES) -> Material:
+    """The material that is meant; numbers of a mapping are in the units.
 
     Raises:
         ModelError: nothing is known by this name, or a mapping lacks E or G.
@@ -90,8 +161,7 @@ def material_of(given: MaterialLike) -> Material:
     if isinstance(given, Material):
         return given
     if isinstance(given, str):
-        name = " ".join(given.lower().split())
-        found = MATERIALS.get(_SPELLINGS.get(name, name))
+        found = MATERIALS.get(_SPELLINGS.get(" ".join(given.lower().split()), ""))
         if found is None:
             near = " or ".join(map(in_short, nearest(given, MATERIALS) or MATERIALS))
             raise model_error(
@@ -100,8 +170,9 @@ def material_of(given: MaterialLike) -> Material:
                 f"give {near}, or flexact.Material(name, E, G, density)",
             )
         return found
-    if isinstance(given, Mapping) and {"E", "G"} <= given.keys() <= {"E", "G", "density"}:
-        return Material("given", **given)
+    known = {each.name for each in fields(Material)} - {"name"}
+    if isinstance(given, Mapping) and {"E", "G"} <= given.keys() <= known:
+        return Material("given", **given, units=units)
     raise model_error(
         "bad-material",
         f"a material cannot be {in_short(given)}",
@@ -115,11 +186,18 @@ _ODD = range(1, 13, 2)
 
 
 class Make(NamedTuple):
-    """What a part is made of: its section as drawn, ESTIFF and EM of each of its elements."""
+    """What a part is made of: its section as drawn, and the properties of each of its elements."""
 
     shape: Shape | None = None
     stiffness: tuple[float, ...] | None = None
     mass: tuple[float, ...] | None = None
+    strength: tuple[float, ...] | None = None
+    expansion: tuple[float, ...] | None = None
+
+    @property
+    def numbers(self) -> tuple[tuple[float, ...] | None, ...]:
+        """As `Draft.give_properties` takes them."""
+        return self[1:]
 
     def with_warping(self, warping: bool | float, length: float) -> Make:
         """The same with G It times a factor: that of held warping for True, none for False.
@@ -153,7 +231,7 @@ class Make(NamedTuple):
 Section = Quantity | Sequence[Quantity]
 
 
-def shape_of(section: Section | None) -> Shape | None:
+def shape_of(units: Units, section: Section | None) -> Shape | None:
     """A cross-section from a diameter, or from the sizes along local y and z [m], or none.
 
     Raises:
@@ -163,24 +241,24 @@ def shape_of(section: Section | None) -> Shape | None:
         return None
     what = "a section is a diameter, or two sizes along the local y and z axes"
     if isinstance(section, Iterable) and not isinstance(section, str):
-        sizes = numbers(section, 2, what, "m")
+        sizes = numbers(section, 2, what, units.symbol("m"))
     else:
-        sizes = numbers([section], 1, what, "m")
+        sizes = numbers([section], 1, what, units.symbol("m"))
     if not all(size > 0.0 for size in sizes):
         raise model_error(
-            "bad-size", "a size of a cross-section is not positive", "give sizes in metres"
+            "bad-size", "a size of a cross-section is not positive", "give sizes that are"
         )
     kind = CrossSection.CIRC if len(sizes) == 1 else CrossSection.RECT
     return Shape(kind, sizes[0], sizes[-1])
 
 
-def sheet_shape(section: Section | None) -> Shape | None:
+def sheet_shape(units: Units, section: Section | None) -> Shape | None:
     """A cross-section from the width and the thickness of a sheet, whose width is local z."""
     if section is None:
         return None
     what = "the section of a sheet is its width and its thickness"
-    width, thickness = numbers(section, 2, what, "m")
-    return shape_of((thickness, width))
+    width, thickness = numbers(section, 2, what, units.symbol("m"))
+    return shape_of(METRES, (thickness, width))
 
 
 class Constants(NamedTuple):
@@ -193,7 +271,7 @@ class Constants(NamedTuple):
 
 
 def made_of(
-    kind: ElementKind, shape: Shape | None, material: MaterialLike | None, what: str
+    units: Units, kind: ElementKind, shape: Shape | None, material: MaterialLike | None, what: str
 ) -> Make:
     """What an element with this section and material is made of.
 
@@ -202,26 +280,34 @@ def made_of(
     """
     if material is None:
         return Make(shape)
-    made = material_of(material)
+    made = material_of(material, units)
     if shape is None:
         raise model_error(
             "missing-section", f"a material needs the size of the {what}", _SIZES[what]
         )
     if kind.member not in (Member.BAR, Member.BEAM):
         raise model_error("no-section", f"a {kind.keyword} takes no material")
-    return Make(shape, stiffness(kind, shape, made), mass(kind, shape, made))
+    strengths = tuple(each for each in (made.strength, made.fatigue) if each is not None)
+    if made.strength is None and made.fatigue is not None:
+        # What bears no more for good has at least that strength.
+        strengths = made.fatigue, made.fatigue
+    expansion = None if made.expansion is None else (made.expansion,)
+    return Make(
+        *(shape, stiffness(kind, shape, made), mass(kind, shape, made)),
+        *(strengths or None, expansion),
+    )
 
 
 _SIZES = {
-    "sheet": "give thickness and breadth, or section=(breadth, thickness), in metres",
-    "wire": "give thickness, the diameter, or section, in metres",
-    "beam": "give section: a diameter, or the sizes along local y and z, in metres",
-    "bar": "give thickness, the diameter, or section, in metres",
+    "sheet": "give thickness and breadth, or section=(breadth, thickness)",
+    "wire": "give thickness, the diameter, or section",
+    "beam": "give section: a diameter, or the sizes along local y and z",
+    "bar": "give thickness, the diameter, or section",
 }
 
 
 def sheet_section(
-    section: Section | None, thickness: Quantity | None, breadth: Quantity | None
+    units: Units, section: Section | None, thickness: Quantity | None, breadth: Quantity | None
 ) -> Shape | None:
     """The section of a sheet, whose breadth is along local z.
 
@@ -229,7 +315,7 @@ def sheet_section(
         ModelError: something is given twice, or one of the two sizes is missing.
     """
     if thickness is None and breadth is None:
-        return sheet_shape(section)
+        return sheet_shape(units, section)
     _require_once(section)
     if thickness is None or breadth is None:
         raise model_error(
@@ -237,19 +323,23 @@ def sheet_section(
             "a sheet needs both its thickness and its breadth, the size along its width",
             _SIZES["sheet"],
         )
-    return sheet_shape((_size(breadth, "breadth"), _size(thickness, "thickness")))
+    return sheet_shape(
+        METRES, (_size(units, breadth, "breadth"), _size(units, thickness, "thickness"))
+    )
 
 
-def round_section(section: Section | None, thickness: Quantity | None) -> Shape | None:
+def round_section(
+    units: Units, section: Section | None, thickness: Quantity | None
+) -> Shape | None:
     """The section of a wire or bar; its thickness is the diameter.
 
     Raises:
         ModelError: both are given.
     """
     if thickness is None:
-        return shape_of(section)
+        return shape_of(units, section)
     _require_once(section)
-    return shape_of(_size(thickness, "thickness"))
+    return shape_of(METRES, _size(units, thickness, "thickness"))
 
 
 def _require_once(section: object) -> None:
@@ -259,9 +349,9 @@ def _require_once(section: object) -> None:
         )
 
 
-def _size(given: object, what: str) -> float:
+def _size(units: Units, given: object, what: str) -> float:
     """A size [m]; `shape_of` asks that it be positive."""
-    return numbers([given], 1, f"the {what} is a number", "m")[0]
+    return numbers([given], 1, f"the {what} is a number", units.symbol("m"))[0]
 
 
 def constants_of(shape: Shape) -> Constants:

@@ -150,7 +150,15 @@ def sine(degrees: float) -> float:
     return sign * _SINES[min(steps, 6 - steps)] + 0.0
 
 
-def on_circle(centre: Vector, radius: float, degrees: float) -> Vector:
+class Place(NamedTuple):
+    """A place that was computed [m], whatever the units of the model are."""
+
+    x: float
+    y: float
+    z: float
+
+
+def on_circle(centre: Vector, radius: float, degrees: float) -> Place:
     """The point of a circle about z at an angle from x [degrees]."""
     x, y = radius * sine(degrees + 90.0), radius * sine(degrees)
-    return centre[0] + x, centre[1] + y, centre[2]
+    return Place(centre[0] + x, centre[1] + y, centre[2])

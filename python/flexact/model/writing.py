@@ -9,22 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import BoolArray, FloatArray, IntArray
-from ..core.elements import AXES, Class, NodeKind, keywords_of
-from ..deck.keywords import Block
-from ..deck.tokens import ELEMENT, GRAVITY, DeckComments, comments_of, tokens_of
+from ..core.elements import AXES, Class, NodeKind, element_kinds, keywords_of
+from ..core.raw import Meaning
+from ..deck.keywords import GRAVITY as GRAVITY_MEANT
+from ..deck.keywords import VALUE, Block, of_element, of_node
+from ..deck.tokens import ELEMENT, GRAVITY, UNITS, DeckComments, comments_of, tokens_of
 from ..util.groups import grouped
-from .data import Appearance, CrossSection, ModelData, rows_of
+from .data import OF_ELEMENTS, Appearance, CrossSection, ModelData, rows_of
 from .names import one_line
 
 _IDENTITY = {
     NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],
     NodeKind.ORIENTATION: [1.0, 0.0, 0.0, 0.0],
-}
-_VALUES = {
-    NodeKind.PLANAR_POSITION: 2,
-    NodeKind.POSITION: 3,
-    NodeKind.ANGLE: 1,
-    NodeKind.ORIENTATION: 4,
 }
 #: Component of axis 0 by kind of node, less that axis: lambda1 is component 2.
 FIRST_COMPONENT = {
@@ -46,13 +42,14 @@ def deck_of(data: ModelData) -> str:
     # What a file is called does not stand in it.
     title = one_line(data.name) if origin is None else ""
     appearance, numbers = data.given_appearance, data.arrays.element_number
-    picture = [] if appearance is None else [*_picture(appearance, numbers)]
+    picture = [] if appearance is None else [*_picture(data, appearance, numbers)]
     if appearance is not None and appearance.body_shape.any() and len(picture) == _HEAD:
         # Decks have no word for as what bodies are drawn.
         picture = []
     dynamics = dynamics_of(data, comments)
     blocks = (
         [f"% {title}"] if title else comments.top,
+        beside(UNITS, [(0, f"UNITS {data.units.name}")] if data.units.power else []),
         *(beside(*each) for each in _kinematics(data, comments)),
         comments.end,
         ["END"],
@@ -63,6 +60,8 @@ def deck_of(data: ModelData) -> str:
     return "\n".join(line for block in blocks for line in block) + "\n"
 
 
+#: Their keywords, in the order of `OF_ELEMENTS`.
+_OF_ELEMENTS = "ESTIFF", "EM", "STRENGTH", "EXPANSION", "FILLET"
 #: A line of a statement, and the number of its element or node.
 _Statements = Iterator[tuple[int, str]]
 
@@ -89,6 +88,16 @@ def _kinematics(data: ModelData, comments: DeckComments) -> Iterator[tuple[str, 
         ("DYNE", elements, Class.INDEPENDENT),
     ):
         yield keyword, _classes(*owners, keyword, wanted)
+
+
+def _typed(data: ModelData, values: Iterable[float], units: Iterable[str]) -> str:
+    """Numbers of some SI units in those of the deck."""
+    return " ".join(map(data.units.typed, values, units))
+
+
+def _units_of(meanings: Iterable[Meaning]) -> list[str]:
+    """As `Units` has them."""
+    return [each.unit.replace("^", "") for each in meanings]
 
 
 def _elements(data: ModelData) -> _Statements:
@@ -120,7 +129,7 @@ def _values(data: ModelData, comments: DeckComments) -> _Statements:
         strict=True,
     ):
         if name or value != _IDENTITY.get(kind) or ("X", number) in comments.before:
-            line = f"X {number} {' '.join(map(repr, value[: _VALUES[kind]]))}"
+            line = f"X {number} {_typed(data, value, _units_of(VALUE[kind]))}"
             yield number, f"{line} % {name}" if name else line
 
 
@@ -145,25 +154,33 @@ def dynamics_of(data: ModelData, comments: DeckComments) -> list[str]:
     tables: list[tuple[str, IntArray, Iterable[tuple[int, tuple[float, ...]]]]] = []
     if given is not None:
         tables += [
-            ("ESTIFF", elements, rows_of(given.stiffness)),
-            ("EM", elements, rows_of(given.mass)),
-            ("XM", nodes, rows_of(given.node_mass)),
+            (keyword, elements, rows_of(getattr(given, name)))
+            for keyword, name in zip(_OF_ELEMENTS, OF_ELEMENTS, strict=True)
         ]
+        tables.append(("XM", nodes, rows_of(given.node_mass)))
     if loads is not None:
         tables += [
             ("XF", nodes, _loads(data, loads.force)),
             ("DELXF", nodes, _loads(data, loads.increment)),
         ]
+    kinds = element_kinds()
     made: list[str] = []
     for keyword, numbers, rows in tables:
-        statements = (
-            (number := int(numbers[i]), " ".join([keyword, str(number), *map(repr, row)]))
-            for i, row in rows
-        )
+        statements = []
+        for i, row in rows:
+            if numbers is elements:
+                meant = of_element(keyword, kinds[data.arrays.element_kind[i] - 1])
+            else:
+                meant = of_node(keyword, int(data.arrays.node_kind[i]))
+            number, units = int(numbers[i]), _units_of(meant)
+            # Of numbers that mean nothing, or are too many, nothing is known.
+            units += [""] * (len(row) - len(units))
+            statements.append((number, f"{keyword} {number} {_typed(data, row, units)}"))
         made += comments.beside(keyword, statements)
     if loads is not None and loads.gravity.any():
-        words = ["GRAVITY", *map(repr, loads.gravity[: 2 if data.planar else 3].tolist())]
-        made += comments.beside(GRAVITY, [(0, " ".join(words))])
+        gravity = loads.gravity[: 2 if data.planar else 3].tolist()
+        said = f"GRAVITY {_typed(data, gravity, _units_of(GRAVITY_MEANT))}"
+        made += comments.beside(GRAVITY, [(0, said)])
     return made
 
 
@@ -180,11 +197,11 @@ _NUMBERS_A_LINE = 16
 _HEAD = 2
 
 
-def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:
+def _picture(data: ModelData, appearance: Appearance, numbers: IntArray) -> Iterator[str]:
     """The picture block; elements that look alike share their options."""
     yield from ("", "VISUALIZATION")
     for name, options in (
-        ("BEAMPROPS", _cross_sections(appearance)),
+        ("BEAMPROPS", _cross_sections(data, appearance)),
         ("GRAPHICS", _colours(appearance)),
     ):
         pairs = zip(options, numbers.tolist(), strict=True)
@@ -203,14 +220,15 @@ def _in_lines(name: str, elements: list[int]) -> Iterator[str]:
         yield " ".join([name, *map(str, elements[i : i + _NUMBERS_A_LINE])])
 
 
-def _cross_sections(appearance: Appearance) -> Iterable[tuple[str, ...]]:
+def _cross_sections(data: ModelData, appearance: Appearance) -> Iterable[tuple[str, ...]]:
     for kind, sizes in zip(
         appearance.cross_section.tolist(), appearance.dimensions.tolist(), strict=True
     ):
         lines = [f"CROSSTYPE {CrossSection(kind).name}"] if kind else []
         if any(sizes):
             round_one = kind in (CrossSection.CIRC, CrossSection.CIRCHOL)
-            lines.append("CROSSDIM " + " ".join(map(repr, sizes[:1] if round_one else sizes)))
+            said = _typed(data, sizes[:1] if round_one else sizes, ("m", "m"))
+            lines.append(f"CROSSDIM {said}")
         yield tuple(lines)
 
 

@@ -8,6 +8,8 @@ import re
 from decimal import Decimal
 from typing import Any, NamedTuple, SupportsFloat, SupportsIndex
 
+import numpy as np
+
 from .errors import FlexactError
 from .text import in_short
 
@@ -26,13 +28,15 @@ class _Kind(NamedTuple):
     example: str
     powers: dict[str, int]
     """Powers of ten by unit without blanks, so that 5um is the number that 5e-6 is."""
+    plain: int = 0
+    """That of a number without a unit."""
 
 
 def _prefixed(unit: str, **more: int) -> dict[str, int]:
     return {unit: 0, **{prefix + unit: power for prefix, power in _SMALL.items()}, **more}
 
 
-#: By SI unit.
+#: By the unit of a number that says none; what is read is in SI.
 _KINDS = {
     "m": _Kind("a length", "50um, 0.1mm or 5e-5", _prefixed("m", cm=-2)),
     "rad": _Kind("an angle", "50urad, 1mrad, 2deg or 1e-3", _prefixed("rad")),
@@ -43,12 +47,17 @@ _KINDS = {
     ),
     "kg/m3": _Kind("a density", "7850kg/m3 or 7850", {"kg/m3": 0, "g/cm3": 3, "kg/dm3": 3}),
     "kg": _Kind("a mass", "0.2kg or 200g", {"kg": 0, "g": -3, "mg": -6}),
-    "kg m2": _Kind("a moment of inertia", "2e-4kgm2 or 2e-4", {"kgm2": 0}),
+    "kg m2": _Kind("a moment of inertia", "2e-4kgm2 or 2e-4", {"kgm2": 0, "kgmm2": -6}),
     "N": _Kind("a force", "5N or 20mN", _prefixed("N", kN=3)),
     "N m": _Kind("a moment", "0.5Nm or 20Nmm", {"Nm": 0, "mNm": -3, "Nmm": -3, "kNm": 3}),
     "N/m": _Kind("a stiffness", "5N/mm or 5000", {"N/m": 0, "N/mm": 3, "kN/m": 3, "N/um": 6}),
-    "N m/rad": _Kind("a stiffness", "3.5Nm/rad or 3.5", {"Nm/rad": 0, "mNm/rad": -3}),
+    "N m/rad": _Kind(
+        *("a stiffness", "3.5Nm/rad or 3.5"), {"Nm/rad": 0, "mNm/rad": -3, "Nmm/rad": -3}
+    ),
     "m/s2": _Kind("an acceleration", "9.81m/s2 or 9.81", {"m/s2": 0, "mm/s2": -3}),
+    "1/K": _Kind("an expansion", "11e-6 or 11um/m/K", {"1/K": 0, "ppm/K": -6, "um/m/K": -6}),
+    "K/m": _Kind("a gradient of temperature", "5K/m or 0.005K/mm", {"K/m": 0, "K/mm": 3}),
+    "K": _Kind("a temperature difference", "10 or 10K", {"K": 0, "mK": -3}),
 }
 #: Of a notch, which bends or, of an elongation, stretches.
 NOTCH = "N m/rad or N/m"
@@ -56,6 +65,17 @@ _KINDS[NOTCH] = _Kind(
     *("a stiffness", "3.5Nm/rad, 5N/mm or 3.5"),
     {**_KINDS["N m/rad"].powers, **_KINDS["N/m"].powers},
 )
+for _unit, _small, _example, _plain in (
+    ("m", "mm", "0.3, 300um or 0.3mm", -3),
+    ("Pa", "MPa", "210000 or 210GPa", 6),
+    ("kg m2", "kg mm2", "200 or 2e-4kgm2", -6),
+    ("N m", "N mm", "20 or 20Nmm", -3),
+    ("N/m", "N/mm", "5 or 5N/mm", 3),
+    ("N m/rad", "N mm/rad", "3500 or 3.5Nm/rad", -3),
+    ("m/s2", "mm/s2", "9810 or 9.81m/s2", -3),
+    ("K/m", "K/mm", "0.005 or 5K/m", 3),
+):
+    _KINDS[_small] = _KINDS[_unit]._replace(example=_example, plain=_plain)
 _DEGREES = ("deg", "\N{DEGREE SIGN}")
 
 
@@ -84,7 +104,9 @@ def measured(given: object, unit: str) -> float:
     if not isinstance(given, str):
         if not isinstance(given, (SupportsFloat, SupportsIndex)):
             raise TypeError
-        return float(given)
+        plain = _KINDS[unit].plain
+        # By its digits, so that 0.3 mm is the number that 0.0003 is.
+        return float(Decimal(repr(float(given))).scaleb(plain)) if plain else float(given)
     value, said = _read(given, unit)
     if not said:
         raise QuantityError(
@@ -95,7 +117,9 @@ def measured(given: object, unit: str) -> float:
 
 
 def without_units(given: object, unit: str) -> Any:
-    """What is given with each text in it, alone or in lists and tuples, as its number.
+    """What is given with each text in it, alone or in lists and tuples, as its number in SI.
+
+    Numbers are in the unit; what is none stays.
 
     Raises:
         QuantityError: as of `measured`.
@@ -104,6 +128,11 @@ def without_units(given: object, unit: str) -> Any:
         return measured(given, unit)
     if isinstance(given, (list, tuple)):
         return [without_units(each, unit) for each in given]
+    if _KINDS[unit].plain and not isinstance(given, (bool, np.bool_)):
+        if isinstance(given, np.ndarray) and given.ndim:
+            return np.reshape([without_units(each, unit) for each in given.ravel()], given.shape)
+        if isinstance(given, (int, float, np.number, np.ndarray)):
+            return measured(given, unit)
     return given
 
 
@@ -116,7 +145,7 @@ def _read(text: str, unit: str) -> tuple[float, str]:
     if found is not None:
         turned = _KINDS["rad"].powers.get(said)
         if not said or (unit == "deg" and said in _DEGREES):
-            value = float(found[1])
+            value = float(Decimal(found[1]).scaleb(kind.plain))
         elif unit == "deg" and turned is not None:
             value = math.degrees(float(Decimal(found[1]).scaleb(turned)))
         elif unit == "rad" and said in _DEGREES:

@@ -47,7 +47,7 @@ class Symbol(NamedTuple):
 
 _TABLES = {
     "classes": "classes",
-    "properties": "stiffness and mass",
+    "properties": "material",
     "loads": "loads",
     "pictures": "pictures",
     "unused": "read and not used",
