@@ -21,6 +21,8 @@ from .errors import ElasticError
 from .points import Coordinate
 from .solution import Solution, packed_with
 
+#: What is rigid follows a support where no more than this part of what it asks is left.
+_FOLLOWED = 1.0e-6
 #: Free coordinates of a mesh beyond which its matrices are not decomposed.
 MOST = 2500
 #: Rigid rows of which no more is left than this, of 1, depend on others.
@@ -45,7 +47,9 @@ class Modes(NamedTuple):
     shape: FloatArray
     """(3 nodes, n) of them, each with a modal mass of 1 kg."""
     massless: FloatArray
-    """(3 nodes, s) motions without mass: compliance is the sum of their squares."""
+    """(3 nodes, s) motions without mass, each with a stiffness of 1 N/m in size."""
+    sign: FloatArray
+    """(s,) of these stiffnesses: -1 where one has buckled."""
     lost: FloatArray
     """(3 nodes, l) motions with neither stiffness nor mass."""
     follow: FloatArray
@@ -64,10 +68,9 @@ def modes_of(at: Solution, moved: FloatArray) -> Modes:
 
     Raises:
         ElasticError: the mesh is too large; or a body is half a turn away; or what is rigid does
-            not follow; or a motion without mass has no positive stiffness.
+            not follow; or a motion without mass has no stiffness but that of stress.
     """
     arrays = at.solver.mesh.data.arrays
-    nodes = arrays.node_number.size
     given = arrays.coordinate_class
     is_free = given > Class.FIXED
     for node, axis in at.held:
@@ -89,7 +92,42 @@ def modes_of(at: Solution, moved: FloatArray) -> Modes:
     basis = _basis(rows[:, free] / scale[free]) / scale[free][:, None]
     weight = _root(mass[np.ix_(free, free)]) @ basis
     stiff, bent = strain[:, free] @ basis, basis.T @ hessian[np.ix_(free, free)] @ basis
-    shift = _shift(at)
+    square, heavy, light, sign, lost = _decomposed(stiff, bent, weight, _shift(at))
+    shape, light = basis @ heavy, basis @ light
+
+    # Least motions that what is rigid asks for, then equilibrium, refined.
+    follow = known.copy()
+    asked = rows @ follow
+    if np.abs(asked).max(initial=0.0) > 0.0:
+        least = np.linalg.lstsq(rows[:, free] / scale[free], asked, rcond=_DEPENDENT)[0]
+        follow[free] -= least / scale[free][:, None]
+        if np.abs(rows @ follow).max() > _FOLLOWED * np.abs(asked).max():
+            raise ElasticError("what is rigid does not let this support move by itself")
+    soft = square != 0.0
+    for _ in range(3):
+        force = strain[:, free].T @ (strain @ follow) + hessian[free] @ follow
+        follow[free] -= (light * sign) @ (light.T @ force)
+        follow[free] -= shape[:, soft] @ ((shape[:, soft].T @ force) / square[soft, None])
+    whole = mapping[:, free]
+    return Modes(
+        square,
+        np.asarray(whole @ shape),
+        np.asarray(whole @ light),
+        sign,
+        np.asarray(whole @ (basis @ lost)),
+        np.asarray(mapping @ follow),
+        np.asarray(shape.T @ mass[free] @ follow),
+    )
+
+
+def _decomposed(
+    stiff: FloatArray, bent: FloatArray, weight: FloatArray, shift: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Modes of K = stiff'stiff + bent and M = weight'weight, as `Modes` has them.
+
+    In a basis in which stiff'stiff + shift M is one, found from its factor and made exact by
+    products with it, K + shift M is positive but where something without mass has buckled.
+    """
     both = np.vstack([stiff, np.sqrt(shift) * weight])
     length = np.linalg.norm(both, axis=0)
     length[length == 0.0] = 1.0
@@ -97,46 +135,34 @@ def modes_of(at: Solution, moved: FloatArray) -> Modes:
     there = values > _NOTHING * values.max(initial=0.0)
     lost = right[~there].T / length[:, None]
     inner = right[there].T / values[there] / length[:, None]
-    if lost.size and np.abs(bent @ lost).max() > _ZERO * np.abs(bent).max(initial=0.0) > 0.0:
+    if np.abs(bent @ lost).max(initial=0.0) > _ZERO * np.abs(bent).max(initial=0.0):
         raise ElasticError(_ILL_POSED)
-    # In this basis K + shift M is about one; products from strains make up for the rest.
     made = both @ inner
+    whole = made.T @ made + inner.T @ bent @ inner
     try:
-        factor = np.linalg.cholesky(made.T @ made + inner.T @ bent @ inner)
+        factor, is_positive = np.linalg.cholesky(whole), True
+        inner = np.linalg.solve(factor, inner.T).T
     except np.linalg.LinAlgError:
-        raise ElasticError(_ILL_POSED) from None
-    inner = np.linalg.solve(factor, inner.T).T
+        is_positive = False
     _, roots, turned = np.linalg.svd(weight @ inner, full_matrices=False)
-    inner = inner @ turned.T
-    heavy = roots > _LIGHT * roots.max(initial=0.0)
-    inverse = 1.0 / roots[heavy] ** 2
-    square = np.where(np.abs(inverse - shift) < _ZERO * shift, 0.0, inverse - shift)
-    shape = basis @ (inner[:, heavy] / roots[heavy])
-    light = basis @ inner[:, ~heavy]
-
-    # Least strain of what follows, then its equilibrium, refined.
-    follow = known.copy()
-    asked = rows @ follow
-    if np.abs(asked).max(initial=0.0) > 0.0:
-        follow[free] -= np.linalg.lstsq(rows[:, free] / scale[free], asked, rcond=_DEPENDENT)[0] / (
-            scale[free][:, None]
-        )
-        left = np.abs(rows @ follow).max(initial=0.0)
-        if left > 1e-6 * np.abs(asked).max():
-            raise ElasticError("what is rigid does not let this support move by itself")
-    soft = square != 0.0
-    for _ in range(3):
-        force = strain[:, free].T @ (strain @ follow) + hessian[free] @ follow
-        follow[free] -= light @ (light.T @ force)
-        follow[free] -= shape[:, soft] @ ((shape[:, soft].T @ force) / square[soft, None])
-
-    def whole(motions: FloatArray) -> FloatArray:
-        return np.asarray(mapping[:, free] @ motions)
-
-    carried = shape.T @ mass[free] @ follow
-    return Modes(
-        square, whole(shape), whole(light), whole(basis @ lost), mapping @ follow, carried
-    )
+    inner, is_heavy = inner @ turned.T, roots > _LIGHT * roots.max(initial=0.0)
+    heavy, light, roots = inner[:, is_heavy], inner[:, ~is_heavy], roots[is_heavy]
+    square, sign = 1.0 / roots**2, np.ones(light.shape[1])
+    heavy = heavy / roots
+    if not is_positive:
+        # What has no mass is condensed.
+        whole = turned @ whole @ turned.T
+        values, vectors = np.linalg.eigh(whole[np.ix_(~is_heavy, ~is_heavy)])
+        if np.abs(values).min(initial=1.0) < _ZERO * np.abs(values).max(initial=0.0):
+            raise ElasticError(_ILL_POSED)
+        sign, vectors = np.sign(values), vectors / np.sqrt(np.abs(values))
+        light = light @ vectors
+        across = vectors.T @ whole[np.ix_(~is_heavy, is_heavy)] / roots
+        inside = whole[np.ix_(is_heavy, is_heavy)] / np.outer(roots, roots)
+        square, vectors = np.linalg.eigh(inside - across.T @ (sign[:, None] * across))
+        heavy = (heavy - light @ (sign[:, None] * across)) @ vectors
+    square = np.where(np.abs(square - shift) < _ZERO * shift, 0.0, square - shift)
+    return square, heavy, light, sign, lost
 
 
 _ILL_POSED = (

@@ -33,8 +33,8 @@ from ..util.text import in_short
 from ..util.units import Units
 from .equilibria import misalignment
 from .errors import ElasticError
-from .modal import Modes, modes_of
-from .points import Coordinate, Points
+from .modal import modes_of
+from .points import Points
 from .solution import Solution
 
 ComplexArray = NDArray[np.complex128]
@@ -205,16 +205,14 @@ class StateSpace(Frozen):
     @property
     def frequencies(self) -> FloatArray:
         """(n,) natural frequencies of its modes [Hz], without damping; negative of unstable."""
-        return np.asarray(
-            np.sign(self.square) * np.sqrt(np.abs(self.square)) / (2.0 * math.pi)
-        )
+        return np.asarray(np.sign(self.square) * np.sqrt(np.abs(self.square)) / (2.0 * math.pi))
 
     @property
     def poles(self) -> ComplexArray:
         """(2 n,) eigenvalues of A [rad/s], pair by pair as the modes are."""
         half = self._drag / 2.0
         root = np.sqrt((half**2 - self.square).astype(np.complex128))
-        return np.stack((-half + root, -half - root), axis=1).ravel()
+        return np.asarray(np.stack((-half + root, -half - root), axis=1).ravel())
 
     @cached_property
     def zeros(self) -> ComplexArray:
@@ -517,7 +515,9 @@ def state_space_of(
         )
     moved = np.zeros((3, at.solver.nodes, int(is_motion.sum())))
     motions = [each.vector for each in acting if each.kind == MOTION]
-    moved[:, : points.kinds.size] = np.moveaxis(np.array(motions).reshape(-1, 3, points.kinds.size), 0, 2)
+    moved[:, : points.kinds.size] = np.moveaxis(
+        np.array(motions).reshape(-1, 3, points.kinds.size), 0, 2
+    )
     found = modes_of(at, moved)
 
     def along(motions: FloatArray, signals: Sequence[Signal]) -> FloatArray:
@@ -539,6 +539,7 @@ def state_space_of(
     force, slight = (along(each, acting).T * forces for each in (found.shape, found.massless))
     carried = np.zeros_like(force)
     carried[:, is_motion] = found.carried
+    slight = found.sign[:, None] * slight
     through = light @ slight
     through[:, is_motion] += along(found.follow, seen)
 
@@ -635,12 +636,16 @@ def _parts_of(given: object, is_input: bool) -> tuple[list[tuple[object, str]], 
 
 def _label(points: Points, pairs: Sequence[tuple[object, str]]) -> str:
     def name(point: object) -> str:
-        return str(point) if isinstance(point, (str, int)) else str(points.number(points.node(point)))
+        return (
+            str(point) if isinstance(point, (str, int)) else str(points.number(points.node(point)))
+        )
 
     return "-".join(f"{name(point)}:{coordinate}" for point, coordinate in pairs)
 
 
-def _vector(points: Points, pairs: Sequence[tuple[object, str]], what: str) -> tuple[FloatArray, bool]:
+def _vector(
+    points: Points, pairs: Sequence[tuple[object, str]], what: str
+) -> tuple[FloatArray, bool]:
     """(3, nodes) one at a coordinate, less one at another, and whether they are rotations.
 
     Raises:
@@ -764,7 +769,11 @@ def _damping_given(given: ArrayLike, many: int, is_all: bool) -> FloatArray:
     if ratios.ndim == 0:
         return np.full(many, float(ratios))
     if ratios.shape != (many,):
-        hint = f"; with modes={ratios.size} these are taken alone" if is_all and ratios.ndim == 1 else ""
+        hint = (
+            f"; with modes={ratios.size} these are taken alone"
+            if is_all and ratios.ndim == 1
+            else ""
+        )
         raise ElasticError(
             f"there are {ratios.size} damping ratios and {many} modes: give one for all, or one "
             f"for each{hint}"
