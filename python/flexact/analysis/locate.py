@@ -17,6 +17,7 @@ from ..model.draft import ROUNDING
 from ..model.draft_arrays import draft_of
 from ..model.names import ambiguous, unknown
 from ..model.parts.parts import Part, PartKind, Parts
+from ..model.transform import Place
 from ..util.quantities import without_units
 from ..util.text import in_short
 
@@ -127,7 +128,10 @@ def position_of(parts: Parts, target: object) -> int:
     nodes = getattr(target, "nodes", None)
     handle = nodes[0] if nodes else target
     if isinstance(target, (tuple, list, np.ndarray)):
-        given = np.asarray(without_units(target, "m"), np.float64)
+        taken = (
+            target if isinstance(target, Place) else without_units(target, data.units.symbol("m"))
+        )
+        given = np.asarray(taken, np.float64)
         if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
             raise TypeError(f"a place has three finite coordinates [m], not {in_short(target)}")
         # Within rounding of the size of the model.

@@ -444,6 +444,7 @@ class _Computation:
         self.given = given_of(self.places, asked)
         drives = self.places.drives()
         model = elastic(Model.from_data(data), asked.held, asked.drive, (), asked.beams)
+        model = replace(model, is_si=True)
         points = model.points
         directions = tuple(map(points.name, points.coordinates(points.of(self.point.node))))
         watched = data.node_index[drives[0][0] if drives else self.point.node]

@@ -117,7 +117,7 @@ class _QuickCost:
         """The design, and that with one beam a sheet."""
         drives = self.places.drives()
         node = drives[0][0] if drives else self.places.point(None).node
-        model = elastic(Model.from_data(self.data))
+        model = replace(elastic(Model.from_data(self.data)), is_si=True)
         mechanism = ElasticDesign(model, self.data.node_index[node])
         return mechanism, replace(mechanism, elastic=replace(model, beams=1))
 

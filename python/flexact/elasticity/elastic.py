@@ -6,8 +6,8 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +16,7 @@ from ..analysis.decomposition import asked_for
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elastic import RawMatrices
-from ..core.elements import Class, NodeKind
+from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from ..model.model import Model
@@ -26,6 +26,7 @@ from ..util.quantities import Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.rotations import vector_of_euler
 from ..util.text import in_short
+from ..util.units import METRES, Units
 from . import equilibria
 from .equilibria import (
     Angle,
@@ -43,6 +44,7 @@ from .equilibria import (
 from .errors import (
     ElasticError,
     Estimate,
+    StrokeError,
     StrokeWarning,
     matched_by_order,
     matched_by_sign,
@@ -88,6 +90,7 @@ class Elastic(Frozen):
         beams: How many beams a sheet is divided into; "auto": 8 and 16, extrapolated.
         off: What is not as designed in all states but the undeformed one.
         only: Which mesh alone is used; None for all.
+        is_si: Whether numbers are in SI, whatever the units of the model are; texts are in these.
     """
 
     data: ModelData
@@ -97,6 +100,12 @@ class Elastic(Frozen):
     beams: Beams
     off: tuple[Imperfection, ...] = ()
     only: int | None = None
+    is_si: bool = False
+
+    @property
+    def units(self) -> Units:
+        """In which numbers are given, and come back."""
+        return METRES if self.is_si else self.data.units
 
     @cached_property
     def points(self) -> Points:
@@ -136,6 +145,10 @@ class Elastic(Frozen):
         released = {pair: Class.DEPENDENT for pair in self.release}
         data = with_classes(self.data, released, {}) if released else self.data
         return result_of(data, asked_for("auto", None), None, None, Result)
+
+    def dual_of(self, element: int, k: int) -> int:
+        """Of what kind the stress dual to a deformation is, by their indices."""
+        return int(dual_table()[self.data.arrays.element_kind[element], k])
 
     @property
     def has_mass(self) -> bool:
@@ -203,8 +216,14 @@ class Elastic(Frozen):
             1: "the deck's own elements",
         }
         many = beams.get(self.beams, f"{self.beams} beams a sheet")
+        own = self.data.units
         released = ", ".join(
-            f"{e}:{k}" + (f" with {stiffness:g} N m/rad" if stiffness else "")
+            f"{e}:{k}"
+            + (
+                f" with {own.shown(stiffness, 'N m/rad'):g} {own.symbol('N m/rad')}"
+                if stiffness
+                else ""
+            )
             for (e, k), stiffness in self.release.items()
         )
         made = f"held {self.held}, drive {self.drive}, {many}"
@@ -264,7 +283,7 @@ class Elastic(Frozen):
         about: object,
         of: Callable[[Linear], Pair],
     ) -> Pair:
-        off = misalignment(self.points, node, coordinate, 1.0, about, beyond=True)
+        off = misalignment(self.points, node, coordinate, 1.0, about, True, METRES)
         self.require_stiffness()
         self.require_determined()
         centre = None if about is None else tuple(off.centre.tolist())
@@ -275,7 +294,7 @@ class Elastic(Frozen):
             if key not in self._linears:
                 self._linears[key] = Linear(at_rest(solver, self.locked), off)
             found.append(of(self._linears[key]))
-        low, high = Estimate.of(*found).value.tolist()
+        low, high = self.units.shown(Estimate.of(*found).value, off.unit).tolist()
         return low, high
 
     @cached_property
@@ -299,7 +318,7 @@ class Elastic(Frozen):
             UnknownError: there is no such node, element or deformation.
             ElasticError: nothing has a stiffness.
         """
-        both = {**self.release, **releases_given(self.points, release)}
+        both = {**self.release, **releases_given(self.points, release, self.units)}
         self.require_stiffness()
         other = replace(self, release=both)
         point = self.points.of(node)
@@ -346,7 +365,8 @@ class Elastic(Frozen):
             StrokeError: no equilibrium was found.
             ElasticError: it is over-constrained, and held rigid.
         """
-        label = " and ".join(each.label for each in self.off) or "undeformed"
+        units = self.data.units
+        label = " and ".join(each.label(units) for each in self.off) or "undeformed"
         return State(self, label, None, self._assembled())
 
     def equilibrium(self, load: float = 1.0) -> State:
@@ -357,7 +377,8 @@ class Elastic(Frozen):
             ElasticError: the factor is no finite number.
         """
         factor = number_given(load, "the load")
-        made = tuple(equilibria.loaded(at, factor) for at in self._assembled())
+        with self._in_units():
+            made = tuple(equilibria.loaded(at, factor) for at in self._assembled())
         under = (
             f"under {factor:g} times the loads" if self.data.loads else "without loads in the deck"
         )
@@ -401,25 +422,31 @@ class Elastic(Frozen):
             )
         given = list(values) if isinstance(values, (range, Iterator)) else values
         kind = self.points.kinds[drive.node]
-        given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
+        unit = self.points.unit(drive)
+        given = without_units(given, self.units.symbol(unit))
         rest = value_at(at_rest(self.solvers[0], self.locked), drive)
         there = strokes_given(given, bool(kind == NodeKind.ORIENTATION), rest if from_rest else 0.0)
         what = self.points.words(drive)
         # An angle may be of any number of turns.
         for value in () if beyond or kind > NodeKind.POSITION else there:
-            require_within(value - rest, self.data.size, False, f"a stroke of {what}")
+            require_within(
+                value - rest, self.data.size, False, f"a stroke of {what}", self.data.units
+            )
         if not from_rest and is_far(there, rest):
+            at, low, high, away = (
+                self.data.units.shown(x, unit)
+                for x in (rest, there[0], there[-1], abs(there[0] - rest))
+            )
             warnings.warn(
-                f"{what} rests at {rest:.6g}, and the stroke from {there[0]:.6g} to "
-                f"{there[-1]:.6g} begins {abs(there[0] - rest):.6g} from there: is from_rest=True "
-                "meant?",
+                f"{what} rests at {at:.6g}, and the stroke from {low:.6g} to {high:.6g} begins "
+                f"{away:.6g} from there: is from_rest=True meant?",
                 StrokeWarning,
                 stacklevel=2,
             )
         return self.driven(drive, there)
 
     def driven(self, drive: Coordinate, values: Sequence[float]) -> tuple[State, ...]:
-        """The same at absolute values of a coordinate, whatever they are.
+        """The same at absolute values of a coordinate in SI, whatever they are.
 
         Raises:
             ElasticError: an angle is not within half a turn.
@@ -427,15 +454,26 @@ class Elastic(Frozen):
         """
         is_turn = self.points.kinds[drive.node] == NodeKind.ORIENTATION
         there = strokes_given(list(values), bool(is_turn), 0.0)
-        ways = [
-            equilibria.driven(at, self.points, drive, there, self.drive == "locked")
-            for at in self._assembled()
-        ]
-        words = self.points.words(drive)
+        with self._in_units():
+            ways = [
+                equilibria.driven(at, self.points, drive, there, self.drive == "locked")
+                for at in self._assembled()
+            ]
+        words, unit = self.points.words(drive), self.points.unit(drive)
         return tuple(
-            State(self, f"driven to {words} = {value:g}", drive, states)
+            State(
+                self, f"driven to {words} = {self.data.units.shown(value, unit):g}", drive, states
+            )
             for value, states in zip(there, zip(*ways, strict=True), strict=True)
         )
+
+    @contextmanager
+    def _in_units(self) -> Iterator[None]:
+        """Say how far a stroke went in the units of its numbers."""
+        try:
+            yield
+        except StrokeError as error:
+            raise error.shown(self.units) from None
 
     def misaligned(
         self,
@@ -460,7 +498,9 @@ class Elastic(Frozen):
                 larger than the model, and not `beyond`.
             StrokeError: no equilibrium was found.
         """
-        return self._imperfect(misalignment(self.points, node, coordinate, value, about, beyond))
+        return self._imperfect(
+            misalignment(self.points, node, coordinate, value, about, beyond, self.units)
+        )
 
     def misfit(
         self, element: object, deformation: int, value: float, beyond: bool = False
@@ -479,7 +519,9 @@ class Elastic(Frozen):
             ElasticError: it is over-constrained, and held rigid.
             StrokeError: no equilibrium was found.
         """
-        return self._imperfect(equilibria.misfit(self.points, element, deformation, value, beyond))
+        return self._imperfect(
+            equilibria.misfit(self.points, element, deformation, value, beyond, self.units)
+        )
 
     def warmed(self, kelvin: float, expansion: float, elements: object = None) -> State:
         """Elements that are warmer than the ground, and so longer.
@@ -515,9 +557,9 @@ class Elastic(Frozen):
             UnknownError: something is not there.
             ElasticError: something is wrong with a value.
         """
-        moved = partial(equilibria.misalignment, self.points, beyond=beyond)
-        off = [moved(*each) for each in misaligned]
-        off += [equilibria.misfit(self.points, *each, beyond=beyond) for each in misfit]
+        how = {"beyond": beyond, "units": self.units}
+        off = [equilibria.misalignment(self.points, *each, **how) for each in misaligned]  # type: ignore[arg-type]
+        off += [equilibria.misfit(self.points, *each, **how) for each in misfit]  # type: ignore[arg-type]
         if warmed is not None:
             off.append(warmth(self.points, *warmed))
         return replace(self, off=(*self.off, *off))
@@ -528,7 +570,8 @@ class Elastic(Frozen):
     def _assembled(self) -> tuple[Solution, ...]:
         if self.off:
             self.require_determined()
-        return tuple(equilibria.assembled(each, self.off, self.locked) for each in self.solvers)
+        with self._in_units():
+            return tuple(equilibria.assembled(each, self.off, self.locked) for each in self.solvers)
 
     def state_space(
         self,
@@ -591,6 +634,10 @@ class State(Frozen):
         # A zero has no sign.
         return np.array(Estimate.of(*map(of, self.meshes)).value) + 0.0
 
+    def _shown(self, of: Callable[[Solution], ArrayLike], unit: str) -> FloatArray:
+        """Numbers of an SI unit in those of the model, as `best`."""
+        return self.model.units.shown(self.best(of), unit)
+
     # -- where it is, and what it carries ------------------------------------------------------
 
     @property
@@ -620,7 +667,7 @@ class State(Frozen):
         if kind == NodeKind.ORIENTATION:
             return self.best(lambda at: vector_of_euler(at.raw.configuration[:, index]))
         axes = 2 if kind == NodeKind.PLANAR_POSITION else 3
-        return self.best(lambda at: at.raw.configuration[:axes, index])
+        return self._shown(lambda at: at.raw.configuration[:axes, index], "m")
 
     def deformation(self, element: object, k: object) -> float:
         """A deformation of the deck's element between its own ends, in the deck's units.
@@ -629,7 +676,8 @@ class State(Frozen):
             UnknownError: there is no such element or deformation.
         """
         e, number = self.model.points.deformation(element, k)
-        return float(self.best(lambda at: at.deformation[number, e]))
+        is_angle = self.model.dual_of(e, number) == Dual.MOMENT
+        return float(self._shown(lambda at: at.deformation[number, e], "rad" if is_angle else "m"))
 
     def stress(self, element: object, k: object) -> float:
         """The stress dual to a deformation of the deck's element: a force [N].
@@ -641,7 +689,8 @@ class State(Frozen):
             UnknownError: there is no such element or deformation.
         """
         e, number = self.model.points.deformation(element, k)
-        return float(self.best(lambda at: at.stress[number, e]))
+        is_moment = self.model.dual_of(e, number) == Dual.MOMENT
+        return float(self._shown(lambda at: at.stress[number, e], "N m" if is_moment else "N"))
 
     def resultants(self, element: object) -> Resultants:
         """Normal force, torque, moments at both ends and shear of the deck's element.
@@ -650,7 +699,14 @@ class State(Frozen):
             UnknownError: there is no such element.
         """
         e = self.model.points.element(element)
-        return resultants_of(self.model.data, e, self.best(lambda at: at.stress[:, e]))
+        made = resultants_of(self.model.data, e, self.best(lambda at: at.stress[:, e]))
+        shown = self.model.units.shown
+        return replace(
+            made,
+            torque=shown(made.torque, "N m"),
+            moment_y=shown(made.moment_y, "N m"),
+            moment_z=shown(made.moment_z, "N m"),
+        )
 
     def peak_stress(self, element: object) -> float:
         """The largest normal stress [Pa] anywhere in an element, or part, of known section.
@@ -664,12 +720,12 @@ class State(Frozen):
             ElasticError: its section is not known.
         """
         which = self.model.points.elements(element)
-        return float(self.best(lambda at: max(peak_of(at, e) for e in which)))
+        return float(self._shown(lambda at: max(peak_of(at, e) for e in which), "Pa"))
 
     @property
     def energy(self) -> float:
         """Elastic energy [J]."""
-        return float(self.best(lambda at: at.energy))
+        return float(self._shown(lambda at: at.energy, "J"))
 
     @property
     def force(self) -> float:
@@ -686,7 +742,8 @@ class State(Frozen):
         if self.drive is None and self.model.drive == "free":
             return 0.0
         drive = self.model.drive_of(self.drive)
-        return float(self.best(lambda at: force_of(at, drive)))
+        unit = "N m" if self.model.points.unit(drive) == "rad" else "N"
+        return float(self._shown(lambda at: force_of(at, drive), unit))
 
     def reaction(self, node: object, coordinate: str) -> float:
         """Force or moment of what holds a coordinate, on the mechanism [N, N m].
@@ -695,13 +752,14 @@ class State(Frozen):
             UnknownError: there is no such coordinate.
         """
         where = self.model.points.coordinate(node, coordinate)
-        return float(self.best(lambda at: reaction_of(at, where)))
+        unit = "N m" if self.model.points.unit(where) == "rad" else "N"
+        return float(self._shown(lambda at: reaction_of(at, where), unit))
 
     @property
     def stroke(self) -> float:
         """Where the drive is [m, rad]."""
         drive = self.model.drive_of(self.drive)
-        return float(self.best(lambda at: value_at(at, drive)))
+        return float(self._shown(lambda at: value_at(at, drive), self.model.points.unit(drive)))
 
     # -- the deck's own elements and classes ---------------------------------------------------
 
@@ -710,7 +768,11 @@ class State(Frozen):
         return tuple(self.model.reducer.of(at) for at in self.meshes)
 
     def _matrix(self, which: int) -> FloatArray:
-        return np.array(Estimate.of(*(each[which] for each in self._reduced)).value)
+        made = np.array(Estimate.of(*(each[which] for each in self._reduced)).value)
+        # Of what is an angle, a length instead: work and kinetic energy stay.
+        size = self.model.reducer.lengths(self.model.units)
+        made *= np.outer(size, size)
+        return made if which == 0 else self.model.units.shown(made, "N/m")
 
     @property
     def mass_matrix(self) -> FloatArray:
@@ -782,7 +844,7 @@ class State(Frozen):
             UnknownError: there is no such node.
             ElasticError: nothing has a stiffness.
         """
-        return self.best(lambda at: self._compliance(at, node).matrix)
+        return self._of_point(node, self.best(lambda at: self._compliance(at, node).matrix), 1)
 
     def stiffness(self, node: object) -> FloatArray:
         """The inverse of `compliance`: forces and moments for a unit motion, all else free.
@@ -793,7 +855,18 @@ class State(Frozen):
             UnknownError: there is no such node.
             ElasticError: nothing has a stiffness.
         """
-        return self.best(lambda at: self._compliance(at, node).stiffness)
+        return self._of_point(node, self.best(lambda at: self._compliance(at, node).stiffness), -1)
+
+    def _of_point(self, node: object, matrix: FloatArray, sense: int) -> FloatArray:
+        """A compliance (sense 1) or stiffness (-1) of a point in the units of the model."""
+        units, points = self.model.units, self.model.points
+        if not units.power:
+            return matrix
+        every = points.coordinates(points.of(node))
+        # Of a length per force, and of an angle per moment, which is a force times a length.
+        here = np.array([units.factor("m") if points.unit(q) == "m" else 1.0 for q in every])
+        made = np.outer(here, here) / units.factor("m")
+        return matrix * (made if sense > 0 else 1.0 / made)
 
     def _compliance(self, at: Solution, node: object) -> Compliance:
         at.require_stiffness()
@@ -896,7 +969,7 @@ class State(Frozen):
         )
         if self.drive is not None:
             lines.append(f"Force of the drive: {self.force:.6g}.")
-        lines.append(f"Elastic energy: {self.energy:.6g} J.")
+        lines.append(f"Elastic energy: {self.energy:.6g} {self.model.units.symbol('J')}.")
         if not self.is_stable:
             lines.append("Buckled: this state is unstable.")
         elif self.loose:

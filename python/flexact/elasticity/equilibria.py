@@ -21,6 +21,7 @@ from ..util.quantities import without_units
 from ..util.records import Frozen
 from ..util.rotations import matrix_of, turned
 from ..util.text import in_short
+from ..util.units import Units
 from .errors import ElasticError, StrokeError, require_within
 from .mesh import Mesh
 from .points import Coordinate, Points
@@ -65,6 +66,7 @@ class Imperfection(Frozen):
     Attributes:
         words: What it is, such as "x of clamp 11".
         value: How much: m, rad, K, or the unit of a deformation.
+        unit: Its SI unit.
         axis: Along or about which of the global axes supports move; -1 where they do not.
         is_turn: Whether they turn.
         centre: (3,) about which they do.
@@ -74,16 +76,16 @@ class Imperfection(Frozen):
 
     words: str
     value: float
+    unit: str
     axis: int
     is_turn: bool
     centre: FloatArray
     moved: FloatArray
     misfit: FloatArray
 
-    @property
-    def label(self) -> str:
+    def label(self, units: Units) -> str:
         """Such as "off: x of clamp 11 by 5e-05"."""
-        return f"off: {self.words} by {self.value:g}"
+        return f"off: {self.words} by {units.shown(self.value, self.unit):g}"
 
     def shift(self, data: ModelData) -> FloatArray:
         """(3, nodes) velocity of the supports for each unit."""
@@ -137,10 +139,10 @@ def number_given(value: object, what: str) -> float:
     return float(value)
 
 
-def _none(data: ModelData, words: str, value: float) -> Imperfection:
+def _none(data: ModelData, words: str, value: float, unit: str) -> Imperfection:
     nodes, elements = data.arrays.node_number.size, data.arrays.element_number.size
     return Imperfection(
-        words, value, -1, False, np.zeros(3), np.zeros((3, nodes)), np.zeros((6, elements))
+        words, value, unit, -1, False, np.zeros(3), np.zeros((3, nodes)), np.zeros((6, elements))
     )
 
 
@@ -151,6 +153,7 @@ def misalignment(
     value: object,
     about: object = None,
     beyond: bool = False,
+    units: Units | None = None,
 ) -> Imperfection:
     """A clamp that is moved along, or turned about, a global axis.
 
@@ -162,11 +165,13 @@ def misalignment(
     coordinate = points.coordinate(node, name)
     data = points.data
     is_turn = data.arrays.node_kind[coordinate.node] > NodeKind.POSITION
-    size = number_given(without_units(value, "rad" if is_turn else "m"), "a misalignment")
+    unit = "rad" if is_turn else "m"
+    taken = (units or data.units).symbol(unit)
+    size = number_given(without_units(value, taken), "a misalignment")
     # The clamp has the number that was given for it.
     words = f"{points.name(coordinate)} of clamp {points.number(points.node(node))}"
     if not beyond:
-        require_within(size, data.size, bool(is_turn), f"the misalignment {words}")
+        require_within(size, data.size, bool(is_turn), f"the misalignment {words}", data.units)
     point = points.of(node)
     fixed = (data.arrays.coordinate_class == Class.FIXED).astype(np.float64)
     nodes = [point.position]
@@ -190,7 +195,7 @@ def misalignment(
     elif about is not None:
         raise ElasticError("only a turn is about a point: leave out `about` of a displacement")
     made = replace(
-        _none(data, words, size),
+        _none(data, words, size, unit),
         axis=coordinate.axis,
         is_turn=bool(is_turn),
         centre=centre,
@@ -206,7 +211,12 @@ def misalignment(
 
 
 def misfit(
-    points: Points, element: object, k: object, value: object, beyond: bool = False
+    points: Points,
+    element: object,
+    k: object,
+    value: object,
+    beyond: bool = False,
+    units: Units | None = None,
 ) -> Imperfection:
     """An element made too long, twisted or bent, in the deck's units.
 
@@ -220,11 +230,13 @@ def misfit(
     off = np.zeros((6, data.arrays.element_number.size))
     off[number, index] = 1.0
     words = f"deformation {number + 1} of element {int(data.arrays.element_number[index])}"
-    size = number_given(value, "a misfit")
+    is_angle = dual_table()[data.arrays.element_kind[index], number] == Dual.MOMENT
+    unit = "rad" if is_angle else "m"
+    taken = (units or data.units).symbol(unit)
+    size = number_given(without_units(value, taken), "a misfit")
     if not beyond:
-        is_angle = dual_table()[data.arrays.element_kind[index], number] == Dual.MOMENT
-        require_within(size, data.size, bool(is_angle), f"the misfit, {words},")
-    return replace(_none(data, words, size), misfit=off)
+        require_within(size, data.size, bool(is_angle), f"the misfit, {words},", data.units)
+    return replace(_none(data, words, size, unit), misfit=off)
 
 
 def warmth(
@@ -255,7 +267,7 @@ def warmth(
         size += np.where(roles == role, value, 0.0)
     off = np.zeros(size.shape)
     off[:, which] = alpha * size[:, which]
-    return replace(_none(data, "temperature", step), misfit=off)
+    return replace(_none(data, "temperature", step, "K"), misfit=off)
 
 
 def order_of(values: Sequence[float], start: float) -> list[int | None]:
@@ -389,8 +401,8 @@ def assembled(solver: Solver, off: Sequence[Imperfection], held: Held) -> Soluti
         misfit += each.value * each.misfit
     way = solver.nothing._replace(target=target, misfit=solver.mesh.misfit(misfit))
     if len(off) == 1:
-        return _reached(start, way, 0.0, off[0].value, off[0].words)
-    return _reached(start, way, 0.0, 1.0, "part of what is off")
+        return _reached(start, way, 0.0, off[0].value, off[0].words, off[0].unit)
+    return _reached(start, way, 0.0, 1.0, "part of what is off", "")
 
 
 def loaded(start: Solution, factor: float) -> Solution:
@@ -401,7 +413,7 @@ def loaded(start: Solution, factor: float) -> Solution:
     """
     force, gravity = start.solver.loads(factor)
     way = start.way._replace(force=force, gravity=gravity)
-    return _reached(start, way, 0.0, factor, "the loads, as a factor")
+    return _reached(start, way, 0.0, factor, "the loads, as a factor", "")
 
 
 def driven(
@@ -423,13 +435,16 @@ def driven(
         before = here.way._replace(target=with_drive(solver, here.way.target, drive, last))
         way = start.way._replace(target=with_drive(solver, start.way.target, drive, values[k]))
         held_here = Solution(solver, here.raw, before, held)
-        here = _reached(held_here, way, last, values[k], points.words(drive))
+        what, unit = points.words(drive), points.unit(drive)
+        here = _reached(held_here, way, last, values[k], what, unit)
         last = values[k]
         found[k] = here if locked else freed(here, start.held, drive)
     return tuple(found[k] for k in range(len(values)))
 
 
-def _reached(start: Solution, way: Waypoint, begin: float, end: float, what: str) -> Solution:
+def _reached(
+    start: Solution, way: Waypoint, begin: float, end: float, what: str, unit: str
+) -> Solution:
     """The equilibrium at the end of a way, on which something goes from one value to another.
 
     Raises:
@@ -441,12 +456,14 @@ def _reached(start: Solution, way: Waypoint, begin: float, end: float, what: str
         return Solution(solver, found.state, way, start.held)
     reached = begin + found.reached * (end - begin)
     place = _place(solver.mesh, found.place)
+    low, here, high = (solver.mesh.own.units.shown(x, unit) for x in (begin, reached, end))
     where = f", where it stopped at {place}" if place else ""
     raise StrokeError(
-        f"no equilibrium was found beyond {reached:.6g} on the way from {begin:.6g} to "
-        f"{end:.6g} of {what}{where}: {_WHY.get(found.status, _SNAPS)}",
+        f"no equilibrium was found beyond {here:.6g} on the way from {low:.6g} to "
+        f"{high:.6g} of {what}{where}: {_WHY.get(found.status, _SNAPS)}",
         reached,
         place,
+        unit,
     )
 
 

@@ -13,13 +13,16 @@ from ..core.arrays import FloatArray
 from ..util.errors import FlexactError
 from ..util.quantities import larger_in_words
 from ..util.records import Frozen
+from ..util.units import METRES, Units
 
 
 class ElasticError(FlexactError, ValueError):
     """What is asked has no answer; the text says why, and what to do."""
 
 
-def require_within(value: float, size: float, is_turn: bool, what: str) -> None:
+def require_within(
+    value: float, size: float, is_turn: bool, what: str, units: Units = METRES
+) -> None:
     """Raise where a stroke or an error is larger than the model: a slip of the unit.
 
     Args:
@@ -27,15 +30,17 @@ def require_within(value: float, size: float, is_turn: bool, what: str) -> None:
         size: Of the model [m].
         is_turn: Whether it is an angle.
         what: Such as "the stroke of z of node 1".
+        units: In which it is said.
 
     Raises:
         ElasticError: the length is larger than the size, or the angle than half a turn.
     """
     if abs(value) <= (math.pi if is_turn else size):
         return
-    most = "half a turn" if is_turn else f"the whole model, {size:.3g} m"
-    unit, example = ("rad", "1mrad") if is_turn else ("m", "3mm")
-    raise ElasticError(larger_in_words(what, f"{abs(value):.6g} {unit}", most, example))
+    unit, example = ("rad", "1mrad") if is_turn else (units.symbol("m"), "3mm")
+    most = "half a turn" if is_turn else f"the whole model, {units.shown(size, 'm'):.3g} {unit}"
+    told = f"{units.shown(abs(value), 'rad' if is_turn else 'm'):.6g} {unit}"
+    raise ElasticError(larger_in_words(what, told, most, example))
 
 
 class UnknownError(ElasticError, LookupError):
@@ -55,15 +60,20 @@ class StrokeError(ElasticError):
         place: The node or element where it stopped, in words; empty where it is not known.
     """
 
-    def __init__(self, message: str, reached: float, place: str = "") -> None:
-        """Keep the text, and how far it went."""
+    def __init__(self, message: str, reached: float, place: str = "", unit: str = "") -> None:
+        """Keep the text, and how far it went in an SI unit."""
         super().__init__(message)
         self.reached = reached
         self.place = place
+        self.unit = unit
 
-    def __reduce__(self) -> tuple[type[StrokeError], tuple[str, float, str]]:
+    def shown(self, units: Units) -> StrokeError:
+        """The same with what was reached in other units."""
+        return StrokeError(str(self), units.shown(self.reached, self.unit), self.place)
+
+    def __reduce__(self) -> tuple[type[StrokeError], tuple[str, float, str, str]]:
         """What makes it anew, as a worker of a sweep does."""
-        return type(self), (str(self), self.reached, self.place)
+        return type(self), (str(self), self.reached, self.place, self.unit)
 
 
 #: The uncertainty of an extrapolated value, as a part of what the extrapolation adds to the finer

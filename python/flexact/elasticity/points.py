@@ -12,6 +12,7 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
+from ..model.transform import Place
 from ..util.quantities import without_units
 from ..util.records import cached_property
 from ..util.text import in_short
@@ -128,6 +129,10 @@ class Points:
         """Such as "z of node 3"."""
         return f"{self.name(coordinate)} of node {self.number(coordinate.node)}"
 
+    def unit(self, coordinate: Coordinate) -> str:
+        """The SI unit of a coordinate."""
+        return "rad" if self.kinds[coordinate.node] > NodeKind.POSITION else "m"
+
     def place(self, given: object) -> FloatArray:
         """(3,) where a node, or a point given by its coordinates, is [m].
 
@@ -138,7 +143,10 @@ class Points:
         """
         if isinstance(given, (list, tuple, np.ndarray)):
             made = np.zeros(3)
-            numbers = np.asarray(without_units(given, "m"), np.float64)
+            unit = self.data.units.symbol("m")
+            # What was computed is in metres.
+            taken = given if isinstance(given, Place) else without_units(given, unit)
+            numbers = np.asarray(taken, np.float64)
             if numbers.ndim != 1 or numbers.size not in (2, 3) or not np.isfinite(numbers).all():
                 raise ValueError(f"a place has three finite coordinates [m], not {in_short(given)}")
             made[: numbers.size] = numbers

@@ -29,6 +29,7 @@ from ..core.elements import (
 from ..model.data import CrossSection, ModelData
 from ..model.writing import class_statements, prescribed_in
 from ..util.records import Frozen
+from ..util.units import Units
 from .errors import ElasticError
 from .solution import Policy, Solution, notch_in_units, packed_with
 
@@ -64,6 +65,7 @@ class Reducer:
     def __init__(self, data: ModelData, policy: Policy) -> None:
         """Of the model as given, with what its elements are made of."""
         arrays, inputs = data.arrays, prescribed_in(data)
+        self._data = data
         self._independent = tuple(independent_of(data).tolist())
         own = arrays.coordinate_class, arrays.deformation_class
         coordinates, deformations = (
@@ -72,6 +74,18 @@ class Reducer:
         coordinates[inputs.coordinates] = deformations[inputs.deformations] = Class.FIXED
         self._model = packed_with(arrays, coordinates, deformations)
         self._arrays = policy.arrays._replace(notch=notch_in_units(data, policy.arrays.notch))
+
+    def lengths(self, units: Units) -> FloatArray:
+        """(q,) what each of them is multiplied with where lengths are in other units: angles."""
+        arrays, made = self._data.arrays, []
+        for place in self._independent:
+            if place >= 0:
+                is_angle = arrays.node_kind[place // 3] > NodeKind.POSITION
+            else:
+                e, k = divmod(-1 - place, 6)
+                is_angle = dual_table()[arrays.element_kind[e], k] == Dual.MOMENT
+            made.append(units.factor("m") if is_angle else 1.0)
+        return np.array(made)
 
     def of(self, at: Solution) -> RawMatrices:
         """The matrices of the deck's elements where their ends are, under their stresses."""

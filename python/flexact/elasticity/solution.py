@@ -22,12 +22,22 @@ from ..core.elastic import (
     Waypoint,
     element_stiffness,
 )
-from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
+from ..core.elements import (
+    AXES,
+    Class,
+    Dual,
+    NodeKind,
+    Role,
+    coordinate_name,
+    dual_table,
+    role_table,
+)
 from ..model.data import ModelData, Properties
 from ..util.matrices import complement, span
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
+from ..util.units import Units
 from .errors import ElasticError
 from .mesh import Mesh, bending_pairs
 from .points import Coordinate, Point, Points
@@ -52,8 +62,10 @@ def choice(given: object, known: tuple[str, ...], what: str) -> str:
     return given
 
 
-def releases_given(points: Points, given: object) -> Releases:
-    """Releases with the stiffness of each notch, 0 where none is given.
+def releases_given(points: Points, given: object, units: Units | None = None) -> Releases:
+    """Releases with the stiffness of each notch in SI, 0 where none is given.
+
+    Numbers are in the units, by default those of the model.
 
     Raises:
         UnknownError: there is no such element or deformation.
@@ -67,18 +79,24 @@ def releases_given(points: Points, given: object) -> Releases:
     else:
         raise TypeError(_WANTED + in_short(given))
     made: Releases = {}
+    taken = units or points.data.units
     for pair, stiffness in pairs:
         if not isinstance(pair, (tuple, list)) or len(pair) not in (2, 3):
             raise TypeError(_WANTED + in_short(pair))
+        is_text = isinstance(stiffness, str)
         stiffness = without_units(stiffness, NOTCH)
         number = stiffness if isinstance(stiffness, (int, float, np.number)) else math.nan
         if isinstance(stiffness, bool) or not (math.isfinite(number) and number >= 0.0):
+            own = [points.data.units.symbol(each) for each in ("N m/rad", "N/m")]
             raise ElasticError(
-                f"the stiffness of a release must be a number from 0 in N m/rad (of an elongation "
-                f"in N/m), not {in_short(stiffness)}"
+                f"the stiffness of a release must be a number from 0 in {own[0]} (of an elongation "
+                f"in {own[1]}), not {in_short(stiffness)}"
             )
         for element, k in points.deformations(*pair):
-            made[int(points.data.arrays.element_number[element]), k + 1] = float(number)
+            role = int(role_table()[points.data.arrays.element_kind[element], k])
+            unit = "N/m" if role == Role.ELONGATION else "N m/rad"
+            value = float(number) if is_text else taken.si(float(number), unit)
+            made[int(points.data.arrays.element_number[element]), k + 1] = value
     return made
 
 
