@@ -958,7 +958,7 @@ class State(Frozen):
         if mesh.pieces.max(initial=1) > 1:
             label += f", {int(mesh.pieces.max())} beams a sheet"
         given = inputs, outputs, damping, modes
-        return state_space_of(self.finest, self.model.points, *given, label, self.model.data.units)
+        return state_space_of(self.finest, self.model.points, *given, label, self.model.units)
 
     def describe(self) -> str:
         """What it is, its verdict, whether it is stable, frequencies and multipliers, in words."""

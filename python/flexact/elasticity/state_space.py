@@ -23,14 +23,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.arrays import FloatArray
+from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind
 from ..model.data import ModelData
 from ..util.errors import FlexactError
 from ..util.loading import load
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
-from ..util.units import Units
+from ..util.units import METRES, Units
 from .equilibria import misalignment
 from .errors import ElasticError
 from .modal import modes_of
@@ -206,6 +206,14 @@ class StateSpace(Frozen):
     def frequencies(self) -> FloatArray:
         """(n,) natural frequencies of its modes [Hz], without damping; negative of unstable."""
         return np.asarray(np.sign(self.square) * np.sqrt(np.abs(self.square)) / (2.0 * math.pi))
+
+    @property
+    def acting(self) -> BoolArray:
+        """(outputs, inputs, n) which modes an input drives and an output sees."""
+        first, second = self._entries
+        share = np.abs(first) + np.abs(second) * self._speed[:, None]
+        size = np.abs(self.seen[:, None, :]) * share.T
+        return np.asarray(size > _CANCELS * size.max(axis=2, keepdims=True, initial=0.0))
 
     @property
     def poles(self) -> ComplexArray:
@@ -399,15 +407,15 @@ def _frequencies_given(f: ArrayLike) -> FloatArray:
 _MOST_ZEROS, _STEPS = 60, 20
 #: What moves by less than this part is found; by more than the other it is another zero.
 _FOUND, _NEAR = 1.0e-13, 1.0e-2
+#: What an output sees of a mode that an input drives is rounding below this part of the largest.
+_CANCELS = 1.0e-10
 #: Zeros below this part of the fastest pole are zero; where the pencil is looked at from.
 _ROUNDED, _SHIFT = 1.0e-12, 0.7320508
 
 
 def _zeros_of(system: StateSpace) -> ComplexArray:
     """Of one input and output: finite eigenvalues of the pencil of Rosenbrock's matrix."""
-    first, second = system._entries
-    acting = (np.abs(first) + np.abs(second))[:, 0] * np.abs(system.seen[0]) > 0.0
-    chosen = np.flatnonzero(acting)[:_MOST_ZEROS]
+    chosen = np.flatnonzero(system.acting[0, 0])[:_MOST_ZEROS]
     few = _with_modes(system, chosen)
     n = 2 * chosen.size
     if not n:
@@ -730,7 +738,7 @@ def _motion(at: Solution, points: Points, point: object, name: str) -> tuple[Flo
             f"{points.words(coordinate)} is not held, so that its motion is none of the inputs: "
             f'a force on it is ({point!r}, "{name}")'
         )
-    return np.array(misalignment(points, point, name, 1.0, None, True).shift(data)), is_turn
+    return np.array(misalignment(points, point, name, 1.0, None, True, METRES).shift(data)), is_turn
 
 
 def _modes_given(given: object, count: int, first: int) -> int:
