@@ -42,6 +42,7 @@ What to do about it
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
+    StateSpace: A, B, C, D, poles and frequency response of a state, for a controller
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
@@ -98,6 +99,7 @@ if _typing.TYPE_CHECKING:
         ElasticError,
         Estimate,
         State,
+        StateSpace,
         StrokeError,
         UnknownError,
         elastic,
@@ -176,6 +178,7 @@ _HOMES = {
         "ElasticError",
         "Estimate",
         "State",
+        "StateSpace",
         "StrokeError",
         "UnknownError",
         "elastic",

@@ -3,12 +3,14 @@
 
 from .elastic import Elastic, State, elastic
 from .errors import ElasticError, Estimate, StrokeError, StrokeWarning, UnknownError
+from .state_space import StateSpace
 
 __all__ = [
     "Elastic",
     "ElasticError",
     "Estimate",
     "State",
+    "StateSpace",
     "StrokeError",
     "StrokeWarning",
     "UnknownError",

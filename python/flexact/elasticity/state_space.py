@@ -190,14 +190,13 @@ class StateSpace(Frozen):
         """Units of the gains by output and input, such as "mm/N"; "1" without one."""
         made = []
         for out in self.outputs:
-            top = _symbol(self.units, out.unit)
-            bottoms = [_symbol(self.units, each.unit) for each in self.inputs]
-            made.append(
-                tuple(
-                    "1" if top == b else f"{top}/({b})" if " " in b else f"{top}/{b}"
-                    for b in bottoms
-                )
-            )
+            top, *rate = _symbol(self.units, out.unit).split("/")
+            row = []
+            for each in self.inputs:
+                below = " ".join((*rate, _symbol(self.units, each.unit)))
+                same = top == below
+                row.append("1" if same else f"{top}/({below})" if " " in below else f"{top}/{below}")
+            made.append(tuple(row))
         return tuple(made)
 
     # -- what it does --------------------------------------------------------------------------

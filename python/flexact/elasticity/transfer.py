@@ -92,14 +92,13 @@ def sentence(pair: StateSpace) -> str:
 
 def describe(system: StateSpace, width: int = WIDTH) -> str:
     """Static gains, poles and zeros for people, in rows of a width."""
-    several = len(system.inputs) * len(system.outputs) > 1
     made = [harmless(file_name(system.name))] if system.name else []
     for _, _, pair in _pairs(system):
         made += [wrapped(harmless(sentence(pair)), width), ""]
         made += [table(rows_of(pair), width), ""]
         told = unsaid(pair)
         made += [wrapped(told, width), ""] if told else []
-    made.append(wrapped(f"{'All: ' if several else ''}{about(system)}", width))
+    made.append(wrapped(about(system), width))
     return "\n".join(made)
 
 
