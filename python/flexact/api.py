@@ -251,11 +251,13 @@ def analyse(
         raise TypeError(f"the name of a result must be text, not {type(name).__name__}")
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be something to call, not {type(progress).__name__}")
-    asked = asked_for(method, tolerance, prove, accuracy)
+    # What is asked is refused before a deck is read.
+    asked_for(method, tolerance, prove, accuracy)
     if not isinstance(model, Model):
         model = read(model)
+    asked = asked_for(method, tolerance, prove, accuracy, model.data.units)
     if asked.accuracy is not None and not beyond:
-        asked.accuracy.require_within(model.data.size)
+        asked.accuracy.require_within(model.data.size, model.data.units)
     return result_of(model.data, asked, name, progress, Analysis)
 
 

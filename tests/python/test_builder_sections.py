@@ -139,11 +139,11 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
 
 
 def test_common_materials_are_isotropic_within_reason() -> None:
-    """E = 2 G (1 + nu) with nu of metals, 0.25 to 0.36."""
+    """E = 2 G (1 + nu) with nu of metals, 0.25 to 0.36, and of plastics, up to 0.41."""
     assert len(MATERIALS) >= 5
     for name, material in MATERIALS.items():
         assert name == material.name
-        assert 0.25 < material.E / (2 * material.G) - 1 < 0.36, name
+        assert 0.25 < material.E / (2 * material.G) - 1 < (0.36 if material.E > 1e10 else 0.41), name
 
 
 def test_shear_as_a_public_program_writes_it() -> None:

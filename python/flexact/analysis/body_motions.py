@@ -298,6 +298,7 @@ class Moves:
             *(rotation, velocity, centre, self._length),
             rest=self._rest,
             rounding=self.analysis.rounding,
+            units=self.analysis.given.units,
         )
 
     def _grouped(self, items: list[_Item]) -> list[list[_Item]]:

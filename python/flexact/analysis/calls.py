@@ -244,7 +244,7 @@ def _point(parts: Parts, position: int) -> Argument | None:
     here = parts.data.arrays.node_value[:3, position]
     if positions_near(parts, here, _APART).size > 1:
         return None
-    return tuple(here[: 2 if parts.data.planar else 3].tolist())
+    return tuple(parts.data.units.shown(here[: 2 if parts.data.planar else 3], "m").tolist())
 
 
 def _end(parts: Parts, part: NamedPart, position: int) -> Argument:

@@ -22,6 +22,7 @@ from ..util import machine as memory
 from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
 from ..util.records import Frozen, cached_property, read_only
 from ..util.text import in_short
+from ..util.units import METRES, Units
 from .limits import LARGEST_ROUNDING, ROUNDING
 from .sparse_basis import orthonormal
 from .verdict import AnalysisError, ClassCounts, Counts, Gap, Margin, Proof, Verdict, completed
@@ -51,27 +52,31 @@ class Accuracy(NamedTuple):
             return length, False
         return length, margin.angle < self.angle
 
-    def require_within(self, size: float) -> None:
+    def require_within(self, size: float, units: Units) -> None:
         """Raise where it is larger than the model: a slip of the unit.
 
         Args:
             size: Of the model [m].
+            units: In which it is said.
 
         Raises:
             AnalysisError: it is.
         """
         if self.length > size:
-            most = f"the whole model, {size:.3g} m"
-            raise AnalysisError(larger_in_words("the accuracy", f"{self.length:g} m", most, "20um"))
+            most = f"the whole model, {units.said(size, 'm', 3)}"
+            told = f"{units.shown(self.length, 'm'):g} {units.symbol('m')}"
+            raise AnalysisError(larger_in_words("the accuracy", told, most, "20um"))
 
     @classmethod
-    def of(cls, given: AccuracyGiven) -> Accuracy:
-        """An accuracy as it may be given.
+    def of(cls, given: AccuracyGiven, units: Units = METRES) -> Accuracy:
+        """An accuracy as it may be given, a number in the units.
 
         Raises:
             TypeError: it is neither a number nor two.
             ValueError: one is not positive, or not finite.
         """
+        if isinstance(given, Accuracy):
+            return given
         parts: list[Any] = [given]
         if isinstance(given, str):
             parts = given.split(",")
@@ -85,7 +90,7 @@ class Accuracy(NamedTuple):
             )
         sizes = [
             _number(part, "the accuracy", "a number or two", unit)
-            for part, unit in zip(parts, ("m", "rad"), strict=False)
+            for part, unit in zip(parts, (units.symbol("m"), "rad"), strict=False)
         ]
         for size in sizes:
             if not (math.isfinite(size) and size > 0.0):
@@ -128,8 +133,9 @@ def asked_for(
     tolerance: float | None,
     prove: bool | None = None,
     accuracy: AccuracyGiven | None = None,
+    units: Units = METRES,
 ) -> Asked:
-    """What an analysis is asked for, if there is such a thing.
+    """What an analysis is asked for, if there is such a thing; numbers are in the units.
 
     Raises:
         TypeError: the method is no text, the tolerance no number, `prove` no truth value, or
@@ -145,7 +151,7 @@ def asked_for(
         tolerance = _number(tolerance, "the tolerance", "a number")
         if not (math.isfinite(tolerance) and tolerance >= 0.0):
             raise ValueError(f"the tolerance must be finite and not negative, not {tolerance}")
-    known = None if accuracy is None else Accuracy.of(accuracy)
+    known = None if accuracy is None else Accuracy.of(accuracy, units)
     if not isinstance(method, str):
         raise TypeError(f"a method is given by its name, not by {type(method).__name__}")
     if method not in calls.METHODS:

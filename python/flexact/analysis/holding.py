@@ -38,7 +38,7 @@ from .decomposition import Decomposition, row_weights
 from .freedoms import Block, Freedom
 from .limits import HELD, SAME_PLACE
 from .places import direction_words, joint_words, listed, part_words
-from .screws import Screw, ScrewKind, in_words
+from .screws import Screw, ScrewKind, in_words, place_in_words
 from .sparse_basis import orthonormal
 from .verdict import AnalysisError
 
@@ -587,16 +587,18 @@ class _Found:
         is_aside = np.linalg.norm(frame.at - centre) > HELD * self.length
         if not (carrier.orientations.size and turning and is_aside):
             return {"": ", ".join(told)} if told else {}
-        at = in_words(frame.at, self.length)[1:-1].split(", ")
+        units = self.result.given.units
+        shown, unit = units.shown(frame.at, "m"), units.symbol("m")
+        at = in_words(shown, units.shown(self.length, "m"))[1:-1].split(", ")
         made = {}
         if self.result.given.planar:
-            made["rz"] = f"about the point ({', '.join(at[:2])}) m"
+            made["rz"] = f"about the point ({', '.join(at[:2])}) {unit}"
         elif len(turning) > 1:
-            told.append(f"rotations about the point ({', '.join(at)}) m")
+            told.append(f"rotations about the point ({', '.join(at)}) {unit}")
         else:
             if not told:
                 at["xyz".index(turning[0][1])] = "*"
-            made[turning[0]] = f"about the line through ({', '.join(at)}) m"
+            made[turning[0]] = f"about the line through ({', '.join(at)}) {unit}"
         return {**made, "": ", ".join(told)} if told else made
 
     # Points and axes --------------------------------------------------------
@@ -835,7 +837,8 @@ def _screw_words(screw: Screw, length: float) -> str:
     along = direction_words(screw.direction)
     if screw.kind is ScrewKind.TRANSLATION:
         return f"translation along {along}"
-    line = f"rotation about the line through {in_words(screw.point, length)} m along {along}"
+    through = place_in_words(screw.point, length, screw.units)
+    line = f"rotation about the line through {through} along {along}"
     if screw.kind is ScrewKind.ROTATION:
         return line
-    return f"{line} with {screw.pitch:.4g} m/rad along it"
+    return f"{line} with {screw.units.said(screw.pitch, 'm/rad')} along it"

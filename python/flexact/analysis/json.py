@@ -15,6 +15,7 @@ from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import Dual, coordinate_name, keywords_of
 from ..model.parts.parts import PartKind
 from ..util.loading import VERSION
+from ..util.units import Units
 from .calls import calls_of
 from .decomposition import row_duals, row_factors
 from .freedoms import Freedom
@@ -42,6 +43,24 @@ Entries = dict[str, Any]
 def quantity(value: float | list[float], unit: str) -> Entries:
     """A number beside its unit."""
     return {"value": value, "unit": unit}
+
+
+def in_units(made: Any, units: Units) -> Any:
+    """What is for JSON with each quantity in it in other units than SI."""
+    if not units.power:
+        return made
+    if isinstance(made, list):
+        return [in_units(each, units) for each in made]
+    if not isinstance(made, dict):
+        return made
+    made = {name: in_units(each, units) for name, each in made.items()}
+    unit = made.get("unit")
+    if isinstance(unit, str) and "value" in made:
+        value = made["value"]
+        shown = np.asarray(value, np.float64) if value is not None else None
+        made["value"] = None if shown is None else units.shown(shown, unit).tolist()
+        made["unit"] = units.symbol(unit)
+    return made
 
 
 def node_place(result: Result, number: int) -> Entries:
@@ -278,7 +297,7 @@ def of_motion(result: Result, index: int) -> Entries:
     if not result.is_told_by_parts:
         return {}
     motion = result.motions[index]
-    return {
+    made = {
         "bodies": [
             {
                 "bodies": [part.name for part in group.bodies],
@@ -289,6 +308,7 @@ def of_motion(result: Result, index: int) -> Entries:
         ],
         "internal_to": [part.name for part in motion.internal_to],
     }
+    return dict(in_units(made, result.given.units))
 
 
 def of_self_stress(result: Result, index: int) -> Entries:
@@ -296,7 +316,7 @@ def of_self_stress(result: Result, index: int) -> Entries:
     if not result.is_told_by_parts:
         return {}
     stress = result.self_stresses[index]
-    return {
+    made = {
         "parts": [_stressed(result, index, each) for each in stress.parts],
         "conflicts": [
             {
@@ -311,6 +331,7 @@ def of_self_stress(result: Result, index: int) -> Entries:
         ],
         "sides": None if stress.rivalry is None else _sides(result, stress.rivalry),
     }
+    return dict(in_units(made, result.given.units))
 
 
 def _sides(result: Result, rivalry: Rivalry) -> Entries:
@@ -458,7 +479,8 @@ class ModesTable(NamedTuple):
 
 def motions(result: Result) -> ModesTable:
     """The motions: displacements [m] and rotations [rad] of nodes."""
-    raw, arrays = result.raw, result.data.arrays
+    raw, arrays, units = result.raw, result.data.arrays, result.given.units
+    factors = {unit: units.factor(unit) for unit in ("m", "rad")}
     # Where no point has a name, nobody has to look for each.
     named = result.motion_basis.vectors > 0 and any(result.given.node_names)
     name_of = cache(partial(node_name, result)) if named else lambda _: ""
@@ -471,8 +493,8 @@ def motions(result: Result) -> ModesTable:
             arrays.node_number[node].tolist(),
             list(map(name_of, node.tolist())),
             coordinates,
-            value.tolist(),
-            list(map(unit_of_coordinate, coordinates)),
+            (value * [factors[unit_of_coordinate(each)] for each in coordinates]).tolist(),
+            [units.symbol(unit_of_coordinate(each)) for each in coordinates],
         )
 
     keys = ("node", "name", "coordinate", "value", "unit")
@@ -481,7 +503,8 @@ def motions(result: Result) -> ModesTable:
 
 def self_stresses(result: Result) -> ModesTable:
     """The self-stresses: forces [N] and moments [N m], beside the raw entries of U."""
-    arrays = result.given.arrays
+    arrays, units = result.given.arrays, result.given.units
+    factor = units.factor("N m")
     # Names of a deck are cut out of its text.
     name_of = cache(result.given.element_names.__getitem__)
 
@@ -495,8 +518,8 @@ def self_stresses(result: Result) -> ModesTable:
             list(keywords_of(kinds)),
             deformations,
             list(map(deformation_word, kinds.tolist(), deformations)),
-            (value * row_factors(result, places)).tolist(),
-            np.where(force, "N", "N m").tolist(),
+            (value * row_factors(result, places) * np.where(force, 1.0, factor)).tolist(),
+            np.where(force, "N", units.symbol("N m")).tolist(),
             value.tolist(),
         )
 
@@ -527,13 +550,13 @@ _MODES: dict[str, Callable[[Result], ModesTable]] = {
 def dictionary_of(analysis: Result) -> dict[str, Any]:
     """The names and values of the JSON, in their order."""
     made = {name: modes(analysis).dictionaries() for name, modes in _MODES.items()}
-    return _without_modes(analysis) | made
+    return dict(in_units(_without_modes(analysis), analysis.given.units)) | made
 
 
 def text_of(analysis: Result) -> str:
     """The same as one line of text, made without a dictionary for each component."""
     pieces = []
-    for name, value in _without_modes(analysis).items():
+    for name, value in in_units(_without_modes(analysis), analysis.given.units).items():
         if name in _MODES:
             text = "".join(_MODES[name](analysis).text())
         else:
@@ -567,6 +590,7 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
     ]
     return {
         **header(analysis.name),
+        "units": analysis.given.units.name,
         "verdict": analysis.verdict.value,
         "under_constrained": analysis.under_constrained,
         "over_constrained": analysis.over_constrained,

@@ -106,12 +106,13 @@ def _verb(outcome: Decomposition, screw: Screw, many: bool, alone: bool) -> str:
     s = "" if many else "s"
     axis = direction_words(screw.direction)
     if screw.kind is ScrewKind.TRANSLATION:
-        return f"move{s} along {axis}" + ("" if alone else f" by {screw.magnitude:.4g} m")
+        far = "" if alone else f" by {screw.units.said(screw.magnitude, 'm')}"
+        return f"move{s} along {axis}{far}"
     about = f"about {line_words(outcome, screw.point, screw.direction)}"
     size = "" if alone else f" by {screw.magnitude:.4g} rad"
     if screw.kind is ScrewKind.ROTATION:
         return f"turn{s} {about}{size}"
-    return f"turn{s} {about}{size} and move{s} along it by {screw.pitch:.4g} m/rad"
+    return f"turn{s} {about}{size} and move{s} along it by {screw.units.said(screw.pitch, 'm/rad')}"
 
 
 def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray) -> str:
@@ -121,13 +122,17 @@ def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray)
     """
     axis = direction_words(direction)
     least = SAME_PLACE * outcome.characteristic_length
-    numbers = ["0" if abs(value) < least else f"{value:.4g}" for value in point]
+    units = outcome.given.units
+    unit = units.symbol("m")
+    numbers = [
+        "0" if abs(value) < least else f"{units.shown(value, 'm'):.4g}" for value in point.tolist()
+    ]
     if outcome.given.planar and axis == "z":
-        return f"the point ({', '.join(numbers[:2])}) m"
+        return f"the point ({', '.join(numbers[:2])}) {unit}"
     if axis in ("x", "y", "z"):
         numbers["xyz".index(axis)] = "*"
     shown = numbers[:2] if outcome.given.planar else numbers
-    return f"the line through ({', '.join(shown)}) m along {axis}"
+    return f"the line through ({', '.join(shown)}) {unit} along {axis}"
 
 
 def parts_in_words(outcome: Decomposition, parts: tuple[Part, ...]) -> Pieces:
@@ -256,12 +261,12 @@ def _carried(outcome: Decomposition, stress: SelfStress, one: PartStress) -> Ite
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
     rest = TOLD * max(wrench.size for wrench in ends)
-    length = ends[-1].length
+    length, units = ends[-1].length, ends[-1].units
     if abs(one.normal_force) * length > rest:
         kind = "tension" if one.normal_force > 0.0 else "compression"
         yield f"{kind} {abs(one.normal_force):.4g} N"
     if abs(one.twist_moment) > rest:
-        yield f"twist moment {one.twist_moment:.4g} N m"
+        yield f"twist moment {units.said(one.twist_moment, 'N m')}"
     bending = list(_bending(outcome, stress, one, rest))
     yield from bending
     if not bending and float(np.linalg.norm(one.shear_force)) * length > rest:
@@ -272,18 +277,20 @@ def _bending(
     outcome: Decomposition, stress: SelfStress, one: PartStress, rest: float
 ) -> Iterator[str]:
     """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
+    units = outcome.given.units
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
         moments = moments_at_ends(stress, one).values()
         for quantity, at_ends in zip(_MOMENTS, moments, strict=True):
             if max(map(abs, at_ends)) > rest:
                 first, last = at_ends
                 told = [
-                    f"{value:.4g} N m at {place_words(outcome.parts, end.position or 0, one.part)}"
+                    f"{units.said(value, 'N m')} at "
+                    f"{place_words(outcome.parts, end.position or 0, one.part)}"
                     for value, end in zip(at_ends, one.ends, strict=True)
                     if abs(value) > rest
                 ]
                 if abs(first - last) <= rest:
-                    yield f"constant {quantity} {first:.4g} N m"
+                    yield f"constant {quantity} {units.said(first, 'N m')}"
                 else:
                     yield f"{quantity} {' and '.join(told)}"
         return
@@ -294,7 +301,8 @@ def _bending(
             where = ""
             if end.position is not None:
                 where = f" at {place_words(outcome.parts, end.position, one.part)}"
-            yield f"moment {_vector(moment, 'N m about')}{where}"
+            shown = _vector(units.shown(moment, "N m"), f"{units.symbol('N m')} about")
+            yield f"moment {shown}{where}"
 
 
 def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[float, float]]:

@@ -184,18 +184,19 @@ class PartStress(Frozen):
     def __str__(self) -> str:
         """In words."""
         told = []
-        length, rest = self._last.length, 1.0e2 * self._last.rest
+        length, rest, units = self._last.length, 1.0e2 * self._last.rest, self._last.units
         if abs(self.normal_force) * length > rest:
             kind = "tension" if self.normal_force > 0.0 else "compression"
             told.append(f"{kind} {abs(self.normal_force):.4g} N")
         if np.linalg.norm(self.shear_force) * length > rest:
             told.append(f"shear force {in_words(self.shear_force)} N")
         if abs(self.twist_moment) > rest:
-            told.append(f"twist moment {self.twist_moment:.4g} N m")
+            told.append(f"twist moment {units.said(self.twist_moment, 'N m')}")
         for end, moment in zip(self.ends, self.moments, strict=True):
             if np.linalg.norm(moment) > rest:
                 at = f" on {end.on}" if end.on is not None else " on its support"
-                told.append(f"moment {in_words(moment)} N m{at}")
+                shown = f"{in_words(units.shown(moment, 'N m'))} {units.symbol('N m')}"
+                told.append(f"moment {shown}{at}")
         return f"{self.part}: {', '.join(told) or 'nothing'}"
 
     def __repr__(self) -> str:
@@ -488,7 +489,8 @@ class Presses:
 
     def _wrench(self, both: FloatArray, about: FloatArray) -> Wrench:
         length = self.analysis.characteristic_length
-        return Wrench(both[0], both[1], np.array(about), length, ROUNDING * self._largest)
+        units = self.analysis.given.units
+        return Wrench(both[0], both[1], np.array(about), length, ROUNDING * self._largest, units)
 
     def _part_stress(self, part: Part) -> PartStress:
         found = self._ends.get(part, {})

@@ -94,7 +94,7 @@ def _end_that_turns(parts: Parts, place: int, node: int) -> str:
         return f"{what} at {place_words(parts, place, own[0])}"
     if place in parts.body_at:
         return f"{what} at {place_words(parts, place)}"
-    return f"{what} at {point_words(parts, place)} m"
+    return f"{what} at {point_words(parts, place)} {parts.data.units.symbol('m')}"
 
 
 def _turns_alone(parts: Parts, place: int, node: int) -> bool:
@@ -138,7 +138,7 @@ def end_words(parts: Parts, position: int) -> str:
     others = [part for part in parts.at(position) if part.kind is not PartKind.BODY]
     if len(others) == 1:
         return f"the end of {part_words(others[0])} at {owner}"
-    return f"{owner} at {point_words(parts, position)} m"
+    return f"{owner} at {point_words(parts, position)} {parts.data.units.symbol('m')}"
 
 
 def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
@@ -217,10 +217,10 @@ def _is_clamped(parts: Parts, position: int) -> bool:
 
 
 def point_words(parts: Parts, position: int) -> str:
-    """Its coordinates [m], in the plane two."""
-    count = 2 if parts.data.planar else 3
-    place = parts.data.arrays.node_value[:count, position].tolist()
-    return f"({', '.join(f'{value + 0.0:.4g}' for value in place)})"
+    """Its coordinates in the units of the model, in the plane two."""
+    count, units = 2 if parts.data.planar else 3, parts.data.units
+    place = parts.data.arrays.node_value[:count, position]
+    return f"({', '.join(f'{value + 0.0:.4g}' for value in units.shown(place, 'm').tolist())})"
 
 
 def axis_words(axis: FloatArray) -> str:

@@ -8,13 +8,14 @@ of the line nearest to c is c + w x v/w.w.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray, floats
 from ..util.records import Frozen, Word, cached_property
+from ..util.units import METRES, Units
 from .limits import NO_SENSE, ROUNDING
 
 
@@ -44,6 +45,7 @@ class Screw(Frozen):
         rotation: (3,) [rad].
         velocity: (3,) of `centre` [m].
         length: By which rotations compare with displacements [m].
+        units: In which it is said.
     """
 
     kind: ScrewKind
@@ -55,6 +57,7 @@ class Screw(Frozen):
     rotation: FloatArray
     velocity: FloatArray
     length: float
+    units: Units = METRES
 
     def at(self, point: ArrayLike) -> FloatArray:
         """(3,) displacement of a point of the body [m], by where it is."""
@@ -70,12 +73,12 @@ class Screw(Frozen):
         if self.kind is ScrewKind.NONE:
             return "does not move"
         if self.kind is ScrewKind.TRANSLATION:
-            return f"moves by {self.magnitude:.4g} m along {along}"
-        line = f"the line through {in_words(self.point, self.length)} m"
+            return f"moves by {self.units.said(self.magnitude, 'm')} along {along}"
+        line = f"the line through {place_in_words(self.point, self.length, self.units)}"
         about = f"{self.magnitude:.4g} rad about {line} along"
         if self.kind is ScrewKind.ROTATION:
             return f"turns by {about} {along}"
-        return f"screws by {about} {along}, pitch {self.pitch:.4g} m/rad"
+        return f"screws by {about} {along}, pitch {self.units.said(self.pitch, 'm/rad')}"
 
     def __repr__(self) -> str:
         """Likewise."""
@@ -90,6 +93,7 @@ def screw_of(
     *,
     rest: float = 0.0,
     rounding: float = ROUNDING,
+    units: Units = METRES,
 ) -> Screw:
     """The screw of a body.
 
@@ -104,17 +108,19 @@ def screw_of(
         length: By which rotations compare with displacements [m].
         rest: Motions up to this size are none [m].
         rounding: What part of a motion may be rounding.
+        units: In which it is said.
     """
     w, v, c = (np.array(each, float) for each in (rotation, velocity, centre))
     speed, turn = float(np.linalg.norm(v)), float(np.linalg.norm(w))
     size = max(speed, turn * length)
     if not size > rest:
-        return Screw(ScrewKind.NONE, np.zeros(3), c, 0.0, 0.0, c, 0.0 * w, 0.0 * v, length)
+        return Screw(ScrewKind.NONE, np.zeros(3), c, 0.0, 0.0, c, 0.0 * w, 0.0 * v, length, units)
     if not turn * length > rounding * size:
         sense = sense_of(v)
         direction = sense * v / speed
         return Screw(
-            ScrewKind.TRANSLATION, direction, c, float("inf"), sense * speed, c, 0.0 * w, v, length
+            *(ScrewKind.TRANSLATION, direction, c, float("inf"), sense * speed),
+            *(c, 0.0 * w, v, length, units),
         )
     unit = w / turn
     arm = np.cross(unit, v) / turn
@@ -122,7 +128,9 @@ def screw_of(
     is_screw = abs(pitch) > rounding * (length + float(np.linalg.norm(arm)))
     sense = sense_of(unit)
     kind = ScrewKind.SCREW if is_screw else ScrewKind.ROTATION
-    return Screw(kind, sense * unit, c + arm, pitch * is_screw, sense * turn, c, w, v, length)
+    return Screw(
+        *(kind, sense * unit, c + arm, pitch * is_screw, sense * turn, c, w, v, length, units)
+    )
 
 
 def sense_of(vector: FloatArray) -> float:
@@ -137,6 +145,12 @@ def in_words(vector: FloatArray, length: float = 0.0) -> str:
     size = max(float(np.abs(vector).max(initial=0.0)), length)
     parts = np.where(np.abs(vector) > ROUNDING * size, vector, 0.0) + 0.0
     return f"({', '.join(f'{part:.4g}' for part in parts)})"
+
+
+def place_in_words(place: FloatArray, length: float, units: Units) -> str:
+    """A place [m] with its unit, likewise."""
+    shown = units.shown(place, "m")
+    return f"{in_words(shown, units.shown(length, 'm'))} {units.symbol('m')}"
 
 
 class WrenchKind(Word):
@@ -166,6 +180,7 @@ class Wrench(Frozen):
         about: (3,) a point [m].
         length: By which forces compare with moments [m].
         rest: Wrenches up to this size are none [N m].
+        units: In which it is said.
     """
 
     force: FloatArray
@@ -173,6 +188,7 @@ class Wrench(Frozen):
     about: FloatArray
     length: float
     rest: float = 0.0
+    units: Units = METRES
 
     @cached_property
     def _screw(self) -> Screw:
@@ -223,22 +239,22 @@ class Wrench(Frozen):
         """The same wrench with its moment about another point [m]."""
         there = floats(point, "a point")
         moment = self.moment + np.cross(self.about - there, self.force)
-        return Wrench(self.force, moment, there, self.length, self.rest)
+        return replace(self, moment=moment, about=there)
 
     def __add__(self, other: Wrench) -> Wrench:
         """Both together, about the point of this one."""
         moved = other.at(self.about)
         force, moment = self.force + moved.force, self.moment + moved.moment
-        return Wrench(force, moment, self.about, self.length, max(self.rest, other.rest))
+        return replace(self, force=force, moment=moment, rest=max(self.rest, other.rest))
 
     def __neg__(self) -> Wrench:
         """The opposite one."""
-        return Wrench(-self.force, -self.moment, self.about, self.length, self.rest)
+        return replace(self, force=-self.force, moment=-self.moment)
 
     def __mul__(self, factor: float) -> Wrench:
         """So many times the wrench."""
         force, moment = self.force * factor, self.moment * factor
-        return Wrench(force, moment, self.about, self.length, self.rest * abs(factor))
+        return replace(self, force=force, moment=moment, rest=self.rest * abs(factor))
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -248,13 +264,14 @@ class Wrench(Frozen):
         """In words."""
         if self.kind is WrenchKind.NONE:
             return "nothing"
-        along, size = in_words(self.direction), f"{self.magnitude:.4g}"
+        along, units = in_words(self.direction), self.units
         if self.kind is WrenchKind.COUPLE:
-            return f"a moment of {size} N m about {along}"
-        line = f"{size} N along {along} through {in_words(self.point, self.length)} m"
+            return f"a moment of {units.said(self.magnitude, 'N m')} about {along}"
+        through = place_in_words(self.point, self.length, units)
+        line = f"{self.magnitude:.4g} N along {along} through {through}"
         if self.kind is WrenchKind.FORCE:
             return f"a force of {line}"
-        return f"a force of {line} with a moment about it, pitch {self.pitch:.4g} m"
+        return f"a force of {line} with a moment about it, pitch {units.said(self.pitch, 'm')}"
 
     def __repr__(self) -> str:
         """Likewise."""

@@ -145,7 +145,7 @@ _WORDS: dict[tuple[str, Block | None], Words] = {
         "e a", "expansion of the material with temperature (1/K)", "properties"
     ),
     ("FILLET", None): Words(
-        "e r", "the radius of the fillets at both ends of a sheet or wire (m)", "material"
+        "e r", "the radius of the fillets at both ends of a sheet or wire (m)", "properties"
     ),
     ("XM", None): Words("n …", "", "properties"),
     ("MASS", None): Words("n …", "", "properties"),

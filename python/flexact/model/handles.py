@@ -38,7 +38,8 @@ class Node:
     def place(self) -> tuple[float, ...]:
         """(3,) or, in a planar model, (2,) position [m]; empty where the point was deleted."""
         value = self.owner.node_value.get(self.position, ())
-        return value[: 2 if self.owner.planar else 3]
+        units = self.owner.units
+        return tuple(units.shown(each, "m") for each in value[: 2 if self.owner.planar else 3])
 
     @property
     def words(self) -> str:

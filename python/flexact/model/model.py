@@ -1412,14 +1412,20 @@ class Model:
     @property
     def node_values(self) -> FloatArray:
         """(nodes, 4) reference values: position [m]; Euler parameters; or angle [rad]."""
-        return self.data.arrays.node_value.T
+        if not self._units.power:
+            return self.data.arrays.node_value.T
+        a = self.data.arrays
+        places = (a.node_kind <= NodeKind.POSITION)[:, None]
+        value = a.node_value.T
+        return read_only(np.where(places, self._units.shown(value, "m"), value))
 
     @property
     def positions(self) -> FloatArray:
         """(nodes, 3) reference positions [m]; zero for nodes that are orientations."""
         a = self.data.arrays
         places = (a.node_kind <= NodeKind.POSITION)[:, None]
-        return read_only(np.where(places, a.node_value.T[:, :3], 0.0))
+        shown = self._units.shown(a.node_value.T[:, :3], "m")
+        return read_only(np.where(places, shown, 0.0))
 
     @property
     def coordinate_classes(self) -> IntArray:

@@ -23,7 +23,7 @@ def positions_given(data: ModelData, given: ArrayLike, *, many: bool) -> FloatAr
         TypeError: they are no numbers.
         ValueError: the shape is another, or a position is not finite.
     """
-    array = floats(given, "positions")
+    array = data.units.si(floats(given, "positions"), "m")
     _require_shape("positions", array.shape, (data.arrays.node_number.size, 3), many)
     used = axes_used(data)
     wrong = ~np.isfinite(array) & used
@@ -31,7 +31,7 @@ def positions_given(data: ModelData, given: ArrayLike, *, many: bool) -> FloatAr
         place = np.argwhere(wrong)[0].tolist()
         number = int(data.arrays.node_number[place[-2]])
         where = f"variant {place[0]}, counted from 0, has " if many else "there is "
-        value = array[tuple(place)]
+        value = data.units.shown(float(array[tuple(place)]), "m")
         raise ValueError(
             f"{where}{value} as {'xyz'[place[-1]]} of node {number}; positions must be finite"
         )

@@ -27,6 +27,7 @@ from ..util.errors import require_kind
 from ..util.quantities import Quantity, without_units
 from ..util.records import Frozen
 from ..util.text import in_short
+from ..util.units import Units
 from .plots import finished, histograms, smallest_values
 from .sweep import sweep
 from .table import Table, per_cent, share_in_words
@@ -95,11 +96,11 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
         ValueError: one is negative or not finite, or the shape is another.
     """
     nodes = model.node_numbers.size
-    made = np.zeros((nodes, 3))
+    made, unit = np.zeros((nodes, 3)), model.data.units.symbol("m")
     if isinstance(sd, Mapping):
         point = points_of(model.data)
         for name, value in sd.items():
-            given = floats(without_units(value, "m"), "the standard deviation of a point")
+            given = floats(without_units(value, unit), "the standard deviation of a point")
             if given.shape not in ((), (3,)):
                 raise ValueError(
                     "the standard deviation of a point is a length, or one of each of x, y and z, "
@@ -107,7 +108,7 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
                 )
             made[point == point[position_of(Parts(model.data), name)]] = given
     else:
-        given = floats(without_units(sd, "m"), "the standard deviation")
+        given = floats(without_units(sd, unit), "the standard deviation")
         if given.shape not in ((), (nodes,), (nodes, 3)):
             raise ValueError(
                 f"the standard deviation is one length, or has the shape ({nodes} nodes,) or "
@@ -312,8 +313,8 @@ def tolerances(
     spread = spread_given(model, sd)
     _require_whole("samples", samples, 1)
     _require_whole("the seed", seed, 0)
-    limit = None if below is None else _limit(below)
-    positions = misaligned(model, spread, int(samples), int(seed))
+    limit = None if below is None else _limit(below, model.data.units)
+    positions = model.data.units.shown(misaligned(model, spread, int(samples), int(seed)), "m")
     table = sweep(model, positions=positions, workers=workers, progress=progress)
     nominal = sweep(model, positions=model.positions[None], workers=1)
     return Tolerances(table, nominal, spread, int(seed), limit)
@@ -326,8 +327,8 @@ def _require_whole(what: str, value: Any, least: int) -> None:
         raise ValueError(f"{what} must be {least} or more, not {value}")
 
 
-def _limit(below: Any) -> float:
-    below = without_units(below, "m")
+def _limit(below: Any, units: Units) -> float:
+    below = without_units(below, units.symbol("m"))
     if isinstance(below, bool) or not isinstance(below, (int, float, np.number)):
         raise TypeError(f"the margin must be a length [m], not {type(below).__name__}")
     if not (math.isfinite(below) and below > 0.0):

@@ -49,19 +49,21 @@ _ROUNDING = 1.0e-14
 
 def lines(trace: Traced) -> list[str]:
     """What is to be said of a path, in sentences."""
-    shown, dead = trace.shown, trace.dead_points
+    shown, dead, units = trace.shown, trace.dead_points, trace.result.given.units
     what = motion_in_words(trace.result, shown.number, shown.freedom)
     told = [f"{_capital(what)}, followed both ways with every held deformation zero."]
     for side, way in (("Along it", trace.along), ("Against it", trace.against)):
-        told.append(f"{side}: {way.length:.4g} m; {stop_in_words(trace, way.stop)}.")
+        told.append(f"{side}: {units.said(way.length, 'm')}; {stop_in_words(trace, way.stop)}.")
     if shown.freedom is not None:
-        values = [step.drive for step in trace.steps]
+        unit = drive_unit(shown.freedom)
+        values = [units.shown(step.drive, unit) for step in trace.steps]
         told.append(
             f"{_capital(plain(freedom_in_words(shown.freedom)))} goes from {min(values):+.6g} to "
-            f"{max(values):+.6g} {drive_unit(shown.freedom)}; its declaration was let loose."
+            f"{max(values):+.6g} {units.symbol(unit)}; its declaration was let loose."
         )
     for step in dead[:_MOST]:
-        place = "At the reference" if step.arc == 0.0 else f"At {step.arc:+.6g} m"
+        place = f"At {units.shown(step.arc, 'm'):+.6g} {units.symbol('m')}"
+        place = "At the reference" if step.arc == 0.0 else place
         if step.dead is not None:
             is_last = step is trace.steps[0] or step is trace.steps[-1]
             on = "; the path goes straight on" if step.dead.is_branch and not is_last else ""
@@ -84,8 +86,8 @@ def stop_in_words(trace: Traced, stop: Stop) -> str:
         return f"there {_branches(stop.directions)}, and none was chosen"
     if ending is Ending.NOT_ZERO:
         return (
-            f"there it ends: {stop.step * trace.size:.2g} m on, held deformations of "
-            f"{stop.residual:.2g} of the model's size are left"
+            f"there it ends: {trace.result.given.units.said(stop.step * trace.size, 'm', 2)} on, "
+            f"held deformations of {stop.residual:.2g} of the model's size are left"
         )
     if ending is Ending.ELEMENT:
         element = int(trace.result.data.arrays.element_number[stop.element])
@@ -138,8 +140,10 @@ def _verdicts(trace: Traced) -> list[str]:
     if len(runs) == 1:
         counts = counts_in_words(runs[0][0].under_constrained, runs[0][0].over_constrained)
         return [f"All along{special}: {counts}."]
+    units = trace.result.given.units
     told = [
-        f"From {run[0].arc:+.4g} to {run[-1].arc:+.4g} m: "
+        f"From {units.shown(run[0].arc, 'm'):+.4g} to {units.shown(run[-1].arc, 'm'):+.4g} "
+        f"{units.symbol('m')}: "
         f"{counts_in_words(run[0].under_constrained, run[0].over_constrained)}."
         for run in runs[:_MOST]
     ]
@@ -168,30 +172,31 @@ def csv_bytes(trace: Traced) -> bytes:
 
 def rows(trace: Traced) -> Iterator[list[Cell]]:
     """The names of the columns, with units, then a row a step; the reference is step 0."""
-    planar, drive = trace.result.given.planar, trace.shown.freedom
+    planar, drive, units = trace.result.given.planar, trace.shown.freedom, trace.result.given.units
+    unit = units.symbol("m")
     points, bodies = (each(trace.result, _MOST_PLACES) for each in (points_of, bodies_of))
     kept = max(step.values.size for step in trace.steps)
     axes, turns = ("xy", ("rz",)) if planar else ("xyz", ("rx", "ry", "rz"))
     yield [
-        *("step", "arc [m]", "residual [size]"),
+        *("step", f"arc [{unit}]", "residual [size]"),
         *(f"sigma {k + 1}" for k in range(kept)),
         *("under_constrained", "over_constrained", "verdict", "dead_point"),
-        *([] if drive is None else [f"{drive.label} [{drive_unit(drive)}]"]),
-        *(f"{name} {axis} [m]" for name in points.values() for axis in axes),
+        *([] if drive is None else [f"{drive.label} [{units.symbol(drive_unit(drive))}]"]),
+        *(f"{name} {axis} [{unit}]" for name in points.values() for axis in axes),
         *(f"{name} {turn} [rad]" for name in bodies.values() for turn in turns),
     ]
     first = trace.reference
     for number, step in enumerate(trace.steps):
         values = [*step.values.tolist(), *[math.nan] * (kept - step.values.size)]
-        places = step.pose.position[list(points), : len(axes)].ravel().tolist()
+        places = step.pose.position[list(points), : len(axes)].ravel()
         turned = vector_of(step.pose.rotation[list(bodies)])[:, -len(turns) :].ravel().tolist()
         yield [
-            *(number - first, step.arc, step.residual),
+            *(number - first, units.shown(step.arc, "m"), step.residual),
             *("" if math.isnan(value) else value for value in values),
             *(step.under_constrained, step.over_constrained, step.verdict.value),
             "" if step.dead is None else dead_in_words(step, step.dead),
-            *([] if drive is None else [step.drive]),
-            *places,
+            *([] if drive is None else [units.shown(step.drive, drive_unit(drive))]),
+            *units.shown(places, "m").tolist(),
             *turned,
         ]
 
@@ -217,6 +222,8 @@ def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
     load_matplotlib()
     from matplotlib.figure import Figure
 
+    units = trace.result.given.units
+    arc = units.shown(trace.arc, "m")
     panels = 2 if trace.shown.freedom is None else 3
     figure: Any = Figure(
         figsize=(_SIZE[0], _SIZE[1] + _PANEL * panels),
@@ -227,53 +234,56 @@ def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
     axes = figure.subplots(panels, 1, sharex=True)
     what = motion_in_words(trace.result, trace.shown.number, trace.shown.freedom)
     axes[0].set_title(harmless(what), parse_math=False, fontsize=11, loc="left", pad=18)
-    _draw_values(axes[0], trace)
-    _draw_places(axes[1], trace)
+    _draw_values(axes[0], trace, arc)
+    _draw_places(axes[1], trace, arc)
     if (freedom := trace.shown.freedom) is not None:
-        axes[2].plot(trace.arc, [step.drive for step in trace.steps], color=_CURVES[0], lw=1.4)
-        drive = harmless(f"{freedom.label} [{drive_unit(freedom)}]")
+        unit = drive_unit(freedom)
+        driven = [units.shown(step.drive, unit) for step in trace.steps]
+        axes[2].plot(arc, driven, color=_CURVES[0], lw=1.4)
+        drive = harmless(f"{freedom.label} [{units.symbol(unit)}]")
         axes[2].set_ylabel(drive, parse_math=False, fontsize=11)
     for panel in axes:
         for step in trace.dead_points:
-            panel.axvline(step.arc, color=_DEAD, lw=1.0, ls=(0, (4, 3)), zorder=3)
+            panel.axvline(units.shown(step.arc, "m"), color=_DEAD, lw=1.0, ls=(0, (4, 3)), zorder=3)
         panel.grid(True, which="major", color="#e5e7eb", lw=0.7, zorder=0)
         panel.set_axisbelow(True)
     for number, step in enumerate(trace.dead_points, start=1):
         axes[0].annotate(
             str(number),
-            (step.arc, 1.0),
+            (units.shown(step.arc, "m"), 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(0, 3),
             textcoords="offset points",
             ha="center",
             fontsize=9,
         )
-    axes[-1].set_xlabel("along the path [m]", fontsize=11)
+    axes[-1].set_xlabel(f"along the path [{units.symbol('m')}]", fontsize=11)
     _legend(figure, trace)
     return still_bytes(figure, suffix, file_name(trace.result.given.name) or "path", harmless(what))
 
 
-def _draw_values(axes: Any, trace: Traced) -> None:
+def _draw_values(axes: Any, trace: Traced, arc: FloatArray) -> None:
     count = min(_MOST_VALUES, *(step.values.size for step in trace.steps))
     colours = [step.verdict.colour for step in trace.steps]
     axes.set_yscale("log")
     for k in range(count):
         values = np.maximum([step.values[k] for step in trace.steps], _FLOOR)
-        axes.plot(trace.arc, values, color="#9ca3af", lw=1.0, zorder=2)
-        axes.scatter(trace.arc, values, c=colours, s=10, zorder=4, clip_on=False)
+        axes.plot(arc, values, color="#9ca3af", lw=1.0, zorder=2)
+        axes.scatter(arc, values, c=colours, s=10, zorder=4, clip_on=False)
     axes.set_ylim(bottom=_FLOOR)
     axes.set_ylabel("smallest singular values", fontsize=11)
 
 
-def _draw_places(axes: Any, trace: Traced) -> None:
+def _draw_places(axes: Any, trace: Traced, arc: FloatArray) -> None:
     """Coordinates that change most; of those that are the same the first."""
+    units = trace.result.given.units
     points = points_of(trace.result, len(trace.result.given.node_names))
     start = trace.steps[trace.reference].pose.position
     moved: list[tuple[float, str, FloatArray]] = []
     for node, point in points.items():
         way = np.array([step.pose.position[node] for step in trace.steps])
         for k, axis in enumerate("xy" if trace.result.given.planar else "xyz"):
-            curve = way[:, k] - start[node, k]
+            curve = units.shown(way[:, k] - start[node, k], "m")
             moved.append((float(np.ptp(curve)), f"{point} {axis}", curve))
     largest = max((each[0] for each in moved), default=0.0)
     moved.sort(key=lambda each: -round(each[0] / (largest or 1.0), 9))
@@ -283,8 +293,8 @@ def _draw_places(axes: Any, trace: Traced) -> None:
         if size > _SAME * largest and is_new and len(curves) < _MOST_CURVES:
             curves.append((name, curve))
     for colour, (name, curve) in zip(_CURVES, curves, strict=False):
-        axes.plot(trace.arc, curve, color=colour, lw=1.4, label=harmless(name).replace("$", r"\$"))
-    axes.set_ylabel("displacement [m]", fontsize=11)
+        axes.plot(arc, curve, color=colour, lw=1.4, label=harmless(name).replace("$", r"\$"))
+    axes.set_ylabel(f"displacement [{units.symbol('m')}]", fontsize=11)
     if curves:
         axes.legend(fontsize=9, frameon=False, ncols=3, loc="best")
 

@@ -31,6 +31,7 @@ from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
 from ..util.records import Frozen, cached_property
 from ..util.rotations import vector_of
+from ..util.units import Units
 from .output import TRACES, lines
 from .values import ROTATION, DeadPoint, Step, Traced, Way, drive_unit
 
@@ -111,7 +112,7 @@ def trace(
         ValueError: the length or the number of steps is not positive.
     """
     result = _analysed(model)
-    wished = _checked(length, steps)
+    wished = _checked(length, steps, result.given.units)
     if motion is not None and freedom is not None:
         raise TraceError("a motion or a degree of freedom is traced, not both")
     shown = select_motion(result, motion, freedom)
@@ -129,8 +130,9 @@ def trace(
     held = Held(data)
     size = 1.0 if wished is None else wished / held.size
     if wished is not None and wished > data.size and size > 1.0 and not beyond:
-        whole = f"the whole model, {data.size:.3g} m"
-        raise TraceError(larger_in_words("the length", f"{wished:g} m", whole, "20mm"))
+        units = data.units
+        whole = f"the whole model, {units.said(data.size, 'm', 3)}"
+        raise TraceError(larger_in_words("the length", units.said(wished, "m", 6), whole, "20mm"))
     most = size / steps
     wishes = Wishes(size, most, most, _LEAST * min(most, 0.1), 100 * steps + 2000, through)
     direction = held.direction(shown.motion.analysed)
@@ -168,14 +170,14 @@ def _analysed(given: object) -> Result:
     )
 
 
-def _checked(length: Quantity | None, steps: int) -> float | None:
+def _checked(length: Quantity | None, steps: int, units: Units) -> float | None:
     if isinstance(steps, bool) or not isinstance(steps, int):
         raise TypeError(f"the number of steps must be whole, not {type(steps).__name__}")
     if steps < 1:
         raise ValueError("there must be one step each way at least")
     if length is None:
         return None
-    length = without_units(length, "m")
+    length = without_units(length, units.symbol("m"))
     if isinstance(length, bool) or not isinstance(length, (int, float, np.floating, np.integer)):
         raise TypeError(f"the length must be a number, not {type(length).__name__}")
     if not (math.isfinite(length) and length > 0.0):
@@ -200,8 +202,8 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
         raise TraceError(f"the path cannot be begun: element {element} is at the end of its range")
     _, largest = least_error(held, start.tangent, _TRIED)
     tried = (
-        f"{_TRIED * held.size:.2g} m along it, held deformations of {largest:.2g} of the "
-        "model's size are left at the least"
+        f"{result.given.units.said(_TRIED * held.size, 'm', 2)} along it, held deformations of "
+        f"{largest:.2g} of the model's size are left at the least"
     )
     why = f"the motion is infinitesimal, or ends here; {tried}"
     if start.directions > 1:

@@ -94,6 +94,16 @@ def quantity(text: str, unit: str) -> float:
     return _read(text, unit)[0]
 
 
+def as_typed(text: str, unit: str) -> Quantity:
+    """A text as Python takes it: a number where it says no unit, which is that of the model.
+
+    Raises:
+        QuantityError: as of `quantity`.
+    """
+    value, said = _read(text, unit)
+    return text if said else value
+
+
 def measured(given: object, unit: str) -> float:
     """What Python is given for a quantity: a number, or a text that says its unit.
 

@@ -79,6 +79,10 @@ class Units(Frozen):
         """A number, or numbers, of the unit here in SI."""
         return _scaled(value, self.power * _WITH_LENGTH.get(unit, (0, unit))[0])
 
+    def said(self, value: float, unit: str, digits: int = 4) -> str:
+        """Such as "12.5 N/mm"."""
+        return f"{self.shown(value, unit):.{digits}g} {self.symbol(unit)}"
+
     def read(self, given: object, unit: str) -> float:
         """What is given for a quantity, a number in the unit here or a text with its own, in SI.
 

@@ -96,12 +96,12 @@ _COMMON = {
     "one line": "lie along one line",
     "parallel": "are parallel",
     "one plane": "lie in one plane",
-    "concurrent": "meet in one point, {point} m",
+    "concurrent": "meet in one point, {point}",
     "one transversal": "all meet one line, so that none of them stops the rotation about {line}",
     "across": "all lie across {axis}, so that none of them stops the translation along {axis}",
     "regulus": "lie on one hyperboloid, so that turns about them cancel out",
     "complex": "belong to one linear complex, so that none of them stops the screw "
-    "motion about {line} of pitch {pitch:.4g} m/rad",
+    "motion about {line} of pitch {pitch}",
 }
 #: Relations of parts themselves, not of their lines of force.
 _OF_PARTS = ("position", "along", "across axis")
@@ -176,7 +176,7 @@ def _relation(result: Result, one: Relation, in_short: bool) -> Pieces:
         what, onto = ("what is stressed", "itself") if is_member else (plain(of), "each other")
         return (f"{article} {turn} about {line} takes {what} onto {onto}{tried}",)
     if kind == "reflection":
-        plane = f"the plane through {_point(result, one.point)} m across {axis}"
+        plane = f"the plane through {_point(result, one.point)} across {axis}"
         return (f"what is stressed is symmetric about {plane}{tried}",)
     if kind == "position":
         return (*of, " stand in a special position to each other")
@@ -189,7 +189,8 @@ def _relation(result: Result, one: Relation, in_short: bool) -> Pieces:
     if one.of == "sheet" and kind != "one plane":
         return _of_sheets(result, one, axis, line, in_short)
     point = _point(result, one.point)
-    words = _COMMON[kind].format(point=point, axis=axis, line=line, pitch=one.pitch)
+    pitch = result.given.units.said(one.pitch, "m/rad")
+    words = _COMMON[kind].format(point=point, axis=axis, line=line, pitch=pitch)
     # What lines of force do not stop is told, and not what turns about axes do not.
     is_short = in_short or (one.of == "axis" and kind != "regulus")
     return (*of, f" {words.partition(', so that')[0] if is_short else words}")
@@ -231,8 +232,9 @@ def _lines_of(result: Result, one: Relation) -> Pieces:
 
 def _point(result: Result, place: FloatArray) -> str:
     small = _ZERO * result.characteristic_length
-    numbers = [0.0 if abs(value) < small else value for value in place.tolist()]
-    return f"({', '.join(f'{value:.4g}' for value in numbers[: 2 if result.given.planar else 3])})"
+    units, count = result.given.units, 2 if result.given.planar else 3
+    numbers = [0.0 if abs(value) < small else units.shown(value, "m") for value in place.tolist()]
+    return f"({', '.join(f'{value:.4g}' for value in numbers[:count])}) {units.symbol('m')}"
 
 
 _LIFTS = "lifts its singular value from zero to about"

@@ -259,7 +259,7 @@ def _wanted(geometry: Geometry, wanted: Wanted) -> str:
     line = geometry.line(wanted.point, wanted.direction)
     if wanted.kind is ScrewKind.ROTATION:
         return f"rotation about {line}"
-    return f"a screw about {line}, pitch {wanted.pitch:.4g} m/rad"
+    return f"a screw about {line}, pitch {geometry.outcome.given.units.said(wanted.pitch, 'm/rad')}"
 
 
 def dashed_in_words(wires: int) -> str:

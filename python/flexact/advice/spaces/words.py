@@ -13,6 +13,7 @@ from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.parts.parts import Part, PartKind, natural
 from ...util.records import cached_property
+from ...util.units import Units
 from .screws import SAME, Family, FamilyKind, ScrewSpace
 
 #: What belongs to a family in space, of those that no plane and no point says.
@@ -24,7 +25,7 @@ _FAMILIES = {
     FamilyKind.MEETING: "all lines that meet {line} or are parallel to it",
     FamilyKind.ACROSS: "all lines perpendicular to {along}",
     FamilyKind.CONGRUENCE: "the lines of a linear congruence, one through each point",
-    FamilyKind.COMPLEX: "the lines of a linear complex about {line}, pitch {pitch} m",
+    FamilyKind.COMPLEX: "the lines of a linear complex about {line}, pitch {pitch}",
     FamilyKind.EVERY: "every line",
     FamilyKind.DIRECTION: "{along}",
     FamilyKind.DIRECTIONS_IN_PLANE: "every direction perpendicular to {normal}",
@@ -73,7 +74,7 @@ class Geometry:
             return f"all lines that meet {listed(sorted(lines))}"
         line = lines[0] if lines else ""
         return _FAMILIES[kind].format(
-            line=line, along=along, normal=normal, pitch=f"{family.pitch:.4g}"
+            line=line, along=along, normal=normal, pitch=self._units.said(family.pitch, "m")
         )
 
     def _in_plane(self, family: Family) -> str:
@@ -109,10 +110,15 @@ class Geometry:
             if np.linalg.norm(place - there) <= self._near:
                 return name
         count = 2 if self.outcome.given.planar else 3
-        return f"({', '.join(self._number(value) for value in place[:count])}) m"
+        numbers = ", ".join(map(self._number, place[:count].tolist()))
+        return f"({numbers}) {self._units.symbol('m')}"
+
+    @property
+    def _units(self) -> Units:
+        return self.outcome.given.units
 
     def _number(self, value: float) -> str:
-        return "0" if abs(value) < self._near else f"{value:.4g}"
+        return "0" if abs(value) < self._near else f"{self._units.shown(value, 'm'):.4g}"
 
     def line(self, point: FloatArray, direction: FloatArray) -> str:
         """A line by the wire, bar or hinge on it, by a point that has a name, or by numbers."""
@@ -156,7 +162,8 @@ class Geometry:
                 return f"the plane of {part_words(part)}"
         across = axis_words(normal)
         if across in ("x", "y", "z"):
-            return f"the plane {across} = {self._number(float(point['xyz'.index(across)]))} m"
+            number = self._number(float(point["xyz".index(across)]))
+            return f"the plane {across} = {number} {self._units.symbol('m')}"
         return f"the plane through {self.point(point)} perpendicular to {across}"
 
 
@@ -174,10 +181,11 @@ def _family(geometry: Geometry, family: Family, space: ScrewSpace) -> str:
     if family.is_of_directions:
         return f"moments about {words}" if space.of_wrenches else f"translation along {words}"
     if family.kind is FamilyKind.SCREW:
-        pitch = f"{family.pitch:.4g}"
+        units = geometry.outcome.given.units
         if space.of_wrenches:
-            return f"a force along {words} with a moment about it, pitch {pitch} m"
-        return f"a screw about {words}, pitch {pitch} m/rad"
+            pitch = units.said(family.pitch, "m")
+            return f"a force along {words} with a moment about it, pitch {pitch}"
+        return f"a screw about {words}, pitch {units.said(family.pitch, 'm/rad')}"
     if space.of_wrenches:
         one = family.kind is FamilyKind.LINE
         return f"a force along {words}" if one else f"forces along {words}"

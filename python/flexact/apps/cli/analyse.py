@@ -25,6 +25,7 @@ from .decks import (
     ACCURACY_AND_BEYOND,
     DECISION,
     DECKS,
+    UNITS,
     is_table,
     problems_of,
     read_and_analysed,
@@ -262,6 +263,7 @@ VERB = Verb(
             help="the log in the form of SPACAR's in place of the words, or, with -o, as NAME.log",
         ),
         DECISION,
+        UNITS,
         *ACCURACY_AND_BEYOND,
         argument(
             "--expect",

@@ -68,7 +68,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
-            model = opened(deck, bar)
+            model = opened(deck, bar, chosen)
             report_problems(model)
             try:
                 with unwinding() as look:

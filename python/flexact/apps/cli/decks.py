@@ -11,6 +11,7 @@ import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -29,9 +30,10 @@ from ...util.decks import SUFFIX, DeckFile, FolderError
 from ...util.errors import BatchError, FlexactError
 from ...util.loading import load
 from ...util.partial import why
-from ...util.quantities import quantity
+from ...util.quantities import Quantity, as_typed, quantity
 from ...util.text import columns as text_columns
 from ...util.text import harmless
+from ...util.units import units_of
 from .parser import Argument, Group, argument
 from .terminal import (
     Bar,
@@ -231,13 +233,12 @@ LONG_WAIT = 2000
 DENSE = ("svd", "jacobi")
 
 
-def accuracy(text: str) -> Accuracy:
+def accuracy(text: str) -> tuple[Quantity, ...]:
     """A length, or a length and an angle behind a comma, as an option's type."""
     try:
         length, *angle = text.split(",")
-        return Accuracy.of(
-            [quantity(length, "m"), *(quantity(part, "rad") for part in angle)],
-        )
+        Accuracy.of([quantity(length, "m"), *(quantity(part, "rad") for part in angle)])
+        return as_typed(length, "m"), *(as_typed(part, "rad") for part in angle)
     except (TypeError, ValueError) as error:
         raise argparse.ArgumentTypeError(
             f"a length, or a length and an angle, is wanted, such as 20um or 20um,0.1mrad, not "
@@ -288,12 +289,22 @@ ACCURACY_AND_BEYOND = (
 )
 
 
-def opened(deck: DeckFile, bar: Bar) -> ModelData:
-    """Read a deck, while a bar says so."""
+#: In which numbers are shown and, without a unit, given.
+UNITS = argument(
+    "--units",
+    choices=("m", "mm"),
+    help="units of what is shown, and of numbers that are given without one: m, or mm with N, MPa, "
+    "N mm and N/mm; those of the deck by default",
+)
+
+
+def opened(deck: DeckFile, bar: Bar, chosen: argparse.Namespace) -> ModelData:
+    """Read a deck, while a bar says so, for the units that were chosen."""
     bar.show("reading")
     model = read_deck(deck)
     bar.clear()
-    return model
+    units = getattr(chosen, "units", None)
+    return replace(model, units=units_of(units)) if units else model
 
 
 def report_problems(model: ModelData) -> None:
@@ -306,11 +317,14 @@ def report_problems(model: ModelData) -> None:
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
     announce_wait(deck, model, chosen.method)
-    if chosen.accuracy is not None and not chosen.beyond:
-        chosen.accuracy.require_within(model.size)
+    asked = asked_for(
+        chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy, model.units
+    )
+    if asked.accuracy is not None and not chosen.beyond:
+        asked.accuracy.require_within(model.size, model.units)
     return result_of(
         model,
-        asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy),
+        asked,
         deck.name,
         bar.of_analysis(model),
     )
@@ -319,7 +333,7 @@ def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: 
 def read_and_analysed(deck: DeckFile, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Read a deck, report its problems, and analyse it."""
     begun = time.perf_counter()
-    model = opened(deck, bar)
+    model = opened(deck, bar, chosen)
     report_problems(model)
     read = time.perf_counter()
     result = analysed(deck, model, chosen, bar)
@@ -535,7 +549,7 @@ def summarise_results(
     def step(deck: DeckFile) -> tuple[Cells, Outcome]:
         try:
             with Bar(deck.name, deck.path) as bar:
-                result = analysed(deck, opened(deck, bar), chosen, bar)
+                result = analysed(deck, opened(deck, bar, chosen), chosen, bar)
                 told = _cells(result), finish(deck, result)
         except Exception as error:
             told = failed(deck, foreseen(error))

@@ -21,7 +21,7 @@ from ...util.interruption import unwinding
 from ...util.outputs import plan_files, write_together
 from ...util.partial import attempted
 from ...util.text import harmless
-from .decks import DECISION, foreseen, read_and_analysed, take
+from .decks import DECISION, UNITS, foreseen, read_and_analysed, take
 from .parser import Group, Verb
 from .targets import SHOWN_MOTION, deck_arguments, one_deck, plan_shown
 from .terminal import Bar, ExitCode, Outcome, complain, say
@@ -125,6 +125,7 @@ VERB = Verb(
         ),
         Group("what is shown", (SHOWN_MOTION,)),
         DECISION,
+        UNITS,
     ),
     defaults={"accuracy": None},
 )

@@ -12,7 +12,7 @@ from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file, write_together
 from ...util.text import harmless
-from .decks import ACCURACY_AND_BEYOND, DECISION, read_and_analysed, take
+from .decks import ACCURACY_AND_BEYOND, DECISION, UNITS, read_and_analysed, take
 from .parser import Group, Verb, argument
 from .targets import SHOWN_MOTION, deck_arguments, number, one_deck
 from .terminal import Bar, ExitCode, Outcome, say
@@ -114,6 +114,7 @@ VERB = Verb(
             ),
         ),
         DECISION,
+        UNITS,
         *ACCURACY_AND_BEYOND,
     ),
 )

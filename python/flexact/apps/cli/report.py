@@ -42,6 +42,7 @@ from .decks import (
     DECISION,
     DECKS,
     NOT_READ,
+    UNITS,
     analysed,
     foreseen,
     opened,
@@ -259,7 +260,7 @@ class _Comparison:
                     raise BatchError(words) from unread
                 return stored_side(raw, deck.name), None, ExitCode.ANALYSED
             with Bar(deck.name, deck.path) as bar:
-                result = analysed(deck, opened(deck, bar), self.chosen, bar)
+                result = analysed(deck, opened(deck, bar, self.chosen), self.chosen, bar)
                 return side_of(result), result, ExitCode.ANALYSED
         except Exception as unforeseen:
             error = foreseen(unforeseen)
@@ -403,6 +404,7 @@ VERB = Verb(
         ),
         *COMPARE,
         DECISION,
+        UNITS,
         *ACCURACY_AND_BEYOND,
     ),
 )

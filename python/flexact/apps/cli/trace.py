@@ -13,22 +13,22 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT
-from ...util.quantities import QuantityError, quantity
+from ...util.quantities import Quantity, QuantityError, as_typed, quantity
 from ...util.text import harmless
-from .decks import DECISION, read_and_analysed, take
+from .decks import DECISION, UNITS, read_and_analysed, take
 from .parser import Group, Verb, argument
 from .targets import DECK, SHOWN_MOTION, number, one_deck, plan_shown, write_text
 from .terminal import Bar, ExitCode, Outcome, complain, say
 
 
-def _length(text: str) -> float:
+def _length(text: str) -> Quantity:
     try:
-        value = quantity(text, "m")
+        value, made = quantity(text, "m"), as_typed(text, "m")
     except QuantityError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
     if not value > 0.0:
         raise argparse.ArgumentTypeError(f"a length above 0 is wanted, such as 20mm, not {text!r}")
-    return value
+    return made
 
 
 def trace_deck(chosen: argparse.Namespace) -> ExitCode:
@@ -146,6 +146,7 @@ VERB = Verb(
             ),
         ),
         DECISION,
+        UNITS,
     ),
     defaults={"accuracy": None},
 )

@@ -17,7 +17,7 @@ from ...util.interruption import unwinding
 from ...util.outputs import plan_file
 from ...util.partial import attempted
 from ...util.text import harmless
-from .decks import ACCURACY_AND_BEYOND, DECISION, foreseen, read_and_analysed, take
+from .decks import ACCURACY_AND_BEYOND, DECISION, UNITS, foreseen, read_and_analysed, take
 from .parser import Verb, argument
 from .report import broken_page_of
 from .targets import DECK, NO_BROWSER, file, one_deck
@@ -85,6 +85,7 @@ VERB = Verb(
         argument("-o", "--output", type=file, metavar="PAGE", help="keep the page, NAME.html"),
         NO_BROWSER,
         DECISION,
+        UNITS,
         *ACCURACY_AND_BEYOND,
     ),
 )

@@ -17,6 +17,7 @@ from ...analysis.screws import Wrench
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part, PartKind
 from ...util.rotations import unit
+from ...util.units import Units
 from .bodies import Solid
 from .drawing import Drawing
 
@@ -131,9 +132,9 @@ def _at_end(
     return made
 
 
-def presses_in_words(length: float) -> str:
+def presses_in_words(length: float, units: Units) -> str:
     """What the arrows are, a sentence; `length` is the characteristic one [m]."""
     return (
         "Arrows: forces (one head) and moments (two heads) by which parts press on bodies; "
-        f"1 N is drawn as long as {length:.2g} N m."
+        f"1 N is drawn as long as {units.said(length, 'N m', 2)}."
     )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -17,6 +18,7 @@ from ...model.parts.forms import forms_of
 from ...util.partial import attempted
 from ...util.records import Frozen, cached_property
 from ...util.rotations import frames_along, vector_of
+from ...util.units import Units
 from ..drawing import (
     QUANTITIES,
     Drawing,
@@ -43,18 +45,20 @@ if TYPE_CHECKING:
     from ..drawing import Moving
 
 
-_UNITS = """\
-points: m
-displacement: m
-rotation: rad
-motion_k: m
-motion_k_rotation: rad
-selfstress_k_normal_force: N
-selfstress_k_twist_moment: N m
-selfstress_k_in_plane_moment: N m
-selfstress_k_out_of_plane_moment: N m
-margin: m
-margin_angle: rad"""
+#: SI units of the data, k for the number of a motion or self-stress.
+_UNITS = {
+    "points": "m",
+    "displacement": "m",
+    "rotation": "rad",
+    "motion_k": "m",
+    "motion_k_rotation": "rad",
+    "selfstress_k_normal_force": "N",
+    "selfstress_k_twist_moment": "N m",
+    "selfstress_k_in_plane_moment": "N m",
+    "selfstress_k_out_of_plane_moment": "N m",
+    "margin": "m",
+    "margin_angle": "rad",
+}
 _TEXTS = ("verdict", "certainty", "element_names")
 #: ParaView looks through the names of components one by one.
 MOST_COMPONENTS = 2_000
@@ -63,7 +67,7 @@ MOST_COMPONENTS = 2_000
 def field_data_of(analysis: Result) -> dict[str, AnyArray]:
     """The field data of a result's mesh."""
     data, margin = analysis.given, analysis.margin
-    lengths = (margin.length, margin.angle)
+    lengths, units = (margin.length, margin.angle), data.units
     return {
         "verdict": as_bytes(verdict_word(analysis)),
         "certainty": as_bytes(certainty_word(analysis)),
@@ -71,10 +75,12 @@ def field_data_of(analysis: Result) -> dict[str, AnyArray]:
         "over_constrained": np.array([analysis.over_constrained]),
         "degrees_of_freedom": np.array([analysis.degrees_of_freedom]),
         **{
-            name: np.array([math.inf if size is None else size])
+            name: np.array([math.inf if size is None else units.shown(size, _UNITS[name])])
             for name, size in zip(("margin", "margin_angle"), lengths, strict=True)
         },
-        "units": as_bytes(_UNITS),
+        "units": as_bytes(
+            "\n".join(f"{name}: {units.symbol(unit)}" for name, unit in _UNITS.items())
+        ),
         "element_number": data.arrays.element_number.astype(np.int64)[None],
         "element_names": as_bytes("".join(f"{spelt(name)}\n" for name in data.element_names)),
     }
@@ -91,6 +97,12 @@ def spelt(name: str) -> str:
     return lines.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
+def _in_units(name: str, values: AnyArray, units: Units) -> AnyArray:
+    """Data of points in the units of the model."""
+    unit = _UNITS.get(re.sub(r"_\d+", "_k", name), "")
+    return units.shown(values, unit) if unit else values
+
+
 def component_names(data: Mapping[str, AnyArray]) -> dict[str, list[str]]:
     """What ParaView is to call the components of field data: texts as they read, units, names."""
     texts = {name: bytes(data[name].tobytes()).decode() for name in _TEXTS}
@@ -98,7 +110,7 @@ def component_names(data: Mapping[str, AnyArray]) -> dict[str, list[str]]:
     return {
         "verdict": [texts["verdict"]],
         "certainty": [texts["certainty"]],
-        "margin": ["m"],
+        "margin": ["mm" if "points: mm" in bytes(data["units"].tobytes()).decode() else "m"],
         "margin_angle": ["rad"],
         "element_number": names if data["element_number"].size <= MOST_COMPONENTS else [],
     }
@@ -400,7 +412,7 @@ class Mesh(Frozen):
     """A mesh with its data; see the module.
 
     Attributes:
-        points: (n, 3) [m].
+        points: (n, 3), like all data in the units of the model.
         corners: Points of the cells: (vertices, 1), (lines, 2), (quads, 4).
         point_data: (n,) or (n, 3) each, by name.
         cell_data: (cells,) each, by name, in the order of `corners`.
@@ -541,8 +553,10 @@ class Meshes:
         corners = (vertices, lines, np.concatenate((quads, behind + symbols.quads)))
         number = len(self.analysis.given.element_names) + symbols.owner
         element = np.concatenate((self.reference.element, number))
+        units = self.analysis.given.units
+        values = {name: _in_units(name, each, units) for name, each in values.items()}
         data = values, self._of_cells, field_data_of(self.analysis)
-        return Mesh(points, corners, *data, self.names, element)
+        return Mesh(units.shown(points, "m"), corners, *data, self.names, element)
 
     @cached_property
     def _of_cells(self) -> dict[str, AnyArray]:

@@ -182,7 +182,11 @@ def _command(name: str, analysis: Result | None) -> str:
         if asked.tolerance is not None:
             words += ["--tolerance", repr(asked.tolerance)]
         if asked.accuracy is not None:
-            words += ["--accuracy", str(asked.accuracy)]
+            # Without a unit it would be in that of the deck.
+            sizes = zip(asked.accuracy, ("m", "rad"), strict=True)
+            plain = str(asked.accuracy)
+            typed = ",".join(f"{part!r}{unit}" for part, unit in sizes if part is not None)
+            words += ["--accuracy", typed if analysis.given.units.power else plain]
     return shlex.join(words)
 
 

@@ -118,7 +118,7 @@ def static_data(parts: Parts, frame: Frame, segments: int) -> dict[str, Any]:
         "quantities": list(QUANTITIES),
         "bending": BENDING,
         "diagram": {"height": HEIGHT, "gap": GAP, "shown": SHOWN},
-        "units": UNITS,
+        "units": {each: drawing.data.units.symbol(unit) for each, unit in UNITS.items()},
         "names": names_in(drawing),
         "meaning": meanings_in(drawing),
         "sides": sides_in(drawing),

@@ -218,7 +218,8 @@ def looked_at(analysis: Result) -> tuple[Freedom, ...]:
 
 def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[str, Any]]:
     """The self-stresses, each with the quantities that it has, up to one that cannot be drawn."""
-    rows = hinges_in(frame)
+    rows, units = hinges_in(frame), analysis.given.units
+    factors = {each: units.factor(unit) for each, unit in UNITS.items()}
     made: list[dict[str, Any]] = []
     for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
         what = f"The drawing of self-stress {number}"
@@ -234,9 +235,11 @@ def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[st
                 "title": f"Self-stress {number}",
                 "presses": _presses(presses_of(frame.drawing, stress), frame, found.length),
                 "dominant": found.dominant,
-                "largest": {each: found.largest(each) for each in there},
-                "members": {each: floats(found[each][:MOST_MEMBERS]) for each in there},
-                "hinges": {each: floats(values) for each, values in hinges.items()},
+                "largest": {each: factors[each] * found.largest(each) for each in there},
+                "members": {
+                    each: floats(factors[each] * found[each][:MOST_MEMBERS]) for each in there
+                },
+                "hinges": {each: floats(factors[each] * values) for each, values in hinges.items()},
             }
         )
     return made
@@ -256,7 +259,7 @@ def _presses(presses: Sequence[Press], frame: Frame, length: float) -> dict[str,
         "node": integers([frame.new[each.node] for each, _ in rows]),
         "offset": floats(np.reshape(offset, (-1, 3)) / frame.size),
         "way": floats(np.reshape(way, (-1, 3)) / frame.size),
-        "note": presses_in_words(length) if rows else "",
+        "note": presses_in_words(length, frame.drawing.data.units) if rows else "",
     }
 
 

@@ -15,6 +15,7 @@ from ...analysis.naming import plain as without_links
 from ...analysis.verdict_words import margin_in_short, margin_line
 from ...core.arrays import FloatArray
 from ...util.text import harmless
+from ...util.units import Units
 from ..drawing import BENDING, UNITS, Drawing, meanings_in, reach_of
 from ..drawing.members import diverging
 from ..drawing.movement import AMPLITUDE
@@ -278,13 +279,16 @@ def _add_panel(
             if any(np.all(np.abs(peak - each) < _APART * frame.scale) for each in told):
                 continue
             told.append(peak)
+            if subject.stress is not None:
+                value = drawing.data.units.shown(value, UNITS[subject.stress.quantity])
             _add_label(frame, room, peak, peak - foot, f"{value:+.3g}")
         for place, words in subject.space.labels if subject.space is not None else ():
             there = axes.transData.transform(canvas.view.project(place)[:2])
             _add_label(frame, room, np.asarray(there), np.array((0.3, 1.0)), words)
         if subject.stress is not None:
             words = meanings_in(drawing)[subject.stress.quantity]
-            _add_legend(frame, subject.stress, words, (left + pad, right - pad), bottom)
+            sides = left + pad, right - pad
+            _add_legend(frame, subject.stress, words, sides, bottom, drawing.data.units)
 
 
 def _fit(axes: Axes, box: Box, room: tuple[float, float]) -> None:
@@ -310,7 +314,7 @@ def _caption(drawing: Drawing, subject: Subject) -> str:
     elif subject.stress is not None:
         about = "Relative values, only their ratios matter."
         if subject.stress.presses:
-            about = f"{about} {presses_in_words(subject.stress.values.length)}"
+            about = f"{about} {presses_in_words(subject.stress.values.length, drawing.data.units)}"
     elif movement is None:
         about = "Arrows: declared degrees of freedom." * (len(drawing.arrows[0]) > 0)
     else:
@@ -326,14 +330,20 @@ def _caption(drawing: Drawing, subject: Subject) -> str:
 
 
 def _add_legend(
-    frame: _Frame, stress: Stress, told: str, sides: tuple[float, float], top: float
+    frame: _Frame,
+    stress: Stress,
+    told: str,
+    sides: tuple[float, float],
+    top: float,
+    units: Units,
 ) -> None:
     """A bar of the colours, with what they mean and the values at its ends."""
     from matplotlib.collections import PolyCollection
 
     line = frame.line("legend")
     where = ", drawn on the stretched side" * (stress.quantity in BENDING)
-    frame.text(sides[0], top, f"{told} [{UNITS[stress.quantity]}]{where}", "legend")
+    unit = UNITS[stress.quantity]
+    frame.text(sides[0], top, f"{told} [{units.symbol(unit)}]{where}", "legend")
     width = min(320 * frame.scale, sides[1] - sides[0])
     axes = frame.axes(sides[0], top + 1.25 * line, sides[0] + width, top + 2.0 * line)
     # Each piece reaches to the end, so that there are no seams between them.
@@ -345,7 +355,7 @@ def _add_legend(
     axes.set_ylim(0.0, 1.0)
     values = ((0.0, -1.0, "left"), (0.5, 0.0, "center"), (1.0, 1.0, "right"))
     for place, value, side in values if stress.largest > 0.0 else values[1:2]:
-        words = f"{value * stress.largest:+.3g}" if value else "0"
+        words = f"{units.shown(value * stress.largest, unit):+.3g}" if value else "0"
         frame.text(sides[0] + place * width, top + 2.15 * line, words, "legend", ha=side)
 
 
