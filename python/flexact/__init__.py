@@ -271,6 +271,7 @@ __all__ = [
     "Shape",
     "Sheet",
     "State",
+    "StateSpace",
     "Step",
     "StrokeError",
     "Table",

@@ -194,8 +194,8 @@ class StateSpace(Frozen):
             row = []
             for each in self.inputs:
                 below = " ".join((*rate, _symbol(self.units, each.unit)))
-                same = top == below
-                row.append("1" if same else f"{top}/({below})" if " " in below else f"{top}/{below}")
+                unit = f"{top}/({below})" if " " in below else f"{top}/{below}"
+                row.append("1" if top == below else unit)
             made.append(tuple(row))
         return tuple(made)
 
@@ -289,7 +289,16 @@ class StateSpace(Frozen):
     @property
     def static_gain(self) -> FloatArray:
         """(outputs, inputs) response at rest, exact however few modes; infinite where loose."""
-        return np.asarray(self.response(0.0).real)
+        first, _ = self._entries
+        loose = self.square == 0.0
+        with np.errstate(divide="ignore", invalid="ignore"):
+            each = np.where(loose[:, None], 0.0, first / self.square[:, None])
+        size = np.abs(self.seen) @ np.abs(each) + np.abs(self.through)
+        made = np.asarray(self.seen @ each + self.through)
+        made[np.abs(made) < _ROUNDED * size] = 0.0
+        made[(np.abs(self.seen[:, loose]) @ np.abs(first[loose])) > 0.0] = np.inf
+        made[[out.kind == VELOCITY for out in self.outputs]] = 0.0
+        return made * self._gain_factors
 
     def error_bound(self, f: ArrayLike) -> FloatArray:
         """How far the response may be from that of all modes, at frequencies [Hz].
@@ -408,7 +417,7 @@ _MOST_ZEROS, _STEPS = 60, 20
 _FOUND, _NEAR = 1.0e-13, 1.0e-2
 #: What an output sees of a mode that an input drives is rounding below this part of the largest.
 _CANCELS = 1.0e-10
-#: Zeros below this part of the fastest pole are zero; where the pencil is looked at from.
+#: Sums below this part of their terms are zero; where the pencil is looked at from.
 _ROUNDED, _SHIFT = 1.0e-12, 0.7320508
 
 
@@ -430,7 +439,9 @@ def _zeros_of(system: StateSpace) -> ComplexArray:
     least = 1.0 / (far / pace + _SHIFT)
     found = pace * (_SHIFT + 1.0 / inverse[np.abs(inverse) >= least])
     made = [_polished(system, complex(zero)) for zero in found if abs(zero) <= far]
-    zeros = np.array([0.0 if abs(zero) < _ROUNDED * far else zero for zero in made], complex)
+    # Of a double zero at rest no more than half the digits are left.
+    least = math.sqrt(_ROUNDED) * float(few._speed.min())
+    zeros = np.array([0.0 if abs(zero) < least else zero for zero in made], complex)
     return zeros[np.lexsort((zeros.imag, np.abs(zeros).round(9)))]
 
 
@@ -531,9 +542,9 @@ def state_space_of(
         """(signals, k) what signals see of motions, or what their forces do on them."""
         own = motions[: 3 * points.kinds.size]
         vectors = np.array([each.vector.T.ravel() for each in signals])
-        whole = vectors @ own
-        sizes = np.abs(whole).max(axis=1, initial=0.0)
-        return np.where(np.abs(whole) > _UNSEEN * sizes[:, None], whole, 0.0)
+        whole, size = vectors @ own, np.abs(vectors) @ np.abs(own)
+        least = np.maximum(size, np.abs(whole).max(axis=1, initial=0.0)[:, None])
+        return np.where(np.abs(whole) > _UNSEEN * least, whole, 0.0)
 
     for each in (*seen, *acting):
         if each.kind != MOTION and np.abs(along(found.lost, [each])).max(initial=0.0) > _ACTS:

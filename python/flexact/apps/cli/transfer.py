@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 from ...costs.request import DRIVE, HELD, RequestError, release_of
+from ...deck.rendering import ModelError
 from ...elasticity import ElasticError, elastic
 from ...elasticity.state_space import StateSpace
 from ...elasticity.transfer import TRANSFERS, WIDTH, csv_text, describe
@@ -18,7 +19,7 @@ from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
-from .decks import opened, report_problems, take
+from .decks import UNITS, opened, report_problems, take
 from .parser import Verb, argument
 from .targets import number, one_deck
 from .terminal import Bar, ExitCode, Outcome, complain, give, put, say, text_width
@@ -46,7 +47,7 @@ def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
-            model = opened(deck, bar)
+            model = opened(deck, bar, chosen)
             report_problems(model)
             try:
                 with unwinding():
@@ -55,6 +56,10 @@ def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
                     for target in files:
                         bar.show_work("writing", 1.0)
                         made.save(target)
+            except ModelError as error:
+                # What was asked for and is not there, in a line.
+                told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
+                raise BatchError("\n".join(told)) from None
             except ElasticError as error:
                 raise BatchError(str(error)) from error
         if to_stdout:
@@ -79,7 +84,10 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         ElasticError: something is not there, or has no answer.
     """
     try:
-        release = {k: v for text in chosen.release for k, v in release_of(text).items()}
+        release: dict[tuple[object, ...], float | str] = {}
+        for text in chosen.release:
+            for which, notch in release_of(text).items():
+                release[which] = f"{notch!r} N m/rad" if notch else 0.0
         beams = int(chosen.beams) if chosen.beams.isdigit() else chosen.beams
         found = elastic(model, chosen.held, chosen.drive, release, beams)
     except (RequestError, TypeError) as error:
@@ -95,7 +103,11 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         )
     point, name, by, value = place.groups()
     node = int(point) if point.isdigit() else point
-    (state,) = found.along(node, name, [value], from_rest=bool(by))
+    try:
+        there: float | str = float(value)
+    except ValueError:
+        there = value
+    (state,) = found.along(node, name, [there], from_rest=bool(by))
     return state.state_space(*asked)
 
 
@@ -123,12 +135,12 @@ VERB = Verb(
     examples=(
         (
             "From a force on the stage to its displacement",
-            "flexact transfer input_decks/flexures/notch_guide.dat --from 1:x --to 1:x",
+            "flexact transfer input_decks/flexures/notch_guide.dat --from 14:x --to 14:x",
         ),
         (
-            "From the floor, with three modes, as a picture and for MATLAB",
+            "From the floor, with two modes, as a picture and for MATLAB",
             "flexact transfer input_decks/flexures/notch_guide.dat --from 'ground:x motion' "
-            "--to 1:x --modes 3 -o results/bode.png -o results/stage.mat",
+            "--to 14:x --modes 2 -o results/bode.png -o results/stage.mat",
         ),
     ),
     arguments=(
@@ -186,6 +198,7 @@ VERB = Verb(
             metavar="auto|N",
             help="beams a sheet; auto: 16",
         ),
+        UNITS,
         argument("--json", action="store_true", help="one JSON object on stdout"),
         argument(
             *("-o", "--output"),
