@@ -266,7 +266,9 @@ class StateSpace(Frozen):
         made = np.empty((hertz.size, *self.through.shape), np.complex128)
         for k, s in enumerate(2j * math.pi * hertz.ravel()):
             made[k] = self._at(complex(s))
-        return np.asarray((made * self._gain_factors).reshape(*hertz.shape, *self.through.shape))
+        # By parts: complex infinity times a number is none.
+        made.real, made.imag = made.real * self._gain_factors, made.imag * self._gain_factors
+        return made.reshape(*hertz.shape, *self.through.shape)
 
     def _at(self, s: complex) -> ComplexArray:
         """(outputs, inputs) the transfer at s, SI."""

@@ -145,14 +145,15 @@ def unsaid(pair: StateSpace) -> str:
     """What the table leaves out, and zeros that make control hard."""
     acting = pair.acting[0, 0]
     chosen = np.flatnonzero(acting)
-    last = int(chosen[:_MOST_TOLD][-1]) if chosen.size else -1
-    unseen = int(np.count_nonzero(~acting[: last + 1]))
     more = chosen.size - min(chosen.size, _MOST_TOLD)
+    last = int(chosen[_MOST_TOLD - 1]) + 1 if more else acting.size
+    unseen = int(np.count_nonzero(~acting[:last]))
     made = []
     if more:
         made.append(f"{more} more mode{'s' * (more > 1)} above.")
     if unseen:
-        are = "modes among these are" if unseen > 1 else "mode among these is"
+        among = " among these" if more else ""
+        are = f"modes{among} are" if unseen > 1 else f"mode{among} is"
         made.append(f"{unseen} {are} not driven or not seen.")
     right = int(np.count_nonzero(pair.zeros.real > 1e-9 * np.abs(pair.zeros)))
     if right:
