@@ -20,7 +20,7 @@ from ..show.picture.files import still_bytes
 from ..show.picture.make import shown_figure
 from ..show.writers import as_bytes
 from ..util.text import file_name, harmless
-from .state_space import StateSpace
+from .linear_system import LinearSystem
 from .transfer import about, first_line, frequencies_shown, rows_of, sentence, unsaid
 
 #: Steps of the phase [degrees], the first that leaves at most so many ticks.
@@ -29,7 +29,7 @@ _STEPS, _TICKS = (45.0, 90.0, 180.0, 360.0, 720.0), 7
 _MARKED, _STANDS_OUT, _ASIDE = 2, 1.5, 0.05
 
 
-def charts_of(system: StateSpace) -> tuple[tuple[Chart, Chart], ...]:
+def charts_of(system: LinearSystem) -> tuple[tuple[Chart, Chart], ...]:
     """Size and phase of all gains of one unit, group by group."""
     hertz = frequencies_shown(system)
     response = system.response(hertz)
@@ -72,7 +72,7 @@ def _across(hertz: FloatArray) -> Scale:
     return replace(made, low=low, high=high, ticks=ticks, unit=Unit(1.0, "Hz"))
 
 
-def _labels(system: StateSpace, pairs: Sequence[tuple[int, int]]) -> list[str]:
+def _labels(system: LinearSystem, pairs: Sequence[tuple[int, int]]) -> list[str]:
     """What stands at the curves: the ends that differ."""
     inputs, outputs = ({pair[k] for pair in pairs} for k in (1, 0))
     made = []
@@ -103,7 +103,7 @@ def _degrees(curves: Sequence[Curve]) -> Scale:
 
 
 def _marks(
-    system: StateSpace, o: int, i: int, series: int, hertz: FloatArray, size: FloatArray
+    system: LinearSystem, o: int, i: int, series: int, hertz: FloatArray, size: FloatArray
 ) -> list[Mark]:
     """The first resonances, at the curve."""
     acting = system.acting[o, i] & (system.square > 0.0)
@@ -123,7 +123,7 @@ _EDGE, _FIRST, _NEXT = 0.25, 0.36, 0.26
 _HEAD, _TITLE, _BELOW, _LEFT, _RIGHT, _DPI, _LETTERS = 0.86, 0.34, 0.5, 0.85, 0.25, 150, 12.0
 
 
-def plot_of(system: StateSpace) -> Any:
+def plot_of(system: LinearSystem) -> Any:
     """The picture as a figure of matplotlib, which a notebook shows.
 
     Raises:
@@ -153,7 +153,7 @@ def plot_of(system: StateSpace) -> Any:
     return figure
 
 
-def plot_bytes(system: StateSpace, suffix: str = ".png") -> bytes:
+def plot_bytes(system: LinearSystem, suffix: str = ".png") -> bytes:
     """The picture as a file: .png, .svg or .pdf.
 
     Raises:
@@ -163,7 +163,7 @@ def plot_bytes(system: StateSpace, suffix: str = ".png") -> bytes:
     return still_bytes(plot_of(system), suffix, *words)
 
 
-def page_bytes(system: StateSpace) -> bytes:
+def page_bytes(system: LinearSystem) -> bytes:
     """The page as the content of a file: the curves, poles and zeros, and what is behind them."""
     name = harmless(file_name(system.name)) or "model"
     charts = "".join(

@@ -50,7 +50,7 @@ from .errors import (
     matched_by_sign,
     require_within,
 )
-from .mesh import Beams, Mesh, beams_given, divisible, divisions
+from .mesh import COARSE, Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
 from .reduced import Reducer, Resultants, peak_of, resultants_of, verdict_of
 from .solution import (
@@ -953,10 +953,9 @@ class State(Frozen):
         """
         self.model.require_mass()
         self.finest.require_stiffness()
-        mesh = self.finest.solver.mesh
-        label = f"{self.label}; held {self.model.held}, drive {self.model.drive}"
-        if mesh.pieces.max(initial=1) > 1:
-            label += f", {int(mesh.pieces.max())} beams a sheet"
+        # Of two meshes the finer one.
+        beams = 2 * COARSE if self.model.beams == "auto" else self.model.beams
+        label = f"{self.label}; {replace(self.model, beams=beams).words}"
         given = inputs, outputs, damping, modes
         return state_space_of(self.finest, self.model.points, *given, label, self.model.units)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A state space in words, as JSON, as a table and as files."""
+"""A linear system in words, as JSON and as a table."""
 
 from __future__ import annotations
 
@@ -8,19 +8,14 @@ import io
 import json
 import math
 from collections.abc import Iterator
-from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..show.picture.make import check_packages
-from ..show.writers import PAGES, STILLS, Writers, as_bytes
-from ..util.loading import VERSION, load
-from ..util.outputs import OutputError
+from ..util.loading import VERSION
 from ..util.text import file_name, harmless, table, wrapped
-from .state_space import FORCE, VELOCITY, Signal, StateSpace
+from .linear_system import FORCE, VELOCITY, LinearSystem, Signal
 
 #: Columns of text where nobody says how many there are.
 WIDTH = 80
@@ -35,7 +30,7 @@ _NEAR_POLE = np.array([-8.0, -4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0, 8.
 _NARROW = 1.0e-4
 
 
-def frequencies_shown(system: StateSpace) -> FloatArray:
+def frequencies_shown(system: LinearSystem) -> FloatArray:
     """(k,) frequencies [Hz] at which the response is drawn: about the first modes, and between."""
     seen = system.acting.any(axis=(0, 1)) & (system.square != 0.0)
     hertz = np.abs(system.frequencies)[seen]
@@ -55,13 +50,13 @@ def frequencies_shown(system: StateSpace) -> FloatArray:
     return np.unique(every[(every >= low) & (every <= high)])
 
 
-def _pairs(system: StateSpace) -> Iterator[tuple[int, int, StateSpace]]:
+def _pairs(system: LinearSystem) -> Iterator[tuple[int, int, LinearSystem]]:
     for o in range(len(system.outputs)):
         for i in range(len(system.inputs)):
             yield o, i, system.pair(o, i)
 
 
-def first_line(system: StateSpace) -> str:
+def first_line(system: LinearSystem) -> str:
     """The point first: such as "From a force on stage:y to stage:y: 1.2 mm/N at rest, ..."."""
     return sentence(system.pair())
 
@@ -71,7 +66,7 @@ def _acts(signal: Signal) -> str:
     return f"{kind if signal.kind == FORCE else ''}{signal.label}"
 
 
-def sentence(pair: StateSpace) -> str:
+def sentence(pair: LinearSystem) -> str:
     """What one output does with one input: at rest, and at the first resonance."""
     (acts,), (sees,) = pair.inputs, pair.outputs
     gain, unit = float(pair.static_gain[0, 0]), pair.gain_units[0][0]
@@ -90,7 +85,7 @@ def sentence(pair: StateSpace) -> str:
     return f"From {_acts(acts)} to {sees.label}: {at_rest}; {told}."
 
 
-def describe(system: StateSpace, width: int = WIDTH) -> str:
+def describe(system: LinearSystem, width: int = WIDTH) -> str:
     """Static gains, poles and zeros for people, in rows of a width."""
     made = [harmless(file_name(system.name))] if system.name else []
     for _, _, pair in _pairs(system):
@@ -102,7 +97,7 @@ def describe(system: StateSpace, width: int = WIDTH) -> str:
     return "\n".join(made)
 
 
-def rows_of(pair: StateSpace) -> list[tuple[str, ...]]:
+def rows_of(pair: LinearSystem) -> list[tuple[str, ...]]:
     """The first poles that act, and zeros, beside each other, in ascending order."""
     acting = np.flatnonzero(pair.acting[0, 0])
     found = []
@@ -117,7 +112,7 @@ def rows_of(pair: StateSpace) -> list[tuple[str, ...]]:
     return [("", "frequency", "damping", "rad/s"), *(row for _, row in found)]
 
 
-def _pole(pair: StateSpace, k: int) -> tuple[str, ...]:
+def _pole(pair: LinearSystem, k: int) -> tuple[str, ...]:
     one, other = pair.poles[2 * k : 2 * k + 2].tolist()
     hertz = float(pair.frequencies[k])
     if hertz == 0.0:
@@ -141,7 +136,7 @@ def _zero(zero: complex) -> tuple[str, ...]:
     return "zero", hertz, ratio, f"{zero.real:.4g} +- {zero.imag:.6g}i"
 
 
-def unsaid(pair: StateSpace) -> str:
+def unsaid(pair: LinearSystem) -> str:
     """What the table leaves out, and zeros that make control hard."""
     acting = pair.acting[0, 0]
     chosen = np.flatnonzero(acting)
@@ -161,7 +156,7 @@ def unsaid(pair: StateSpace) -> str:
     return " ".join(made)
 
 
-def about(system: StateSpace) -> str:
+def about(system: LinearSystem) -> str:
     """How it was found, and how far it may be off."""
     many = system.square.size
     made = f"{harmless(system.label[:1].upper() + system.label[1:])}. "
@@ -183,13 +178,13 @@ def about(system: StateSpace) -> str:
     return f"{made}."
 
 
-# -- JSON, tables and files ---------------------------------------------------------------------
+# -- JSON and tables ----------------------------------------------------------------------------
 
 #: Of the JSON; raised where an entry is taken away, renamed, or means something else.
 FORMAT = 1
 
 
-def dictionary_of(system: StateSpace) -> dict[str, Any]:
+def dictionary_of(system: LinearSystem) -> dict[str, Any]:
     """The names and values of the JSON, in their order; what is infinite is null."""
     hertz = frequencies_shown(system)
     response = system.response(hertz)
@@ -212,8 +207,8 @@ def dictionary_of(system: StateSpace) -> dict[str, Any]:
         "flexact": VERSION,
         "units": system.units.name,
         "state": system.label,
-        "inputs": [_signal(system, each) for each in system.inputs],
-        "outputs": [_signal(system, each) for each in system.outputs],
+        "inputs": [signal_of(system, each) for each in system.inputs],
+        "outputs": [signal_of(system, each) for each in system.outputs],
         "modes_of_mesh": system.modes,
         "frequencies": system.frequencies.tolist(),
         "damping": system.damping.tolist(),
@@ -226,7 +221,8 @@ def dictionary_of(system: StateSpace) -> dict[str, Any]:
     }
 
 
-def _signal(system: StateSpace, each: Signal) -> dict[str, str]:
+def signal_of(system: LinearSystem, each: Signal) -> dict[str, str]:
+    """What it is called, its kind, and its unit in those of the system."""
     length = each.unit.removesuffix("/s")
     unit = system.units.symbol(length) + ("/s" if length != each.unit else "")
     return {"label": each.label, "kind": each.kind, "unit": unit}
@@ -241,12 +237,12 @@ def _plain(values: FloatArray) -> Any:
     return np.where(np.isfinite(values), values, None).tolist()  # type: ignore[call-overload]
 
 
-def text_of(system: StateSpace) -> str:
+def text_of(system: LinearSystem) -> str:
     """The same as one line of text."""
     return json.dumps(dictionary_of(system), allow_nan=False)
 
 
-def csv_text(system: StateSpace) -> str:
+def csv_text(system: LinearSystem) -> str:
     """The frequency response, a row a frequency of each input and output."""
     rows = io.StringIO()
     writer = csv.writer(rows, lineterminator="\n")
@@ -262,70 +258,3 @@ def csv_text(system: StateSpace) -> str:
             unit = system.gain_units[o][i]
             writer.writerow((*ends, f, abs(value), unit, angle, value.real, value.imag))
     return rows.getvalue()
-
-
-#: What stands in the head of a MATLAB file in place of the time at which it was made.
-_HEAD = b"MATLAB 5.0 MAT-file, written by Flexact"
-_HEAD_LENGTH = 116
-
-
-def mat_bytes(system: StateSpace) -> bytes:
-    """A, B, C and D with their names, as MATLAB loads them: ss(A, B, C, D)."""
-    import scipy.io
-
-    buffer = io.BytesIO()
-    names = {
-        "inputs": np.array([each.label for each in system.inputs], dtype=object),
-        "outputs": np.array([each.label for each in system.outputs], dtype=object),
-        "units": np.array(
-            [_signal(system, each)["unit"] for each in (*system.inputs, *system.outputs)],
-            dtype=object,
-        ),
-    }
-    scipy.io.savemat(
-        buffer,
-        {
-            **{name: getattr(system, name) for name in "ABCD"},
-            **names,
-            "poles": system.poles[:, None],
-            "frequencies": system.frequencies[:, None],
-            "damping": system.damping[:, None],
-        },
-    )
-    return _HEAD.ljust(_HEAD_LENGTH) + buffer.getvalue()[_HEAD_LENGTH:]
-
-
-def _check_scipy(suffix: str) -> None:
-    if find_spec("scipy") is None:
-        raise OutputError("a file for MATLAB needs the package scipy: pip install scipy")
-
-
-#: Of state spaces. Pictures and pages take a while to load.
-TRANSFERS = Writers(
-    lambda path, known: OutputError(f"the suffix of {path} is to be one of {', '.join(known)}")
-)
-
-
-@TRANSFERS.register(STILLS, require=check_packages)
-def _picture(made: StateSpace, path: Path) -> bytes:
-    return bytes(load("flexact.elasticity.bode").plot_bytes(made, path.suffix.lower()))
-
-
-@TRANSFERS.register(PAGES)
-def _page(made: StateSpace, path: Path) -> bytes:
-    return bytes(load("flexact.elasticity.bode").page_bytes(made))
-
-
-@TRANSFERS.register((".csv",))
-def _table(made: StateSpace, path: Path) -> bytes:
-    return as_bytes(csv_text(made))
-
-
-@TRANSFERS.register((".json",))
-def _json(made: StateSpace, path: Path) -> bytes:
-    return f"{text_of(made)}\n".encode()
-
-
-@TRANSFERS.register((".mat",), require=_check_scipy)
-def _mat(made: StateSpace, path: Path) -> bytes:
-    return mat_bytes(made)

@@ -11,7 +11,8 @@ from ...costs.request import DRIVE, HELD, RequestError, release_of
 from ...deck.rendering import ModelError
 from ...elasticity import ElasticError, elastic
 from ...elasticity.state_space import StateSpace
-from ...elasticity.transfer import TRANSFERS, WIDTH, csv_text, describe
+from ...elasticity.system_files import TRANSFERS
+from ...elasticity.transfer import WIDTH, csv_text, describe
 from ...model.model import Model
 from ...show.writers import as_bytes
 from ...util.decks import DeckFile
@@ -138,9 +139,9 @@ VERB = Verb(
             "flexact transfer input_decks/flexures/notch_guide.dat --from 14:x --to 14:x",
         ),
         (
-            "From the floor, with two modes, as a picture and for MATLAB",
+            "From the floor, with two modes, as a picture and a table",
             "flexact transfer input_decks/flexures/notch_guide.dat --from 'ground:x motion' "
-            "--to 14:x --modes 2 -o results/bode.png -o results/stage.mat",
+            "--to 14:x --modes 2 -o results/bode.png -o results/bode.csv",
         ),
     ),
     arguments=(
