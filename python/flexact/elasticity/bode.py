@@ -23,6 +23,8 @@ from ..util.text import file_name, harmless
 from .linear_system import LinearSystem
 from .transfer import about, first_line, frequencies_shown, rows_of, sentence, unsaid
 
+#: A phase that is so near to a tick, in steps, needs no further one.
+_NEAR = 0.1
 #: Steps of the phase [degrees], the first that leaves at most so many ticks.
 _STEPS, _TICKS = (45.0, 90.0, 180.0, 360.0, 720.0), 7
 #: Resonances that are marked: those that stand out so many times from what is so far aside.
@@ -95,7 +97,7 @@ def _degrees(curves: Sequence[Curve]) -> Scale:
     every = np.concatenate([each.y[np.isfinite(each.y)] for each in curves] + [np.zeros(1)])
     low, high = float(every.min()), float(every.max())
     step = next((each for each in _STEPS if (high - low) / each <= _TICKS), _STEPS[-1])
-    first, last = np.floor(low / step + 1e-3), np.ceil(high / step - 1e-3)
+    first, last = np.floor(low / step + _NEAR), np.ceil(high / step - _NEAR)
     ticks = step * np.arange(first, max(last, first + 1) + 1)
     room = 0.06 * float(ticks[-1] - ticks[0])
     unit = Unit(1.0, "\N{DEGREE SIGN}")

@@ -322,7 +322,7 @@ _MOST_ZEROS, _STEPS = 60, 20
 #: What moves by less than this part is found; by more than the other it is another zero.
 _FOUND, _NEAR = 1.0e-13, 1.0e-2
 #: What an output sees of a mode that an input drives is rounding below this part of the largest.
-_CANCELS = 1.0e-10
+_CANCELS = 1.0e-8
 #: Sums below this part of their terms are zero; where the pencil is looked at from.
 _ROUNDED, _SHIFT = 1.0e-12, 0.7320508
 

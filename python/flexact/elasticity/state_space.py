@@ -35,8 +35,9 @@ from .modal import modes_of
 from .points import Points
 from .solution import Solution
 
-#: All clamps together, as a point of base motion.
+#: All that is held, as a point of base motion.
 GROUND = "ground"
+_COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 _NAME = r"(.+?)\s*:\s*(r?[xyz])"
 _ONE = re.compile(rf"(?s)\s*{_NAME}\s*(?:[:\s]\s*(motion|velocity))?\s*")
 _TWO = re.compile(rf"(?s)\s*{_NAME}\s*-\s*{_NAME}\s*(?:[:\s]\s*(velocity))?\s*")
@@ -55,10 +56,12 @@ class StateSpace(LinearSystem):
     """The linear system of a state; made by `state_space` of `Elastic` or of a state."""
 
     def to_scipy(self) -> Any:
-        """A `scipy.signal.StateSpace`."""
-        from scipy import signal
+        """A `scipy.signal.StateSpace`.
 
-        return signal.StateSpace(self.A, self.B, self.C, self.D)
+        Raises:
+            FlexactError: scipy is missing.
+        """
+        return _package("scipy.signal").StateSpace(self.A, self.B, self.C, self.D)
 
     def to_control(self) -> Any:
         """A `control.StateSpace` of the Python Control Systems Library, with names.
@@ -66,15 +69,9 @@ class StateSpace(LinearSystem):
         Raises:
             FlexactError: the package is missing.
         """
-        try:
-            import control
-        except ImportError:
-            raise FlexactError("this needs the package control: pip install control") from None
-        names = {
-            "inputs": [each.label for each in self.inputs],
-            "outputs": [each.label for each in self.outputs],
-        }
-        return control.ss(self.A, self.B, self.C, self.D, **names)
+        ends = ("inputs", self.inputs), ("outputs", self.outputs)
+        names = {which: [each.label for each in signals] for which, signals in ends}
+        return _package("control").ss(self.A, self.B, self.C, self.D, **names)
 
     def describe(self) -> str:
         """Static gains, poles and zeros, in words."""
@@ -119,6 +116,14 @@ class StateSpace(LinearSystem):
         """From what to what, and how many modes."""
         ends = (", ".join(e.label for e in each) for each in (self.inputs, self.outputs))
         return f"<StateSpace from {' to '.join(ends)}: {self.square.size} modes, {self.label}>"
+
+
+def _package(name: str) -> Any:
+    try:
+        return load(name)
+    except ImportError:
+        package = name.split(".")[0]
+        raise FlexactError(f"this needs the package {package}: pip install {package}") from None
 
 
 # -- how it is made ----------------------------------------------------------------------------
@@ -347,32 +352,34 @@ def _input_of(at: Solution, points: Points, given: object) -> Signal:
 
 
 def _motion(at: Solution, points: Points, point: object, name: str) -> tuple[FloatArray, bool]:
-    """(3, nodes) a unit motion of a clamp, of all of them, or of a locked drive; and if it turns.
+    """(3, nodes) a unit motion of a clamp, of all that is held, or of a locked drive; if it turns.
 
     Raises:
         UnknownError: it is not there.
         ElasticError: it is not held.
     """
     data = points.data
+    made = np.zeros((3, points.kinds.size))
     if point == GROUND and GROUND not in data.node_names:
-        fixed = data.arrays.coordinate_class == Class.FIXED
-        turns = points.kinds > NodeKind.POSITION
-        axis, is_turn = "xyz".index(name[-1]), name.startswith("r")
-        made, direction = np.zeros(fixed.shape), np.eye(3)["xyz".index(name[-1])]
-        if is_turn:
-            arm = data.arrays.node_value[:3, ~turns]
-            made[:, ~turns] = np.cross(direction, arm.T).T
-            made[2 if data.planar else axis, turns] = 1.0
-        else:
-            made[axis, ~turns] = 1.0
-        made *= fixed
+        axes = (
+            {"x": 0, "y": 1, "rz": 2} if data.planar else {c: k for k, c in enumerate(_COORDINATES)}
+        )
+        held = data.arrays.coordinate_class == Class.FIXED
+        for node, axis in at.held:
+            held[axis, node] = True
+        turns, is_turn = points.kinds > NodeKind.POSITION, name.startswith("r")
+        if name in axes:
+            direction = np.eye(3)[axes[name] % 3]
+            arm = data.arrays.node_value[:3, ~turns].T
+            made[:, ~turns] = (np.cross(direction, arm) if is_turn else direction + 0.0 * arm).T
+            made[:, turns] = is_turn * direction[:, None]
+        made *= held
         if not made.any():
-            raise ElasticError(f"nothing is fixed that moves with the ground along {name}")
+            raise ElasticError(f"nothing is held that moves with the ground along {name}")
         return made, is_turn
     coordinate = points.coordinate(point, name)
     is_turn = bool(points.kinds[coordinate.node] > NodeKind.POSITION)
     if coordinate in at.held:
-        made = np.zeros((3, points.kinds.size))
         made[coordinate.axis, coordinate.node] = 1.0
         return made, is_turn
     if not at.is_held(coordinate):
