@@ -23,6 +23,7 @@ Mechanisms
     ReinforcedSheet: a sheet with a rigid middle
     polar: a place at a radius and an angle
     Material: what sheets and wires are made of
+    NotchContour: compliances and stress of a notch, with what is published beside
     Configuration: where all nodes of a model are
 
 Whether it is exactly constrained
@@ -42,6 +43,9 @@ What to do about it
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
+    PointTable, StrokeTable: stiffness in any frame at a point, and along a stroke
+    Warmed: a state in which something is warm: drift, thermal centre
+    Limits: how far a stroke may go
     StateSpace: A, B, C, D, poles and frequency response of a state, for a controller
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
@@ -98,10 +102,14 @@ if _typing.TYPE_CHECKING:
         Elastic,
         ElasticError,
         Estimate,
+        Limits,
+        PointTable,
         State,
         StateSpace,
         StrokeError,
+        StrokeTable,
         UnknownError,
+        Warmed,
         elastic,
     )
     from .model.arguments import polar
@@ -119,6 +127,7 @@ if _typing.TYPE_CHECKING:
     )
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.model import Model
+    from .model.notches import NotchContour
     from .model.reading import read, read_text
     from .model.sections import Material
     from .show.notebook.output import Results, viewer
@@ -177,10 +186,14 @@ _HOMES = {
         "Elastic",
         "ElasticError",
         "Estimate",
+        "PointTable",
+        "Limits",
         "State",
         "StateSpace",
         "StrokeError",
+        "StrokeTable",
         "UnknownError",
+        "Warmed",
         "elastic",
     ),
     "model.arguments": ("polar",),
@@ -202,6 +215,7 @@ _HOMES = {
         "jacobian",
     ),
     "model.model": ("Model",),
+    "model.notches": ("NotchContour",),
     "model.reading": (
         "read",
         "read_text",
@@ -255,6 +269,7 @@ __all__ = [
     "FoldedSheet",
     "Gap",
     "Jacobian",
+    "Limits",
     "Margin",
     "Material",
     "Model",
@@ -262,7 +277,9 @@ __all__ = [
     "Motion",
     "Node",
     "Notch",
+    "NotchContour",
     "Place",
+    "PointTable",
     "Proof",
     "ReinforcedSheet",
     "Results",
@@ -274,11 +291,13 @@ __all__ = [
     "StateSpace",
     "Step",
     "StrokeError",
+    "StrokeTable",
     "Table",
     "Tolerances",
     "Trace",
     "UnknownError",
     "Verdict",
+    "Warmed",
     "Wire",
     "__version__",
     "analyse",

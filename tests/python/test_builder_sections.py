@@ -143,7 +143,9 @@ def test_common_materials_are_isotropic_within_reason() -> None:
     assert len(MATERIALS) >= 5
     for name, material in MATERIALS.items():
         assert name == material.name
-        assert 0.25 < material.E / (2 * material.G) - 1 < (0.36 if material.E > 1e10 else 0.41), name
+        assert 0.25 < material.E / (2 * material.G) - 1 < (0.36 if material.E > 1e10 else 0.41), (
+            name
+        )
 
 
 def test_shear_as_a_public_program_writes_it() -> None:

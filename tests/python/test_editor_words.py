@@ -188,7 +188,7 @@ def test_snippets_name_the_operands() -> None:
 def test_the_outline_has_parts_by_name() -> None:
     text = GUIDE.replace("% sheet 2", "% sheet 1, 2")
     groups = {one.name: one for one in outline_of(deck(text))}
-    assert list(groups) == ["parts", "nodes", "classes", "stiffness and mass", "loads"]
+    assert list(groups) == ["parts", "nodes", "classes", "material", "loads"]
     assert [one.name for one in groups["parts"].inner] == ["sheet 1", "stage"]
     assert [one.name for one in groups["parts"].inner[0].inner] == ["BEAM 1", "BEAM 2"]
     assert groups["nodes"].inner[1].name == "node 5: left"

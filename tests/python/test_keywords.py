@@ -23,7 +23,7 @@ PAGE = ROOT / "docs" / "decks.md"
 
 EXTENSION = ROOT / "editors" / "vscode"
 GRAMMAR = EXTENSION / "syntaxes" / "flexact-deck.tmLanguage.json"
-TABLES = ("classes", "properties", "loads", "pictures", "unused")
+TABLES = ("units", "classes", "properties", "loads", "pictures", "unused")
 _TABLE = re.compile(
     r"(<!-- keywords, (\w+): make wording -->\n).*?(<!-- end of keywords -->\n)", re.DOTALL
 )
@@ -162,6 +162,7 @@ def test_the_page_of_the_deck_language_shows_what_keywords_say(as_stored: AsStor
 _SCOPES = {
     "classes": "keyword.control.class",
     "values": "keyword.other.value",
+    "units": "keyword.other.value",
     "properties": "support.function.property",
     "loads": "support.function.load",
     "pictures": "keyword.other.picture",

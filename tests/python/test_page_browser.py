@@ -173,6 +173,34 @@ def test_a_misalignment_colours_the_sheets_and_lowers_the_frequency(
     assert browser.console() == []
 
 
+def test_the_colours_of_a_misalignment_end_at_the_strength(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """At the tolerance the part of the strength is one over the safety that a cost tells."""
+    deck = ROOT / "input_decks" / "flexures" / "parallel_guide_width_as_y.dat"
+    analysis = flexact.analyse(deck)
+    browser.open(write(tmp_path / "page.html", page(analysis, misaligned=quick_curve(analysis))))
+    made = flexact.cost(flexact.read(deck), strength=True, release=())
+    assert made.tightest is not None
+    safety = made.as_built.safety(made.tightest)
+    assert safety is not None
+    told = browser.run(
+        "const slider = document.querySelector('.misaligned input');"
+        "slider.value = arguments[0];"
+        "slider.dispatchEvent(new Event('input', { bubbles: true }));"
+        "return document.querySelector('.misaligned output').textContent",
+        made.tightest.tightest.value,
+    )
+    (share,) = re.findall(r"MPa, ([\d.]+) % of the strength$", told)
+    # The one is the normal stress, the other that of von Mises.
+    assert float(share) == pytest.approx(100.0 / safety.value, rel=0.1)
+    browser.drawn()
+    legend = browser.run("return document.querySelector('.legend').innerText").splitlines()
+    assert legend[:3] == ["largest normal stress [MPa]", "0", "450"]
+    assert "the colours end at the strength" in " ".join(legend)
+    assert browser.console() == []
+
+
 def test_a_broken_deck_has_a_page(browser: Browser, tmp_path: Path) -> None:
     path = ROOT / "input_decks" / "broken" / "ten_mistakes.dat"
     with pytest.raises(flexact.DeckError) as caught:

@@ -63,6 +63,7 @@ def test_in_python_a_text_says_its_unit() -> None:
 
 #: What each method of the builder needs besides the argument that is tried.
 _SHEET = {"thickness": 1e-3, "breadth": 1e-2, "material": "steel"}
+_NOTCH = {"thickness": 1e-3, "breadth": 0.1, "radius": 1e-3, "length": 0.01, "height": 3e-3}
 _NEEDED: dict[str, dict[str, Any]] = {
     "node": {"x": 0.0, "y": 0.0},
     "point": {},
@@ -130,6 +131,11 @@ def test_a_unit_of_another_kind_is_refused_in_words(name: str, argument: str) ->
     if argument == "section":
         words = {k: v for k, v in words.items() if k not in ("thickness", "breadth")}
         words[argument] = ("3 K m", 1e-3)
+    if argument == "reinforced":
+        words[argument] = (0.5, "3 K m")
+    if name == "notch" and argument != "stiffness":
+        words = {"p": "a", "axis": "y", "q": "b", "contour": "fillet", **_NOTCH}
+        words[argument] = "3 K m"
     if name == "insert":
         words["model"] = _model()
     if name == "pattern" and argument in ("at", "step"):

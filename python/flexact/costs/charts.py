@@ -14,7 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..elasticity.limits import STRENGTH, mirrored
+from ..elasticity.points import words_of_direction
 from ..show.charts import (
+    STYLES,
     Bar,
     BarChart,
     Chart,
@@ -50,7 +53,6 @@ from .designs import (
     percent,
     short_labels,
     stiffness_unit,
-    words_of_direction,
 )
 from .words import first_line
 
@@ -172,7 +174,50 @@ def charts_of(cost: CostValues) -> tuple[Chart, ...]:
         if each.parasitic is not None and each.parasitic.value.shape[1]
     ]
     parasitic = _along_stroke(cost, "parasitic", "Lowest parasitic frequency", hertz, "Hz")
-    return *_stiffness(cost), *parasitic, *_misaligned(cost)
+    return *_strength(cost), *_stiffness(cost), *parasitic, *_misaligned(cost)
+
+
+#: How far beyond the limit of the strength its chart goes, and a short name of what is allowed.
+_BEYOND_STRENGTH, _ALLOWED = 1.25, "allowed"
+
+
+def _strength(cost: CostValues) -> Iterator[Chart]:
+    """The stress along the stroke, with what is allowed; none where nothing reaches that."""
+    asked, labels = cost.strength, short_labels(cost)
+    built = cost.as_built.limits
+    if asked is None or built is None or not built.of(STRENGTH):
+        return
+    ends = [each.stroke for each in built.of(STRENGTH)]
+    low, high = (_BEYOND_STRENGTH * each for each in (min(*ends, 0.0), max(*ends, 0.0)))
+    curves = []
+    for series, each in enumerate(cost.designs):
+        if each.limits is not None:
+            x, y = each.limits.strokes, each.limits.stress
+            inside = (x >= low) & (x <= high)
+            # To the very ends.
+            fine = np.unique(np.concatenate([x[inside], np.clip([low, high], x[0], x[-1])]))
+            spread = np.zeros_like(fine)
+            curves.append(Curve(series, labels[series], fine, np.interp(fine, x, y), spread))
+    allowed = np.interp(ends, built.strokes, built.stress)
+    level = np.full(2, float(allowed.min()))
+    # In the last look that there is, of so many designs.
+    series = min(len(cost.designs), len(STYLES) - 1)
+    line = Curve(series, _ALLOWED, np.array([low, high]), level, np.zeros(2))
+    words, marks = built.of(STRENGTH)[-1].reason.partition(" (")[0], []
+    for both in mirrored(built.of(STRENGTH)):
+        size = told(abs(both[-1].stroke) if len(both) > 1 else both[-1].stroke, asked.unit)
+        size = f"\N{PLUS-MINUS SIGN}{size}" if len(both) > 1 else size
+        points = tuple((each.stroke, float(level[0])) for each in both)
+        marks.append(Mark(0, points, f"{words} at {size}"))
+    yield Chart(
+        "strength",
+        "Largest stress",
+        f"stroke of {asked.words} from rest",
+        exact_scale(low, high, asked.unit),
+        _up([*curves, line], "Pa"),
+        (*curves, line),
+        tuple(marks),
+    )
 
 
 def _stiffness(cost: CostValues) -> Iterator[Chart]:
@@ -313,6 +358,7 @@ def key_of(cost: CostValues) -> Key:
         "worst stiffness kept": [_kept(each) for each in cost.designs],
         "frequency": [_frequency(each) for each in cost.designs],
         "lowest parasitic": [_lowest_parasitic(each) for each in cost.designs],
+        "may go": [_may_go(each) for each in cost.designs],
     }
     shown = {head: cells for head, cells in columns.items() if any(cells[1:] or cells)}
     if len(cost.designs) > 1 and len(set(shown.get("frequency", "12"))) == 1:
@@ -419,6 +465,18 @@ def _lowest_parasitic(design: Design) -> str:
     if told.endswith(" Hz") and lowest.endswith(" Hz"):
         told = told.removesuffix(" Hz")
     return typeset(f"{told} -> {lowest}")
+
+
+def _may_go(design: Design) -> str:
+    """How far each way."""
+    if design.limits is None:
+        return ""
+    low, high = design.limits.ends
+    if len(mirrored((low, high))) == 1:
+        return typeset(f"+-{told(high.stroke, design.limits.unit)}")
+    return typeset(
+        f"{told(low.stroke, design.limits.unit)} to +{told(high.stroke, design.limits.unit)}"
+    )
 
 
 #: Measures of the head [inch], and sizes of its letters [pt].
@@ -570,6 +628,8 @@ _WIDTH, _DPI = 12.0, 100
 #: Heights of what stands below each other [inch].
 _CHART, _ROW, _TITLE, _BELOW = 2.15, 0.15, 0.3, 0.48
 _END = 0.58
+#: Charts in a row.
+_BESIDE_EACH_OTHER = 3
 #: Room beside charts and bars for what stands there [inch].
 _LEFT, _NAMES, _GROUPS, _RIGHT = 0.62, 0.82, 1.05, 0.35
 
@@ -590,7 +650,7 @@ def plot_of(cost: CostValues) -> Any:
     notes = [line for each in told_of for line in wrapped(measure, each, room, _SMALL)]
     heights = (
         _TOP + _LINE * len(table.headline) + 2 * _TABLE_ROW + sum(table.heights) + _ROOM,
-        (_TITLE + _CHART + _BELOW) * bool(charts),
+        (_TITLE + _CHART + _BELOW) * _rows_of(charts),
         (_TITLE + _ROW * rows + _END) * bool(bars),
     )
     below = (_SECOND * len(notes) + _ROOM) * bool(notes)
@@ -625,10 +685,18 @@ def _axes(figure: Any, left: float, top: float, width: float, height: float) -> 
 
 
 def _draw_charts(figure: Any, charts: tuple[Chart, ...], top: float) -> None:
-    cell = (_WIDTH - 2 * _MARGIN + 0.15) / max(len(charts), 1)
+    columns = math.ceil(len(charts) / max(_rows_of(charts), 1))
+    cell = (_WIDTH - 2 * _MARGIN + 0.15) / max(columns, 1)
     for k, chart in enumerate(charts):
-        left, width = _MARGIN + k * cell + _LEFT, cell - _LEFT - _NAMES
-        draw_chart(_axes(figure, left, top + _TITLE, width, _CHART), chart)
+        row, column = divmod(k, columns)
+        left, width = _MARGIN + column * cell + _LEFT, cell - _LEFT - _NAMES
+        above = top + row * (_TITLE + _CHART + _BELOW) + _TITLE
+        draw_chart(_axes(figure, left, above, width, _CHART), chart)
+
+
+def _rows_of(charts: tuple[Chart, ...]) -> int:
+    """In how many rows they stand."""
+    return math.ceil(len(charts) / _BESIDE_EACH_OTHER)
 
 
 def _draw_bars(figure: Any, bars: tuple[BarChart, ...], top: float) -> None:

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
@@ -23,6 +23,7 @@ from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
+from ..elasticity.limits import Strengths, nearest
 from ..model.data import ModelData
 from ..model.model import Model
 from ..model.parts.parts import Parts
@@ -35,6 +36,7 @@ from .designs import (
     Effect,
     Kept,
     Misalignment,
+    Number,
     Numbers,
     Released,
     Stroke,
@@ -50,10 +52,11 @@ from .elastic_design import (
     direction_words,
     drives_of,
     over_levels,
+    safeties_of,
     tolerances_of,
 )
 from .request import ReleaseRequest, Request
-from .resolve import Places, given_of, stroke_of
+from .resolve import Places, given_of, strength_of, stroke_of
 from .shape import Shape, unit_mode
 
 #: How many proven releases stand beside the design as built, and how many are measured for that.
@@ -155,12 +158,35 @@ def _label(released: tuple[Released, ...]) -> str:
     return "+".join(each.label for each in released)
 
 
+def stressed(strengths: Strengths, state: State) -> tuple[Number, Number]:
+    """The stress of von Mises of the part that is nearest to its strength, and its safety."""
+    which, allowed = strengths.which, strengths.allowed
+    found = over_levels(lambda one: one.finest.peaks.von_mises[2, which], state)
+    k = nearest(found.value / allowed)
+    stress, off = found.at(k)
+    if stress == 0.0:
+        return Number(0.0), Number(math.inf)
+    safety = float(allowed[k]) / stress
+    return Number(stress, off), Number(safety, safety * abs(off / stress))
+
+
+def numbers_of(rows: Iterable[Number]) -> Numbers:
+    """(n,) of single numbers."""
+    return Numbers(*(np.array(each) for each in zip(*rows, strict=True)))
+
+
 Given = Sequence[tuple[Misalignment, float]]
 #: How often the part of an error that can be reached is halved.
 _HALVINGS = 12
 
 
-def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts: Parts) -> Effect:
+def effect_of(
+    mechanism: ElasticDesign,
+    measures: Measures,
+    given: Given,
+    parts: Parts,
+    strengths: Strengths | None = None,
+) -> Effect:
     """Before and behind misalignments that act together.
 
     Where no equilibrium is found with all of them, they are taken in proportion as far as one is.
@@ -177,6 +203,7 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
 
     peak, where = _peaks(mechanism, both)
     hertz = found(measures.frequencies) if measures.has_masses else None
+    rows = [] if strengths is None else [stressed(strengths, each) for each in both]
     return Effect(
         hertz if hertz is not None and hertz.value.size else None,
         found(measures.stiffness),
@@ -188,6 +215,7 @@ def effect_of(mechanism: ElasticDesign, measures: Measures, given: Given, parts:
         over_levels(measures.worst, *both).at(0),
         all(each.is_stable for each in behind.alone),
         reached,
+        *(numbers_of(each) for each in zip(*rows, strict=True)),
     )
 
 
@@ -221,24 +249,19 @@ def _peaks(mechanism: ElasticDesign, both: Sequence[State]) -> tuple[Numbers | N
 
     None of it where no section is known: then the element with the largest moment, or force.
     """
-    finest, known = both[1].alone[-1], []
-    for element in finest.model.data.arrays.element_number.tolist():
-        # Those whose section is known and that carry something.
-        with suppress(ElasticError):
-            finest.peak_stress(element)
-            if finest.model.policy.stiff[:, finest.model.data.element_index[element]].any():
-                known.append(element)
-    if not known:
+    model, at = mechanism.elastic, both[1].finest
+    # Those whose section is known and that carry something.
+    there = at.solver.sections.is_known & model.policy.stiff.any(axis=0)
+    known = np.flatnonzero(there)
+    if not known.size:
         sizes = np.abs(_of_elements(both[1]))
         moment = sizes[:, 1:].max(axis=1)
         return None, int(np.argmax(moment if moment.any() else sizes[:, 0]))
-    found = [
-        over_levels(lambda s: np.array([s.peak_stress(e) for e in known]), each) for each in both
-    ]
+    found = [over_levels(lambda s: s.finest.peaks.normal[known], each) for each in both]
     most = [int(np.argmax(each.value)) for each in found]
     largest = [each.at(k) for each, k in zip(found, most, strict=True)]
     peak = Numbers(*(np.array(each) for each in zip(*largest, strict=True)))
-    return peak, finest.model.data.element_index[known[most[1]]]
+    return peak, int(known[most[1]])
 
 
 #: How many parasitic frequencies are shown.
@@ -325,6 +348,7 @@ def curve_of(
     drive: tuple[int, str],
     is_locked: bool,
     progress: Callable[[float], None],
+    strengths: Strengths | None = None,
 ) -> StrokeCurve | None:
     """A design along the states that were reached; None without any."""
     states, values, *_ = reached
@@ -351,6 +375,7 @@ def curve_of(
             left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
             others.append(Numbers(frequencies.value[k, left], frequencies.uncertainty[k, left]))
         parasitic = stacked(others)
+    parts = [] if strengths is None else [stressed(strengths, state) for state in states]
     # With masses it is known from the frequencies whether a stiffness is negative.
     is_stable = [
         state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
@@ -367,6 +392,7 @@ def curve_of(
         tuple(is_stable),
         tuple(state.under_constrained for state in states),
         tuple(state.over_constrained for state in states),
+        *(numbers_of(each) for each in zip(*parts, strict=True)),
     )
 
 
@@ -449,6 +475,9 @@ class _Computation:
         directions = tuple(map(points.name, points.coordinates(points.of(self.point.node))))
         watched = data.node_index[drives[0][0] if drives else self.point.node]
         self.built = ElasticDesign(model, watched)
+        self.strength = strength_of(self.places, asked, self.stroke)
+        # What has none is told before anything is computed.
+        self._strengths(self.built)
         self.measures = Measures(self.point, directions, data.size, drives, self.built.has_masses)
 
     def cost(self, kind: type[Made]) -> Made:
@@ -484,7 +513,21 @@ class _Computation:
             self._stroke(ways),
             self.given,
             tuple(self._left_out(len(designs))),
+            self.strength,
         )
+
+    def _strengths(self, mechanism: ElasticDesign) -> Strengths | None:
+        """With what the stress is compared; None where no strength is asked for.
+
+        Raises:
+            ModelError: a part has none, or its section is not known.
+        """
+        if self.strength is None:
+            return None
+        try:
+            return mechanism.elastic.strengths(self.strength.against)
+        except ElasticError as error:
+            raise model_error("no-strength", str(error)) from None
 
     def _candidates(self) -> tuple[Candidate, ...]:
         """What is to be looked at: the design as built first."""
@@ -511,6 +554,7 @@ class _Computation:
         What has no answer is a remark.
         """
         measures, remarks = self.measures, list[str]()
+        strengths = self._strengths(mechanism)
         frequencies, is_drive = frequencies_of(measures, mechanism)
         tolerances: tuple[Tolerance, ...] = ()
         try:
@@ -520,7 +564,7 @@ class _Computation:
             )
         except ElasticError as error:
             remarks.append(f"No tolerances: {error}.")
-        curve = way = effect = None
+        curve = way = effect = limits = None
         if self.stroke is not None:
             asked, values = self.stroke
             way = follow(mechanism.elastic, asked, values)
@@ -528,10 +572,17 @@ class _Computation:
             curve = curve_of(
                 *(measures, mechanism.rest, way, drive, mechanism.elastic.drive == "locked"),
                 lambda done: progress(_CURVE + (_STROKE - _CURVE) * done),
+                strengths,
             )
+        if (wanted := self.strength) is not None:
+            how = wanted.share, wanted.support, wanted.against, "locked"
+            try:
+                limits = mechanism.elastic.limits(wanted.node, wanted.coordinate, *how)
+            except ElasticError as error:
+                remarks.append(f"How far it may go: {error}.")
         if self.given:
             try:
-                effect = effect_of(mechanism, measures, self.given, self.result.parts)
+                effect = effect_of(mechanism, measures, self.given, self.result.parts, strengths)
             except ElasticError as error:
                 remarks.append(f"Misaligned: {error}.")
         design = Design(
@@ -548,6 +599,8 @@ class _Computation:
             stroke=curve,
             effect=effect,
             remarks=tuple(remarks),
+            limits=limits,
+            safeties=safeties_of(mechanism, tolerances, strengths) if strengths else (),
         )
         shapes = shapes_of(mechanism, frequencies, is_drive, design.buckles_at)
         return replace(design, shapes=tuple(shapes)), way

@@ -124,6 +124,10 @@ def cost(
     points: int = POINTS,
     bodies: bool = False,
     beyond: bool = False,
+    strength: bool = False,
+    share: float | str | None = None,
+    support: float | str | None = None,
+    against: str | None = None,
     name: str | None = None,
     progress: Progress | None = None,
 ) -> Cost:
@@ -153,6 +157,11 @@ def cost(
         bodies: Whether releases inside of rigid bodies, which nobody can machine, are among the
             proven ones; they are where nothing else removes the self-stress.
         beyond: Whether a stroke or a misalignment may be larger than the model.
+        strength: Whether it is asked how far the drive may go, that of the stroke or the only
+            declared one, held where it is; and how safe tolerances, strokes and misalignments are.
+        share: Of the strength, to which the stress may go; 0.5 by default.
+        support: Part of the stiffness at rest that supported directions are to keep, such as 0.5.
+        against: "strength" or "fatigue"; by default of fatigue where that is given.
         name: What the result is called; by default the model's name or the path.
         progress: Called with what is being done, and how much of it is done, from 0 to 1.
 
@@ -179,5 +188,9 @@ def cost(
         points=points,
         bodies=bodies,
         beyond=beyond,
+        strength=strength,
+        share=share,
+        support=support,
+        against=against,
     )
     return compute(made.data, asked, name, progress, Cost)

@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..elasticity.limits import Limits
+from ..elasticity.points import words_of_direction
 from ..model.data import ModelData
 from ..util.records import Frozen
 from .shape import Shape
@@ -27,11 +29,6 @@ def unit_of_direction(direction: str) -> str:
 def stiffness_unit(direction: str) -> str:
     """Of the stiffness along or about a direction: N/m or N m/rad."""
     return "N m/rad" if unit_of_direction(direction) == "rad" else "N/m"
-
-
-def words_of_direction(direction: str) -> str:
-    """Such as "along x" or "about z"."""
-    return f"about {direction[1:]}" if direction.startswith("r") else f"along {direction}"
 
 
 class Number(NamedTuple):
@@ -270,6 +267,9 @@ class StrokeCurve(Frozen):
         is_stable: (n,) whether no stiffness is negative; else the design has buckled there.
         under_constrained: (n,) motions that nothing determines, in each state.
         over_constrained: (n,) self-stresses likewise.
+        stress: (n,) stress of von Mises [Pa] of the part that is nearest to its strength; None
+            where no strength was asked for.
+        safety: (n,) its strength over that; infinite without stress. None likewise.
     """
 
     values: FloatArray
@@ -282,6 +282,8 @@ class StrokeCurve(Frozen):
     is_stable: tuple[bool, ...]
     under_constrained: tuple[int, ...]
     over_constrained: tuple[int, ...]
+    stress: Numbers | None = None
+    safety: Numbers | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -316,6 +318,9 @@ class Effect(Frozen):
         kept: Smallest mu of C_before v = mu C_behind v.
         is_stable: Whether it has not buckled behind.
         reached: Which part of the misalignments was reached, 1 for all.
+        von_mises: (2,) stress of von Mises [Pa] of the part that is nearest to its strength;
+            None where no strength was asked for.
+        safety: (2,) its strength over that; infinite without stress. None likewise.
     """
 
     frequencies: Numbers | None
@@ -327,6 +332,8 @@ class Effect(Frozen):
     kept: Number
     is_stable: bool
     reached: float
+    von_mises: Numbers | None = None
+    safety: Numbers | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -350,6 +357,9 @@ class Design(Frozen):
         effect: Of the misalignments that were given; None without any.
         shapes: To be drawn.
         remarks: What is special about this design, in sentences.
+        limits: How far the stroke may go; None where no strength was asked for, or it has none.
+        safeties: (tolerances,) the strength over the largest stress at the smaller error of each,
+            infinite without stress; empty where no strength was asked for.
     """
 
     released: tuple[Released, ...]
@@ -367,6 +377,14 @@ class Design(Frozen):
     effect: Effect | None = None
     shapes: tuple[Shape, ...] = ()
     remarks: tuple[str, ...] = ()
+    limits: Limits | None = None
+    safeties: tuple[Number, ...] = ()
+
+    def safety(self, of: Tolerance) -> Number | None:
+        """That of a tolerance; None where no strength was asked for, or it has no end."""
+        if not self.safeties or not of.tightest.is_finite:
+            return None
+        return self.safeties[self.tolerances.index(of)]
 
     @property
     def label(self) -> str:
@@ -451,6 +469,30 @@ class Stroke(Frozen):
         )
 
 
+class Strength(NamedTuple):
+    """What was asked of the strength: how far a drive may go."""
+
+    node: int
+    """Number of the driven node."""
+    coordinate: str
+    """One of x y z rx ry rz."""
+    words: str
+    """Such as "node 1 (the stage) along z"."""
+    rest: float
+    """Its value in the deck [m, rad]."""
+    share: float
+    """Of the strength, such as 0.5."""
+    support: float | None
+    """Part of the stiffness at rest; None where none was asked for."""
+    against: str | None
+    """"strength" or "fatigue"; None: of fatigue where it is given."""
+
+    @property
+    def unit(self) -> str:
+        """Of its values: m or rad."""
+        return unit_of_direction(self.coordinate)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class CostValues(Frozen):
     """What a design costs as built, and beside it what each release gains.
@@ -470,6 +512,7 @@ class CostValues(Frozen):
         stroke: None where none was asked for.
         misaligned: Misalignments and their values [m, rad] that were given, together.
         left_out: What the deck's data do not allow, and what was not looked at, in sentences.
+        strength: None where none was asked for.
     """
 
     data: ModelData
@@ -486,6 +529,7 @@ class CostValues(Frozen):
     stroke: Stroke | None
     misaligned: tuple[tuple[Misalignment, float], ...]
     left_out: tuple[str, ...]
+    strength: Strength | None = None
 
     @property
     def as_built(self) -> Design:

@@ -19,6 +19,8 @@ from ..core.elastic import RawLinear
 from ..core.elements import NodeKind
 from ..elasticity import Elastic, ElasticError, Estimate, State
 from ..elasticity.equilibria import Imperfection, misalignment
+from ..elasticity.limits import Strengths
+from ..elasticity.points import words_of_direction
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH, Linear, unit_errors
 from ..util.records import Frozen, cached_property
@@ -30,7 +32,6 @@ from .designs import (
     Point,
     Tolerance,
     unit_of_direction,
-    words_of_direction,
 )
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.
@@ -329,6 +330,13 @@ class Level:
             raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
         return np.stack([raw.below, raw.above], axis=1)
 
+    def usage(self, stresses: FloatArray, strengths: Strengths) -> FloatArray:
+        """(k,) largest stress of unit errors, (6, pieces, k), over the strength of its part."""
+        rows = [
+            self.solution.under(each).peaks.von_mises[2] for each in np.moveaxis(stresses, 2, 0)
+        ]
+        return strengths.usage(np.array(rows)).max(axis=1) if rows else np.zeros(0)
+
     def measure(self, stress: FloatArray) -> float:
         """First frequency [Hz] under a stress, 0 where it is unstable; or the lowest stiffness."""
         # Of an unstable motion it is 0.
@@ -400,6 +408,30 @@ def tolerances_of(
         Tolerance(each, *(_number(whole, j, k, size, each.unit) for k in range(4)))
         for j, each in enumerate(kept)
     )
+
+
+def safeties_of(
+    mechanism: ElasticDesign, tolerances: Sequence[Tolerance], strengths: Strengths
+) -> tuple[Number, ...]:
+    """The strength over the largest stress at the smaller error of each tolerance.
+
+    In proportion to the error, as the stress is taken; infinite without stress, 0 of an error
+    without an end that stresses something.
+    """
+    misalignments = [each.misalignment for each in tolerances]
+    rows = [level.usage(level.stresses(misalignments), strengths) for level in mechanism.levels]
+    usage = Estimate.of(*rows)
+    made = []
+    for each, part, off in zip(
+        tolerances, usage.value.tolist(), usage.uncertainty.tolist(), strict=True
+    ):
+        # Of rounding there is none.
+        if not part > 0.0:
+            made.append(Number(math.inf))
+            continue
+        safety = 1.0 / (part * each.tightest.value)
+        made.append(Number(safety, safety * abs(off / part)))
+    return tuple(made)
 
 
 def _number(whole: Estimate, row: int, column: int, size: float, unit: str) -> Number:

@@ -8,11 +8,12 @@ import io
 import json
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import fields
+from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
 
+from ..elasticity.limits import Limits
 from ..util.loading import VERSION
 from .designs import (
     CostValues,
@@ -78,6 +79,10 @@ def rows(cost: CostValues, design: Design) -> Iterator[Row]:
         ):
             where = _where(each.misalignment)
             yield _row(label, quantity, number, each.misalignment.unit, **where)
+        if (safety := design.safety(each)) is not None:
+            yield _row(label, "safety at the tolerance", safety, "1", **where)
+    if design.limits is not None:
+        yield from _limits(cost, label, design.limits)
     if design.curve is not None:
         unit = "Hz" if cost.measure.endswith("frequency") else "N/m"
         for value, measure in zip(
@@ -89,6 +94,19 @@ def rows(cost: CostValues, design: Design) -> Iterator[Row]:
         yield from _stroke(cost, label, design.stroke)
     if design.effect is not None:
         yield from _effect(label, directions, design.effect)
+
+
+def _limits(cost: CostValues, label: str, limits: Limits) -> Iterator[Row]:
+    """Each limit, a stroke from rest, and what stresses most along the path."""
+    for each in limits.limits:
+        end = "below" if math.copysign(1.0, each.stroke) < 0.0 else "above"
+        more: Row = {"direction": each.direction} if each.direction else {}
+        quantity = f"stroke at the limit of {each.criterion}"
+        yield _row(label, quantity, each.stroke, limits.unit, state=end, **more)
+    for k, stroke in enumerate((limits.rest + limits.strokes).tolist()):
+        yield _row(label, "part of the strength", float(limits.usage[k]), "1", stroke=stroke)
+        if cost.stroke is None:
+            yield _row(label, "von Mises stress", float(limits.stress[k]), "Pa", stroke=stroke)
 
 
 def _where(each: Misalignment) -> dict[str, Cell]:
@@ -117,6 +135,12 @@ def _stroke(cost: CostValues, label: str, curve: StrokeCurve) -> Iterator[Row]:
         ):
             for j, hertz in enumerate(() if found is None else found.row(k)):
                 yield _row(label, quantity, hertz, "Hz", number=j + 1, stroke=value)
+        for quantity, given, unit in (
+            ("von Mises stress", curve.stress, "Pa"),
+            ("safety", curve.safety, "1"),
+        ):
+            if given is not None:
+                yield _row(label, quantity, given.at(k), unit, stroke=value)
         yield _row(label, "is stable", int(curve.is_stable[k]), stroke=value)
         yield _row(label, "under-constrained by", curve.under_constrained[k], stroke=value)
         yield _row(label, "over-constrained by", curve.over_constrained[k], stroke=value)
@@ -137,6 +161,9 @@ def _effect(label: str, directions: Sequence[str], effect: Effect) -> Iterator[R
             yield _row(label, f"largest {quantity}", number, unit, state=name)
         if effect.peak is not None:
             yield _row(label, "largest stress", effect.peak.at(state), "Pa", state=name)
+        if effect.von_mises is not None and effect.safety is not None:
+            yield _row(label, "von Mises stress", effect.von_mises.at(state), "Pa", state=name)
+            yield _row(label, "safety", effect.safety.at(state), "1", state=name)
     yield _row(label, "stiffness kept", effect.kept, "1", state="behind")
     yield _row(label, "is stable", int(effect.is_stable), state="behind")
     yield _row(label, "part reached", effect.reached, state="behind")
@@ -185,6 +212,7 @@ def dictionary_of(cost: CostValues) -> dict[str, Any]:
         ],
         "designs": [_design(cost, each) for each in cost.designs],
         "left_out": list(cost.left_out),
+        **({} if cost.strength is None else {"strength": cost.strength._asdict()}),
     }
 
 
@@ -204,9 +232,9 @@ def _design(cost: CostValues, design: Design) -> dict[str, Any]:
         "compliance": _plain(design.compliance),
         "kept": kept and _of_fields(kept, "mu", "worst", "words"),
         "frequencies": hertz and {**_plain(hertz), "unit": "Hz", "is_drive": list(design.is_drive)},
-        "tightest": design.tightest and _tolerance(design.tightest),
-        "buckles_at": design.buckles_at and _tolerance(design.buckles_at),
-        "tolerances": [_tolerance(each) for each in design.tolerances],
+        "tightest": _told(design, design.tightest),
+        "buckles_at": _told(design, design.buckles_at),
+        "tolerances": [_told(design, each) for each in design.tolerances],
         "curve": curve
         and {
             **_place(curve.misalignment),
@@ -216,22 +244,46 @@ def _design(cost: CostValues, design: Design) -> dict[str, Any]:
         "stroke": design.stroke and _with_units(cost, design.stroke),
         "effect": design.effect and _with_units(cost, design.effect),
         "remarks": list(design.remarks),
+        **({} if cost.strength is None else {"limits": _of_limits(design.limits)}),
+    }
+
+
+def _of_limits(limits: Limits | None) -> dict[str, Any] | None:
+    """How far it may go each way, everything that ends it, and the path."""
+    if limits is None:
+        return None
+    names = ("low", "high", "reason", "part", "unit", "rest", "drive")
+    along = ("strokes", "stress", "parts", "usage", "directions", "supports")
+    return {
+        **_of_fields(limits, *names),
+        "limits": [asdict(each) for each in limits.limits],
+        "path": _of_fields(limits, *along),
+        "notes": list(limits.notes),
     }
 
 
 def _with_units(cost: CostValues, given: StrokeCurve | Effect) -> dict[str, Any]:
     """All fields, and the units of the stiffness."""
-    made = _of_fields(given, *(each.name for each in fields(given)))
+    # Without a strength there is nothing of it.
+    of_strength = ("stress", "safety", "von_mises")
+    names = (each.name for each in fields(given))
+    names = (name for name in names if name not in of_strength or getattr(given, name) is not None)
+    made = _of_fields(given, *names)
     made["stiffness"]["units"] = [stiffness_unit(each) for each in cost.directions]
     return made
 
 
-def _tolerance(each: Tolerance) -> dict[str, Any]:
+def _told(design: Design, each: Tolerance | None) -> dict[str, Any] | None:
+    """A tolerance, with its safety where a strength was asked for."""
+    if each is None:
+        return None
+    safety = design.safety(each)
     numbers = ("negative", "positive", "critical_negative", "critical_positive")
     return {
         **_place(each.misalignment),
         "unit": each.misalignment.unit,
         **_of_fields(each, *numbers),
+        **({} if safety is None else {"safety": _plain(safety)}),
     }
 
 

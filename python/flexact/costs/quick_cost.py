@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -14,8 +13,8 @@ import numpy as np
 from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
-from ..elasticity import ElasticError, Estimate, elastic
-from ..elasticity.reduced import peak_of, resultants_of
+from ..elasticity import Estimate, elastic
+from ..elasticity.reduced import resultants_of
 from ..elasticity.solution import Solution
 from ..elasticity.tolerance import MISMATCH
 from ..model.model import Model
@@ -71,6 +70,8 @@ class QuickCurve(NamedTuple):
     """Numbers of the flexures whose section is known."""
     peaks: FloatArray
     """(elements,) largest normal stress [Pa], of an error of size 1, in proportion to it."""
+    strengths: FloatArray
+    """(elements,) their strength [Pa], of fatigue where it is given; NaN where none is."""
 
     def data(self) -> dict[str, Any]:
         """As pages take it: of no masses the measure is in parts of that without an error."""
@@ -84,6 +85,8 @@ class QuickCurve(NamedTuple):
             "measure": (self.measure / rest).tolist(),
             "elements": list(self.elements),
             "peaks": self.peaks.tolist(),
+            # Against which the stress is seen, where all of them have one.
+            **({} if np.isnan(self.strengths).any() else {"strengths": self.strengths.tolist()}),
         }
 
 
@@ -147,10 +150,16 @@ class _QuickCost:
         if not known:
             return None
         peaks, numbers = _of(states, known, _peak) / size, self.data.arrays.element_number
+        given = self.data.properties
+        strengths = np.full(len(known), np.nan)
+        if given is not None:
+            strength, fatigue = given.strength[known].T
+            strengths = np.where(np.isnan(fatigue), strength, fatigue)
         return QuickCurve(
             *(found.misalignment.words, found.misalignment.unit, made.values),
             *(mechanism.has_masses, made.measure.value),
             *(tuple(numbers[known].tolist()), peaks.reshape(-1)),
+            strengths,
         )
 
     def sentence(self) -> str:
@@ -259,16 +268,12 @@ class _QuickCost:
 
     def _known(self, mechanism: ElasticDesign, at: Solution) -> list[int]:
         """Those flexures whose section is known."""
-        known = []
-        for e in self._flexures(mechanism):
-            with suppress(ElasticError):
-                peak_of(at, e)
-                known.append(e)
-        return known
+        is_known = at.solver.sections.is_known
+        return [e for e in self._flexures(mechanism) if is_known[e]]
 
 
 def _peak(at: Solution, element: int) -> tuple[float]:
-    return (peak_of(at, element),)
+    return (float(at.peaks.normal[element]),)
 
 
 def _of(

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..elasticity.limits import AGAINST, share_given
 from ..model.deformations import is_word
 from ..util.errors import FlexactError
 from ..util.quantities import NOTCH, QuantityError, measured, quantity
@@ -165,6 +166,8 @@ def _coordinate(name: str) -> tuple[str, str]:
 HELD, DRIVE, AUTO = ("elastic", "rigid"), ("free", "locked"), "auto"
 #: The shift of the first frequency by default.
 SHIFT = -0.05
+#: Of the strength by default.
+SHARE = 0.5
 #: Places along a stroke by default, and at most.
 POINTS, _MOST_POINTS = 21, 2001
 #: Beams a sheet at most.
@@ -187,6 +190,10 @@ class Request:
         points: How many places along the stroke.
         bodies: Whether what is inside of bodies is among the proven releases.
         beyond: Whether strokes and misalignments may be larger than the model.
+        strength: Whether it is asked how far the drive may go.
+        share: Of the strength.
+        support: Part of the stiffness at rest that a support is to keep; None for none.
+        against: "strength" or "fatigue"; None: of fatigue where it is given.
     """
 
     at: object
@@ -200,6 +207,10 @@ class Request:
     points: int
     bodies: bool
     beyond: bool
+    strength: bool = False
+    share: float = SHARE
+    support: float | None = None
+    against: str | None = None
 
     @classmethod
     def of(
@@ -216,6 +227,10 @@ class Request:
         points: int,
         bodies: bool,
         beyond: bool,
+        strength: bool = False,
+        share: float | str | None = None,
+        support: float | str | None = None,
+        against: str | None = None,
     ) -> Request:
         """From arguments as users give them.
 
@@ -243,9 +258,16 @@ class Request:
             tried(_whole, "the number of places along a stroke", points, _MOST_POINTS),
             tried(_flag, "bodies", bodies),
             tried(_flag, "beyond", beyond),
+            tried(_flag, "strength", strength),
+            SHARE if share is None else tried(_part, "a share of the strength", share),
+            None if support is None else tried(_part, "a part of a stiffness", support),
+            None if against is None else tried(_one_of, "against", against, AGAINST),
         )
         if not wrong and made.points < 2:
             wrong.append("a stroke has 2 places at least")
+        alone = {"share": share, "support": support, "against": against}
+        if named := [name for name, value in alone.items() if value is not None and not strength]:
+            wrong.append(f"{', '.join(named)}: of a strength; ask for it with --strength, too")
         if wrong:
             raise RequestError(*wrong)
         return made
@@ -255,6 +277,13 @@ def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:
     if not isinstance(given, str) or given not in allowed:
         raise RequestError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
     return given
+
+
+def _part(what: str, given: object) -> float:
+    """A part above 0 and at most 1, such as 0.5 or "50%"."""
+    if isinstance(given, str) and (found := _NUMBER.fullmatch(given)) and found[2] in ("", "%"):
+        given = float(found[1]) / (100.0 if found[2] else 1.0)
+    return share_given(given, what)
 
 
 def _flag(what: str, given: object) -> bool:

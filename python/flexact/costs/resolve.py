@@ -12,10 +12,14 @@ from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..deck.rendering import ModelError, model_error
 from ..elasticity import ElasticError
 from ..elasticity.errors import require_within
+from ..elasticity.points import words_of_direction
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from .designs import Clamp, Misalignment, Point, Stroke, words_of_direction
+from .designs import Clamp, Misalignment, Point, Strength, Stroke
 from .request import Request
+
+#: How many declared coordinates are named where one is to be chosen.
+_MOST_NAMED = 4
 
 
 class Places:
@@ -233,6 +237,39 @@ def stroke_of(places: Places, asked: Request) -> tuple[Stroke, FloatArray] | Non
     words = f"node {number} ({owner}) {words_of_direction(coordinate)}"
     whole = (float(values[0]), float(values[-1]))
     return Stroke(number, coordinate, words, rest, whole, whole), values
+
+
+def strength_of(
+    places: Places, asked: Request, stroke: tuple[Stroke, FloatArray] | None
+) -> Strength | None:
+    """What is asked of the strength: of the stroke's drive, else of the only declared one.
+
+    Raises:
+        ModelError: none is declared, or several are, and there is no stroke.
+    """
+    if not asked.strength:
+        return None
+    if stroke is not None:
+        node, coordinate = stroke[0].node, stroke[0].coordinate
+        words, rest = stroke[0].words, stroke[0].rest
+    else:
+        drives = places.drives()
+        if len(drives) != 1:
+            named = ", ".join(f"{name} of node {node}" for node, name in drives[:_MOST_NAMED])
+            many = "no coordinate is declared (DYNX)" if not drives else f"several are: {named}"
+            raise model_error(
+                "no-drive",
+                f"how far may which coordinate go? {many}",
+                "name it by a stroke, such as --stroke 1:x=+-1mm (stroke=)",
+            )
+        node, coordinate = drives[0]
+        index = places.data.node_index[node]
+        turns = places.data.arrays.node_kind[index] > NodeKind.POSITION
+        rest = float(places.data.arrays.node_value["xyz".index(coordinate[-1]), index])
+        rest = 0.0 if turns else rest
+        owner = node_words(places.parts, index)
+        words = f"node {node} ({owner}) {words_of_direction(coordinate)}"
+    return Strength(node, coordinate, words, rest, asked.share, asked.support, asked.against)
 
 
 def _require_within(value: float, size: float, coordinate: str, what: str) -> None:

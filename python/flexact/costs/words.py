@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from ..elasticity.equilibria import is_far
+from ..elasticity.limits import REACH, STABILITY, STRENGTH, SUPPORT, Limit, Limits, mirrored
+from ..elasticity.points import words_of_direction
 from ..util.text import columns, harmless, table, wrapped
 from .designs import (
     FREQUENCY,
@@ -21,7 +24,6 @@ from .designs import (
     in_words,
     percent,
     scale_of,
-    words_of_direction,
 )
 from .elastic_design import FAR
 
@@ -42,6 +44,7 @@ def describe(cost: CostValues, width: int = WIDTH) -> str:
     """The cost for people, in rows of a width."""
     paragraphs = (
         _opening(cost, width),
+        _strength(cost, width),
         (_choices(cost, width),),
         (_table(cost, width),),
         (wrapped(_weakest(design), width, "  ") for design in cost.designs),
@@ -156,7 +159,9 @@ def _weakest(design: Design) -> str:
         told.append("keeps all stiffness" if is_all else f"weakest {design.kept.words}")
     tightest, buckles = design.tightest, design.buckles_at
     if tightest is not None:
-        told.append(f"tightest {harmless(tightest.misalignment.words)}")
+        safety = design.safety(tightest)
+        safe = "" if safety is None else f" (safety {in_words(safety)})"
+        told.append(f"tightest {harmless(tightest.misalignment.words)}{safe}")
     if buckles is not None and (tightest is None or buckles.misalignment != tightest.misalignment):
         told.append(f"buckles by {harmless(buckles.misalignment.words)}")
     if design.alike:
@@ -166,6 +171,12 @@ def _weakest(design: Design) -> str:
     what = "" if not design.released else f" ({harmless(design.words)})"
     text = f"{design.label}{what}: {'; '.join(told)}." if told else f"{design.label}{what}."
     return " ".join((text, *design.remarks))
+
+
+_SAFETY = (
+    " Safety: the strength, of fatigue where that counts, over the stress of von Mises, of the "
+    "part where it is least."
+)
 
 
 def _legend(cost: CostValues) -> str:
@@ -181,7 +192,7 @@ def _legend(cost: CostValues) -> str:
         f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
         f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "
         "a stiffness is lost. Stress is taken in proportion to the error, about the undeformed "
-        f"state.{limited}"
+        f"state.{limited}{'' if cost.strength is None else _SAFETY}"
     )
 
 
@@ -200,7 +211,10 @@ def _stroke(cost: CostValues, width: int) -> Iterator[str]:
         yield wrapped(f"{asked.beyond[:1].upper()}{asked.beyond[1:]}.", width)
     followed = [(each, each.stroke) for each in cost.designs if each.stroke is not None]
     rows = [(each.label, *_worst(curve, asked.unit)) for each, curve in followed]
-    headings = ("design", "stiffness kept", "at", "lowest parasitic", "drive force")
+    headings = (
+        *("design", "stiffness kept", "at", "lowest parasitic", "drive force"),
+        *("stress", "safety"),
+    )
     yield _without_empty((headings, *rows), width)
     for design, curve in followed:
         lost = [float(v) for v, fine in zip(curve.values, curve.is_stable, strict=True) if not fine]
@@ -218,8 +232,53 @@ def _stroke(cost: CostValues, width: int) -> Iterator[str]:
             )
 
 
+def _strength(cost: CostValues, width: int) -> Iterator[str]:
+    """How far the drive may go, a line a design."""
+    asked = cost.strength
+    if asked is None:
+        return
+    yield wrapped(f"How far {harmless(asked.words)} may go from rest, drive locked:", width)
+    for design in cost.designs:
+        if design.limits is not None:
+            told = "; ".join(limits_in_words(design.limits))
+            notes = (f"{note}." for note in design.limits.notes)
+            yield wrapped(harmless(" ".join((f"{design.label}: {told}.", *notes))), width, "  ")
+
+
+#: The order in which limits are told.
+_ORDER = (STRENGTH, SUPPORT, STABILITY, REACH)
+
+
+def limits_in_words(limits: Limits) -> list[str]:
+    """Such as "half of the strength (240 MPa) at +-6.3 mm, in sheet 1 at its clamp"."""
+    every = sorted(mirrored(limits.limits), key=lambda both: _ORDER.index(both[0].criterion))
+    supports = [both for both in every if both[0].criterion == SUPPORT]
+    others = [_limit_in_words(both, limits) for both in every if both not in supports]
+    count = sum(both[0].criterion == STRENGTH for both in every)
+    made = others[:count]
+    if supports:
+        # The same part of all of them: it is told once.
+        first, *more = (_limit_in_words(both, limits) for both in supports)
+        whole = supports[0][0].reason.removeprefix(words_of_direction(supports[0][0].direction))
+        told = ", ".join((first, *(each.replace(whole, "", 1) for each in more)))
+        made.append(f"{told} (drive {limits.drive})")
+    return [*made, *others[count:]]
+
+
+def _limit_in_words(both: Sequence[Limit], limits: Limits) -> str:
+    last = both[-1]
+    size = in_words(Number(abs(last.stroke)), limits.unit)
+    sign = "+-" if len(both) == 2 else "-" if math.copysign(1.0, last.stroke) < 0.0 else "+"
+    is_end = last.criterion == REACH and not last.part
+    what = f"{last.reason} {'' if is_end else 'at '}{sign}{size}"
+    return f"{what}{' ' if is_end else ', '}{last.place}" if last.place else what
+
+
 def _worst(curve: StrokeCurve, unit: str) -> tuple[str, ...]:
-    """The least that is kept and where, the lowest parasitic frequency, and the largest force."""
+    """The least that is kept and where, the lowest parasitic frequency, and the largest force.
+
+    And the largest stress and the least safety, where a strength was asked for.
+    """
     k = int(np.argmin(curve.kept.value))
     parasitic = ""
     if curve.parasitic is not None and curve.parasitic.value.size:
@@ -227,7 +286,12 @@ def _worst(curve: StrokeCurve, unit: str) -> tuple[str, ...]:
         parasitic = in_words(first.at(int(np.argmin(first.value))), "Hz")
     where = in_words(Number(float(curve.values[k])), unit)
     force = f"{float(np.abs(curve.force.value).max()):.4g}"
-    return in_words(curve.kept.at(k)), where, parasitic, force
+    stress = safety = ""
+    if curve.stress is not None and curve.safety is not None:
+        k_least = int(np.argmin(curve.safety.value))
+        stress = in_words(curve.stress.at(k_least), "Pa")
+        safety = in_words(curve.safety.at(k_least))
+    return in_words(curve.kept.at(k)), where, parasitic, force, stress, safety
 
 
 def _effects(cost: CostValues, width: int) -> Iterator[str]:
@@ -240,7 +304,7 @@ def _effects(cost: CostValues, width: int) -> Iterator[str]:
     )
     yield wrapped(f"With {given}, all of the nonlinearity:", width)
     found = [(each.label, each.effect) for each in cost.designs if each.effect is not None]
-    headings = ("design", "first frequency", "stiffness kept", "moment", "stress")
+    headings = ("design", "first frequency", "stiffness kept", "moment", "stress", "safety")
     yield _without_empty((headings, *((label, *_cells(each)) for label, each in found)), width)
     for label, effect in found:
         told = []
@@ -259,7 +323,8 @@ def _cells(effect: Effect) -> tuple[str, ...]:
     frequency = "" if first is None else f"{first.value[0, 0]:.4g} -> {first.value[1, 0]:.4g} Hz"
     moment = f"{float(np.max(effect.resultants.value[1, 1:])):.3g} N m"
     peak = "" if effect.peak is None else in_words(Number(float(effect.peak.value[1])), "Pa")
-    return frequency, in_words(effect.kept), moment, peak
+    safety = "" if effect.safety is None else in_words(effect.safety.at(1))
+    return frequency, in_words(effect.kept), moment, peak, safety
 
 
 def _without_empty(rows: Sequence[Sequence[str]], width: int) -> str:

@@ -180,7 +180,7 @@ _WORDS: dict[tuple[str, Block | None], Words] = {
         "in them follow: positions and `CROSSDIM` in mm, forces in N, `XF` of orientations in "
         "N mm, `ESTIFF` in N, N mm^2, mm^2, N/mm and N mm/rad, `STRENGTH` in MPa, `EM` in kg/mm "
         "and kg mm, `XM` in kg and kg mm^2, `GRAVITY` in mm/s^2. Angles stay in rad",
-        "values",
+        "units",
     ),
     ("OUTLEVEL", None): _unused("a [b]", "how much a program writes to its log"),
     ("EDAMP", None): _unused("e …", "damping of an element"),

@@ -22,6 +22,7 @@ from ..core.elements import (
 )
 from ..model.data import Appearance, ModelData
 from ..model.deformations import AT_P, AT_Q
+from ..model.parts.chains import Chain
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .errors import ElasticError
@@ -33,6 +34,8 @@ COARSE = 8
 #: More beams a sheet than these are surely a mistake.
 _MOST = 1000
 
+#: A beam whose shear, EI/(G A k), is more than this in its length squared stays straight.
+_STRAIGHT = 10.0
 #: Deformations, from 0, that are stiff or held together, spatial and planar.
 _GROUPS = {False: ((0,), (1,), (2, 3), (4, 5)), True: ((0,), (1, 2))}
 
@@ -75,7 +78,21 @@ def divisible(data: ModelData, stiff: BoolArray, rigid: BoolArray) -> BoolArray:
             if len(group) == 2:
                 bends |= is_stiff & ~is_rigid
         found &= (planar != is_planar) | (fits & bends)
-    return np.asarray(found & (data.frames.length > 0.0))
+    return np.asarray(found & (data.frames.length > 0.0) & ~stays_straight(data))
+
+
+def stays_straight(data: ModelData) -> BoolArray:
+    """Which beams shear far more than they bend, (elements,), as do the halves of a notch.
+
+    Pieces of them tell nothing new, and they have no stress that says anything.
+    """
+    if data.properties is None:
+        return np.zeros(data.arrays.element_kind.shape, np.bool_)
+    numbers = data.properties.stiffness
+    planar = data.arrays.deformation_class[3] == Class.NONE
+    shear = np.where(planar, numbers[:, 2], np.fmin(numbers[:, 4], numbers[:, 5]))
+    found = member_table()[data.arrays.element_kind] == Member.BEAM
+    return np.asarray(found & (shear > _STRAIGHT * data.frames.length**2))
 
 
 def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray, ...]:
@@ -86,8 +103,11 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
     there = np.ones(which.shape, np.int32)
     if beams == 1:
         return (there,)
-    for row in _uniform_rows(data):
-        there[row] = len(row)
+    for chain in data.chains:
+        rows = list(_uniform_rows(data, chain))
+        # Of a tapered sheet no two beams are alike: many of them are a mesh already.
+        for row in [list(chain.elements)] if len(rows) >= COARSE else rows:
+            there[row] = len(row)
     wanted = COARSE if beams == "auto" else beams
     pieces = np.where(which, -(-wanted // there), 1).astype(np.int32)
     if beams != "auto" or not which.any():
@@ -95,20 +115,19 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
     return pieces, np.where(which, 2 * pieces, 1).astype(np.int32)
 
 
-def _uniform_rows(data: ModelData) -> Iterator[list[int]]:
-    """Elements of each sheet that the deck divides; others begin where `ESTIFF` or `EM` change."""
+def _uniform_rows(data: ModelData, chain: Chain) -> Iterator[list[int]]:
+    """Elements of a sheet that the deck divides; others begin where `ESTIFF` or `EM` change."""
     said = data.properties
-    for chain in data.chains:
-        row = [chain.elements[0]]
-        for element in chain.elements[1:]:
-            if said is not None and not all(
-                np.array_equal(numbers[element], numbers[row[-1]], equal_nan=True)
-                for numbers in (said.stiffness, said.mass)
-            ):
-                yield row
-                row = []
-            row.append(element)
-        yield row
+    row = [chain.elements[0]]
+    for element in chain.elements[1:]:
+        if said is not None and not all(
+            np.array_equal(numbers[element], numbers[row[-1]], equal_nan=True)
+            for numbers in (said.stiffness, said.mass)
+        ):
+            yield row
+            row = []
+        row.append(element)
+    yield row
 
 
 def bending_pairs(kinds: IntArray) -> tuple[tuple[int, int, BoolArray], ...]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..analysis.locate import deformations_of, element_of, elements_of, numbers_listed, position_of
 from ..core.arrays import FloatArray, IntArray
-from ..core.elements import AXES, Class, NodeKind, coordinate_name
+from ..core.elements import AXES, Class, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
 from ..model.transform import Place
@@ -17,6 +17,11 @@ from ..util.quantities import without_units
 from ..util.records import cached_property
 from ..util.text import in_short
 from .errors import UnknownError
+
+
+def words_of_direction(direction: str) -> str:
+    """Such as "along x" or "about z"."""
+    return f"about {direction[1:]}" if direction.startswith("r") else f"along {direction}"
 
 
 class Point(NamedTuple):
@@ -128,6 +133,10 @@ class Points:
     def words(self, coordinate: Coordinate) -> str:
         """Such as "z of node 3"."""
         return f"{self.name(coordinate)} of node {self.number(coordinate.node)}"
+
+    def dual(self, element: int, k: int) -> int:
+        """Of what kind the stress dual to a deformation is, by their indices."""
+        return int(dual_table()[self.data.arrays.element_kind[element], k])
 
     def unit(self, coordinate: Coordinate) -> str:
         """The SI unit of a coordinate."""

@@ -15,23 +15,14 @@ from ..analysis.result import Result
 from ..core import calls, elastic
 from ..core.arrays import FloatArray, IntArray
 from ..core.elastic import ElasticState, RawMatrices
-from ..core.elements import (
-    AXES,
-    Class,
-    Dual,
-    Member,
-    NodeKind,
-    Role,
-    dual_table,
-    member_table,
-    role_table,
-)
-from ..model.data import CrossSection, ModelData
+from ..core.elements import AXES, Class, Dual, NodeKind, dual_table
+from ..model.data import ModelData
 from ..model.writing import class_statements, prescribed_in
 from ..util.records import Frozen
 from ..util.units import Units
 from .errors import ElasticError
 from .solution import Policy, Solution, notch_in_units, packed_with
+from .stresses import carried_by
 
 
 def independent_of(data: ModelData) -> IntArray:
@@ -149,17 +140,6 @@ def verdict_of(
     return n - rank, m - rank, value
 
 
-_BENDINGS = {
-    # The axis about which it bends (1: y, 2: z), and the end.
-    Role.BENDING_XZ_P: (1, 0),
-    Role.BENDING_XZ_Q: (1, 1),
-    Role.BENDING_XY_P: (2, 0),
-    Role.BENDING_XY_Q: (2, 1),
-    Role.PLANAR_BENDING_P: (2, 0),
-    Role.PLANAR_BENDING_Q: (2, 1),
-}
-
-
 @dataclass(frozen=True, eq=False)
 class Resultants(Frozen):
     """What an element carries, in its own axes.
@@ -183,50 +163,12 @@ class Resultants(Frozen):
 
 def resultants_of(data: ModelData, element: int, stress: FloatArray) -> Resultants:
     """Of an element, by its index, with its stresses (6,)."""
-    kind = int(data.arrays.element_kind[element])
+    made = carried_by(data, stress[:, None], np.array([element], np.int32))
+    about_y, about_z = made.moments[:, :, 0]
     length = float(data.frames.length[element])
-    moments = np.zeros((3, 2))
-    normal = torque = 0.0
-    for k, role in enumerate(role_table()[kind].tolist()):
-        lever = length if dual_table()[kind, k] == Dual.MOMENT_OVER_LENGTH else 1.0
-        value = float(stress[k]) * lever
-        if role in (Role.ELONGATION, Role.OFFSET_X):
-            normal = value
-        elif role in (Role.TORSION, Role.ROTATION, Role.ANGLE):
-            torque = value
-        elif role in _BENDINGS:
-            moments[_BENDINGS[Role(role)]] = value
-    slope = (moments[:, 0] - moments[:, 1]) / length if length > 0.0 else np.zeros(3)
-    return Resultants(normal, torque, moments[1], moments[2], float(slope[2]), float(slope[1]))
-
-
-def peak_of(at: Solution, element: int) -> float:
-    """The largest normal stress [Pa] in the pieces of a member of known section, by its index.
-
-    |N|/A + |My| h/2Iy + |Mz| b/2Iz at a corner; of a circle the moments add as vectors.
-
-    Raises:
-        ElasticError: it is no member, or its section is not known.
-    """
-    mesh, data = at.solver.mesh, at.solver.mesh.own
-    number = int(data.arrays.element_number[element])
-    kind = int(data.arrays.element_kind[element])
-    if member_table()[kind] not in (Member.BAR, Member.BEAM):
-        raise ElasticError(f"element {number} is neither a bar nor a beam: it has no section")
-    shape = int(data.appearance.cross_section[element])
-    b, h = (float(size) for size in data.appearance.dimensions[element])
-    if shape not in (CrossSection.RECT, CrossSection.CIRC) or not (b > 0.0 and h > 0.0):
-        raise ElasticError(
-            f"the section of element {number} is not known: give BEAMPROPS with CROSSTYPE RECT or "
-            "CIRC and CROSSDIM in the deck's picture block, or a section in Python"
-        )
-    largest = 0.0
-    for piece in range(mesh.first[element], mesh.last[element] + 1):
-        each = resultants_of(mesh.data, piece, at.raw.stress[:, piece])
-        my, mz = np.abs(each.moment_y), np.abs(each.moment_z)
-        if shape == CrossSection.CIRC:
-            area, bending = math.pi * b * b / 4.0, np.hypot(my, mz) * 32.0 / (math.pi * b**3)
-        else:
-            area, bending = b * h, 6.0 * my / (b * h * h) + 6.0 * mz / (h * b * b)
-        largest = max(largest, abs(each.normal_force) / area + float(bending.max()))
-    return largest
+    shear_y, shear_z = (
+        float(m[0] - m[1]) / length if length > 0.0 else 0.0 for m in (about_z, about_y)
+    )
+    return Resultants(
+        float(made.normal[0]), float(made.torque[0]), about_y, about_z, shear_y, shear_z
+    )

@@ -41,6 +41,7 @@ from ..util.units import Units
 from .errors import ElasticError
 from .mesh import Mesh, bending_pairs
 from .points import Coordinate, Point, Points
+from .stresses import Peaks, Sections, carried_by
 
 HELD = ("elastic", "rigid")
 DRIVES = ("free", "locked")
@@ -206,14 +207,19 @@ class Compliance(NamedTuple):
     @property
     def stiffness(self) -> FloatArray:
         """Stiffness in SI units: infinite for what is held, 0 for motions without stiffness."""
+        values, some, none = self.springs
+        made = (some / values) @ some.T * np.outer(self.scale, self.scale)
+        return _with_infinity(made, none @ none.T)
+
+    @property
+    def springs(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """(k,) compliances of (n, k) orthonormal motions that are elastic, and (n, h) held ones."""
         across = complement(self.loose)
         inner = across.T @ self.finite @ across
         values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
         none = np.abs(values) <= NO_COMPLIANCE * np.abs(values).max(initial=0.0)
         turned = across @ vectors
-        some = turned[:, ~none]
-        made = (some / values[~none]) @ some.T * np.outer(self.scale, self.scale)
-        return _with_infinity(made, turned[:, none] @ turned[:, none].T)
+        return values[~none], turned[:, ~none], turned[:, none]
 
 
 def kept(before: Compliance, after: Compliance) -> FloatArray:
@@ -290,6 +296,11 @@ class Solver:
     def elements(self) -> int:
         """How many pieces it has."""
         return int(self.mesh.data.arrays.element_number.size)
+
+    @cached_property
+    def sections(self) -> Sections:
+        """What stresses hang on, of the deck's elements."""
+        return Sections.of(self.mesh.own)
 
     @cached_property
     def at_rest(self) -> ElasticState:
@@ -484,6 +495,13 @@ class Solution:
     def stress(self) -> FloatArray:
         """(6, elements) stresses of the deck's elements."""
         return self.solver.mesh.stress(self.raw.stress)
+
+    @cached_property
+    def peaks(self) -> Peaks:
+        """The largest stresses [Pa] in the deck's elements, all along."""
+        mesh = self.solver.mesh
+        carried = carried_by(mesh.data, self.raw.stress)
+        return self.solver.sections.peaks(carried, mesh.owner, mesh.first)
 
     @cached_property
     def energy(self) -> float:

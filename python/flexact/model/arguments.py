@@ -15,6 +15,7 @@ from ..deck.diagnostics import Problems
 from ..deck.rendering import ModelError, model_error
 from ..util.quantities import Quantity, QuantityError, measured
 from ..util.text import in_short
+from ..util.units import Units
 from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import COORDINATES, ambiguous, one_line, own_number, unknown
@@ -187,6 +188,18 @@ def numbers(given: object, wanted: int, what: str, unit: str = "") -> tuple[floa
     if not all(map(math.isfinite, parts)):
         raise model_error("bad-number", f"{what}, and one of them is not finite")
     return parts
+
+
+def length_of(units: Units, given: object, what: str) -> float:
+    """A positive length [m].
+
+    Raises:
+        ModelError: it is none.
+    """
+    (made,) = numbers_of_size(given, (1,), f"{what} is a number", units.symbol("m"))
+    if made <= 0.0:
+        raise model_error("bad-size", f"{what} is not positive", "give one that is")
+    return made
 
 
 def polar(radius: Quantity, degrees: Quantity, z: Quantity = 0.0) -> tuple[float, ...]:

@@ -29,7 +29,7 @@ from ..util.records import Frozen, cached_property
 from ..util.units import METRES, Units
 from .names import part_name
 from .parts.chains import Chain, chains_of, directions_across
-from .parts.forms import Form, forms_of
+from .parts.forms import Form, forms_of, is_member
 
 
 class CrossSection(IntEnum):
@@ -230,9 +230,17 @@ def column_labels(arrays: ModelArrays, label: IndexArray) -> Labels:
 
 #: No sheet or wire is longer [m]; moduli [Pa] and densities [kg/m3] of solids are within these.
 _LONGEST, _MODULI, _DENSITIES = 5.0, (1.0e8, 1.0e12), (100.0, 3.0e4)
-#: What a number in another unit is to be multiplied with, and that unit.
-_MODULUS_UNITS = ((1e9, "GPa"), (1e6, "MPa (N/mm2)"), (1e-6, "N/m2 times mm2"))
+#: No material is stronger than this part of its modulus.
+_STRONGEST = 1.0 / 20.0
+#: What a number in another unit is to be multiplied with, and that unit, by the units of a model.
+_MODULUS_UNITS = {
+    "m": ((1e9, "GPa"), (1e6, "MPa (N/mm2)"), (1e-6, "N/m2 times mm2")),
+    "mm": ((1e3, "GPa"), (1e-6, "Pa, or of a section in metres")),
+}
 _DENSITY_UNITS = ((1e3, "g/cm3"), (1e9, "kg/mm3"), (1e12, "t/mm3"), (1e-3, "g/m3"))
+
+
+_METRES = {"m": "metres", "mm": "mm"}
 
 
 def slips_in(data: ModelData) -> Iterator[Diagnostic]:
@@ -247,27 +255,42 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     round_ = looks.cross_section == CrossSection.CIRC
     solid = round_ | (looks.cross_section == CrossSection.RECT)
     area = np.where(solid, np.where(round_, math.pi / 4.0, 1.0) * b * h, 0.0)
-    stiff = np.nan_to_num(data.properties.stiffness[:, 0])
+    # That of a hinge is no EA.
+    member = is_member(data.arrays.element_kind, Member.BAR, Member.BEAM)
+    stiff = np.where(member, np.nan_to_num(data.properties.stiffness[:, 0]), 0.0)
     mass = np.nan_to_num(data.properties.mass[:, 0])
     # Of a rigid link the mass is that of all of it.
     per_length = member_table()[data.arrays.element_kind] == Member.BEAM
     known = np.where(area > 0.0, area, math.inf)
+    units, pressure = data.units, data.units.symbol("Pa")
     yield from _outside(
-        *(data, stiff / known, _MODULI, "unlikely-modulus", "an E of {:.4g} Pa", _MODULUS_UNITS),
-        "E is in Pa, and EA of ESTIFF in N",
+        *(data, stiff / known, _MODULI, "unlikely-modulus", "an E of {}"),
+        *("Pa", _MODULUS_UNITS[units.name]),
+        f"E is in {pressure}, and EA of ESTIFF in N",
     )
     yield from _outside(
         *(data, np.where(per_length, mass, 0.0) / known, _DENSITIES),
-        *("unlikely-density", "a density of {:.4g} kg/m3", _DENSITY_UNITS),
-        "densities are in kg/m3, and EM of a beam in kg/m",
+        *("unlikely-density", "a density of {}"),
+        *("kg/m3", _DENSITY_UNITS),
+        f"densities are in kg/m3, and EM of a beam in {units.symbol('kg/m')}",
     )
+    strength = np.nan_to_num(data.properties.strength).max(axis=1)
+    found = (area > 0.0) & (stiff > 0.0) & (strength > _STRONGEST * stiff / known)
+    if found.any():
+        most = float(strength[found][0])
+        yield warning(
+            "unlikely-strength",
+            f"{_named(data, found)} {_has(found)} a strength of {units.said(most, 'Pa')}, above a "
+            "twentieth of E",
+            f"strengths are in {pressure}, as E is",
+        )
     length, thickness = _lengths(data), np.where(solid & (stiff > 0.0), np.minimum(b, h), 0.0)
     found = (length > 0.0) & (thickness > length)
     if found.any():
         size = float(thickness[found][0])
         yield warning(
             *("thick-section", f"{_named(data, found)} {_is(found)} thicker than long"),
-            f"its section is {size:.4g} m thick: sections are in metres",
+            f"its section is {units.said(size, 'm')} thick: sections are in {_METRES[units.name]}",
         )
 
 
@@ -291,9 +314,17 @@ def _long(data: ModelData, length: FloatArray) -> Iterator[Diagnostic]:
     found = np.isin(form, (Form.SHEET, Form.WIRE)) & (whole > _LONGEST)
     if found.any():
         most = float(whole[found].max())
+        plain = f"give all positions in metres: {most:.4g} mm are {most / 1e3:.4g} m"
+        if not data.units.power:
+            plain += ", or say that the model is in mm (UNITS mm)"
+        else:
+            plain = "the model is in mm: give all positions in mm"
         yield warning(
-            *("long-sheet", f"{_named(data, found)} {_is(found)} {most:.4g} m long"),
-            f"give all positions in metres: {most:.4g} mm are {most / 1e3:.4g} m",
+            *(
+                "long-sheet",
+                f"{_named(data, found)} {_is(found)} {data.units.said(most, 'm')} long",
+            ),
+            plain,
         )
 
 
@@ -303,7 +334,8 @@ def _outside(
     between: tuple[float, float],
     code: str,
     words: str,
-    units: tuple[tuple[float, str], ...],
+    unit: str,
+    others: tuple[tuple[float, str], ...],
     plain: str,
 ) -> Iterator[Diagnostic]:
     """Values, 0 where none is known, that are not between two."""
@@ -311,12 +343,16 @@ def _outside(
     found = (value > 0.0) & ~((value >= low) & (value <= high))
     if found.any():
         one = float(value[found][0])
-        meant = next((unit for factor, unit in units if low <= one * factor <= high), "")
-        has = "have" if found.sum() > 1 else "has"
+        meant = next((other for factor, other in others if low <= one * factor <= high), "")
+        told, number = data.units.said(one, unit), data.units.shown(one, unit)
         yield warning(
-            *(code, f"{_named(data, found)} {has} {words.format(one)}"),
-            f"{one:.4g} is a usual number in {meant}: {plain}" if meant else plain,
+            *(code, f"{_named(data, found)} {_has(found)} {words.format(told)}"),
+            f"{number:.4g} is a usual number in {meant}: {plain}" if meant else plain,
         )
+
+
+def _has(found: BoolArray) -> str:
+    return "have" if found.sum() > 1 else "has"
 
 
 def _is(found: BoolArray) -> str:

@@ -11,7 +11,17 @@ from ..deck.rendering import model_error
 from ..util.text import in_short
 from .arguments import existing, indices_of, part, whole
 from .draft import Draft
-from .handles import Assembly, Body, Element, FoldedSheet, Node, Part, ReinforcedSheet, Sheet
+from .handles import (
+    Assembly,
+    Body,
+    CutNotch,
+    Element,
+    FoldedSheet,
+    Node,
+    Part,
+    ReinforcedSheet,
+    Sheet,
+)
 from .names import is_coordinate, nearest
 from .parts.forms import PLANAR, XY, XZ
 from .transform import NO_VECTOR
@@ -267,6 +277,8 @@ def find_deformations(
     if isinstance(made, ReinforcedSheet):
         # Its leaves are a divided sheet; the middle has nothing to change.
         indices.pop(len(indices) // 2)
+    if isinstance(made, CutNotch):
+        indices = indices[1:2]
     kind = element_kinds()[draft.kinds[indices[0]] - 1]
     last = draft.deformations_of(indices[0])
     end = _end(draft, what, indices, at)

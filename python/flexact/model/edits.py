@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 
@@ -32,8 +33,18 @@ from .arguments import (
     several,
     vector,
 )
-from .draft import Colour, Draft, Said
-from .handles import Assembly, Element, FoldedSheet, Node, Part, ReinforcedSheet, Sheet, Wire
+from .draft import ROUNDING, Colour, Draft, Said
+from .handles import (
+    Assembly,
+    CutNotch,
+    Element,
+    FoldedSheet,
+    Node,
+    Part,
+    ReinforcedSheet,
+    Sheet,
+    Wire,
+)
 from .names import is_coordinate, nearest, part_name
 from .sections import (
     MaterialLike,
@@ -243,22 +254,32 @@ def move_node(draft: Draft, number: int, value: tuple[float, float, float, float
         and Class.INDEPENDENT in draft.classes[indices[1]]
         and number in (draft.slots[indices[0]][0], draft.slots[indices[-1]][2])
     ]
+    shares = {indices[0]: _shares(draft, indices) for indices in divided}
     draft.node_value[number] = value
     for indices in divided:
         start = draft.node_value[draft.slots[indices[0]][0]]
         end = draft.node_value[draft.slots[indices[-1]][2]]
-        for k, index in enumerate(indices[1:], 1):
-            t = k / len(indices)
+        for t, index in zip(shares[indices[0]], indices[1:], strict=True):
             x, y, z = (start[i] * (1.0 - t) + end[i] * t for i in range(3))
             draft.node_value[draft.slots[index][0]] = (x, y, z, 0.0)
     draft.changed_names_or_places()
 
 
+def _shares(draft: Draft, indices: list[int]) -> list[float]:
+    """Where the inner points of beams in a row are, as shares of its length."""
+    ends = [(draft.slots[index][0], draft.slots[index][2]) for index in indices]
+    lengths = [math.dist(draft.node_value[p][:3], draft.node_value[q][:3]) for p, q in ends]
+    whole, n = sum(lengths), len(indices)
+    if max(lengths) - min(lengths) <= ROUNDING * whole:
+        return [k / n for k in range(1, n)]
+    return [reached / whole for reached in itertools.accumulate(lengths[:-1])]
+
+
 def rename_part(draft: Draft, target: object, name: str) -> None:
     """Give a part another name: every beam and link of it."""
-    if isinstance(target, ReinforcedSheet):
+    if isinstance(target, (ReinforcedSheet, CutNotch)):
         for word, piece in target.pieces.items():
-            rename_part(draft, piece, f"{name}, {word}")
+            rename_part(draft, piece, name if word == "hinge" else f"{name}, {word}")
         return
     leaves = target.leaves if isinstance(target, FoldedSheet) else (target,)
     for k, leaf in enumerate(leaves, 1):
@@ -307,6 +328,13 @@ def make_of(
             shape = sheet_section(draft.units, section, thickness, breadth)
         else:
             shape = round_section(draft.units, section, thickness)
+        known = {draft.said.get(index, {}).get("shape") for index in indices}
+        if shape is not None and len(known) > 1:
+            raise model_error(
+                "several-sections",
+                f"{in_short(each.name)} has several sections",  # type: ignore[attr-defined]
+                "leave the sizes out, or delete it and make it anew",
+            )
         p, q = draft.slots[indices[0]][0], draft.slots[indices[-1]][2]
         for index in indices:
             kind = element_kinds()[draft.kinds[index] - 1]

@@ -171,6 +171,27 @@ class Notch(Part):
         return f"<{_title(self)} at {_end_words(self.nodes[0])}>"
 
 
+class CutNotch(Notch):
+    """A notch with a contour: a hinge in its middle, between halves from `p` and to `q`."""
+
+    __slots__ = ()
+
+    @property
+    def pieces(self) -> dict[str, Part]:
+        """Its "half 1", "hinge" and "half 2"; the hinge is called as the whole."""
+        (first, hinge, second), (p, near, far, q) = self.elements, self.nodes
+        return {
+            "half 1": Body((first,), (p, near)),
+            "hinge": Notch((hinge,), (near, far)),
+            "half 2": Body((second,), (q, far)),
+        }
+
+    @property
+    def name(self) -> str:
+        """What the notch is called, empty without a name."""
+        return self.elements[1].name
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class FoldedSheet:
     """Two sheets in series that meet in a fold.

@@ -22,6 +22,7 @@ from .arguments import (
     call,
     count,
     direction,
+    length_of,
     listed,
     numbers_of_size,
     one_of,
@@ -66,15 +67,16 @@ def _flexures(
 ) -> tuple[Parts, tuple[list[Node], list[Node]]]:
     """Flexures by their words and numbers, and their ends on the ground and on the body."""
     beams, sizes = sizes_of(given)
-    plain = sizes._replace(reinforced=None)
+    plain = sizes._replace(reinforced=None, tapered=None)
     every = [*wanted]
-    round_, surplus = plain, given.keys() & {"breadth", "warping", "reinforced"}
+    whole = {"reinforced", "tapered"}
+    round_, surplus = plain, given.keys() & {"breadth", "warping", *whole}
     if any(widths or len(points) == 3 for _, points, widths in every):
-        surplus &= {"reinforced"}
+        surplus &= whole
     if any(len(widths) == 1 for _, _, widths in every):
         surplus = set()
         shape = sheet_section(draft.units, sizes.section, sizes.thickness, sizes.breadth)
-        round_ = Sizes(None, shape and f"{shape.y!r}m", sizes.material)
+        round_ = Sizes(None, shape and f"{shape.y!r}m", sizes.material, fillet=sizes.fillet)
     if surplus:
         raise model_error("surplus-size", f"{min(surplus)} is for sheets, which it has not")
     parts: Parts = {}
@@ -480,10 +482,7 @@ def _radii(draft: Draft, given: tuple[Quantity, Quantity]) -> tuple[float, float
 
 def _size(draft: Draft, given: Quantity, what: str) -> float:
     """A positive length [m]."""
-    (made,) = numbers_of_size(given, (1,), f"{what} is a number", draft.units.symbol("m"))
-    if made <= 0.0:
-        raise model_error("bad-size", f"{what} is not positive", "give one that is")
-    return made
+    return length_of(draft.units, given, what)
 
 
 def _along(start: Vector, way: Vector, t: float) -> Place:

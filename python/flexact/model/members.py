@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypedDict
 
 from ..core.elements import Class, kind_of
@@ -19,16 +20,30 @@ from .arguments import (
     call,
     checked_name,
     direction,
+    length_of,
     numbers_of_size,
     pivot,
     point,
     position,
+    several,
     text,
     whole,
 )
+from .data import CrossSection
 from .deformations import deformations, give_deformations
-from .draft import LARGEST, Draft
-from .handles import Element, FoldedSheet, Node, Notch, ReinforcedSheet, Sheet, Wire
+from .draft import LARGEST, ROUNDING, Draft, Shape
+from .handles import (
+    CutNotch,
+    Element,
+    FoldedSheet,
+    Node,
+    Notch,
+    Part,
+    ReinforcedSheet,
+    Sheet,
+    Wire,
+)
+from .notches import CONTOURS, NotchContour, said, tapered_section
 from .sections import Make, MaterialLike, Section, made_of, round_section, shape_of, sheet_section
 from .transform import NO_VECTOR, Vector, cross, unit
 
@@ -113,7 +128,7 @@ def add_hinge(
     method: str,
     p: Point,
     axis: Direction | None,
-    q: Node | None,
+    q: Point | None,
     name: str,
     independent: bool,
     stiffness: Quantity | Sequence[Quantity] | None,
@@ -130,22 +145,21 @@ def add_hinge(
         elif axis is None:
             raise model_error("missing-vector", "a hinge needs an axis", "give axis=(x, y, z)")
         near = point(draft, p)
-        if q is None:
-            q = pivot(draft, position(draft, near))
-        elif (q := point(draft, q)).position != near.position:
+        far = pivot(draft, position(draft, near)) if q is None else point(draft, q)
+        if far.position != near.position:
             raise model_error(
                 "two-positions",
                 "a hinge joins two points at one position node",
                 "make the second point with pivot(p), or leave it out",
             )
-        slots = (0, near.orientation, 0, q.orientation)
+        slots = (0, near.orientation, 0, far.orientation)
         number = draft.add_element(kind(draft, "HINGE"), slots, name, along, (1,))
         index = len(draft.kinds) - 1
         draft.give_properties(index, given)
         if independent:
             draft.state_deformations([(index, 1)], Class.INDEPENDENT)
             draft.set_deformation(index, 1, Class.INDEPENDENT)
-        return Notch((Element(number, draft),), (near, q))
+        return Notch((Element(number, draft),), (near, far))
 
 
 def _hinge_stiffness(draft: Draft, stiffness: Quantity | Sequence[Quantity]) -> tuple[float, ...]:
@@ -157,6 +171,131 @@ def _hinge_stiffness(draft: Draft, stiffness: Quantity | Sequence[Quantity]) -> 
     if min(made) < 0.0:
         raise model_error("bad-size", "a stiffness is not negative", "give one that is not")
     return made
+
+
+#: Of the compliances of a notch about its middle that of bending which its halves take, beside what
+#: its hinge does; and by how many times they shear more than they bend.
+_BENDING, _SHEARING = 1.0e-5, 100.0
+
+
+def require_no_contour(sizes: Mapping[str, Quantity | None], material: MaterialLike | None) -> None:
+    """Raise where sizes or a material are given for a notch without a contour.
+
+    Raises:
+        ModelError: there are some.
+    """
+    given = [word for word, value in sizes.items() if value is not None]
+    if given or material is not None:
+        raise model_error(
+            "surplus-size",
+            f"{[*given, 'material'][0]} is for a notch with a contour",
+            f"give contour={' or '.join(map(repr, CONTOURS))}",
+        )
+
+
+def contour_of(
+    draft: Draft,
+    contour: str | NotchContour,
+    sizes: Mapping[str, Quantity | None],
+    material: MaterialLike | None,
+    stiffness: object,
+) -> NotchContour:
+    """The contour that is meant.
+
+    Raises:
+        ModelError: it is none, or something is given twice.
+    """
+    if stiffness is not None:
+        raise model_error(
+            "given-twice", "the stiffness of a notch follows from its contour", "leave one out"
+        )
+    if not isinstance(contour, NotchContour):
+        made = "steel" if material is None else material
+        return NotchContour(contour, **sizes, material=made, units=draft.units)
+    if material is not None or any(value is not None for value in sizes.values()):
+        raise model_error("given-twice", "the contour has its sizes already", "leave one out")
+    return contour
+
+
+def add_contour_notch(
+    draft: Draft,
+    p: Point,
+    axis: Direction | None,
+    q: Point | None,
+    name: str,
+    independent: bool,
+    contour: NotchContour,
+) -> CutNotch:
+    """A hinge between two halves that do not turn, with the six compliances of a contour.
+
+    About the middle the shifts are those of the halves, in shear and elongation, the bendings
+    those of the hinge. Its tilts are equal, as its local axes are not those of the notch: what
+    torsion has more than bending about the height is of the halves.
+    """
+    name = text(name, "the name of an element")
+    if q is None:
+        raise model_error(
+            "missing-point", "a notch with a contour reaches from p to q", "give q, its far end"
+        )
+    ends = point(draft, p), point(draft, q)
+    draft.require_two_ends((ends[0].position, 0, ends[1].position, 0))
+    along = span(draft, *ends)
+    length = math.hypot(*along)
+    if length < contour.length * (1.0 - ROUNDING):
+        raise model_error(
+            "bad-size",
+            f"the notch is {said(draft.units, contour.length, 'm')} long, and its ends are "
+            f"{said(draft.units, length, 'm')} apart",
+            "give points that are at least as far apart",
+        )
+    if contour.breadth < contour.thickness:
+        raise model_error(
+            "bad-size",
+            "the neck is narrower than thick, so that it bends about another axis",
+            "exchange breadth and thickness and turn the axis, or model it as a beam",
+        )
+    y = None
+    if not draft.planar and axis is not None:
+        about, way = unit(direction(axis, "axis")), unit(along)
+        y = cross(about, way)
+        if abs(sum(a * b for a, b in zip(about, way, strict=True))) > _PARALLEL:
+            raise model_error(
+                "parallel-vector", "the axis of a notch is across it", "from p to q it is the notch"
+            )
+    start, end = (draft.node_value[each.position][:3] for each in ends)
+    x, y_, z = ((a + b) / 2.0 for a, b in zip(start, end, strict=True))
+    near = add_point(draft, (x, y_, z, 0.0))
+    half = length / 2.0
+    *shifts, torsion, tilt, bend = contour.compliance.tolist()
+    ei = [
+        max(length / (_BENDING * turned), _SHEARING * half**3 / shift)
+        for turned, shift in ((tilt, shifts[2]), (bend, shifts[1]))
+    ]
+    left = [turned - length / each for turned, each in zip((tilt, bend), ei, strict=True)]
+    shear = [
+        each * shift / length - half**2 / 3.0
+        for each, shift in zip(ei, (shifts[2], shifts[1]), strict=True)
+    ]
+    stiffness = [length / shifts[0], length / (torsion - left[0]), *ei, *shear]
+    beam, mass = kind(draft, "BEAM"), contour.mass(length)
+    if draft.planar:
+        stiffness = [stiffness[0], ei[1], shear[1]]
+        mass = mass and (mass[0], mass[3])
+    # The section is that of the neck, where its stress is known by the hinge.
+    neck = Shape(CrossSection.RECT, contour.thickness, contour.breadth)
+    make = made_of(draft.units, beam, neck, contour.material, "beam")
+    half_make = Make(None, tuple(stiffness), mass, expansion=make.expansion)
+    names = [f"{name}, half {k}" if name else "" for k in (1, 2)]
+    first = add_beam(draft, ends[0], near, y, (), names[0], half_make)
+    hinge = add_hinge(draft, "notch", near, axis, None, name, independent, None)
+    index = len(draft.kinds) - 1
+    turning = (left[1],) if draft.planar else (left[1], left[0], left[0])
+    draft.say_looks([index], {"shape": neck})
+    stiff = tuple(1.0 / each for each in turning)
+    draft.give_properties(index, stiff, strength=make.strength, fillet=(contour.even_radius,))
+    # From its end: a body that carries it stands for that point.
+    second = add_beam(draft, ends[1], hinge.q, y, (), names[1], half_make)
+    return CutNotch((first, *hinge.elements, second), (ends[0], *hinge.nodes, ends[1]))
 
 
 #: The thickness with which the middle of a reinforced sheet is drawn, in that of the sheet.
@@ -174,7 +313,10 @@ class Sizes(NamedTuple):
     breadth: Quantity | None = None
     """Of a sheet, as is what follows."""
     warping: bool | float = False
-    reinforced: float | None = None
+    reinforced: float | Sequence[Quantity] | None = None
+    tapered: Section | None = None
+    fillet: Quantity | None = None
+    """Of all flexures."""
 
 
 class Flexure(TypedDict, total=False):
@@ -186,7 +328,9 @@ class Flexure(TypedDict, total=False):
     material: MaterialLike | None
     breadth: Quantity | None
     warping: bool | float
-    reinforced: float | None
+    reinforced: float | Sequence[Quantity] | None
+    tapered: Section | None
+    fillet: Quantity | None
 
 
 def sizes_of(given: Flexure) -> tuple[int, Sizes]:
@@ -214,7 +358,9 @@ def add_wire(
     with call("wire", name):
         shape = round_section(draft.units, sizes.section, sizes.thickness)
         make = made_of(draft.units, kind(draft, "BEAM"), shape, sizes.material, "wire")
-        return Wire(*_chain(draft, p, q, y, released, name, make, beams))
+        made = Wire(*_chain(draft, p, q, y, released, name, *_equal(make, beams)))
+        _give_fillets(draft, sizes.fillet, made)
+        return made
 
 
 def add_sheet(
@@ -229,9 +375,115 @@ def add_sheet(
     """A sheet flexure."""
     with call("sheet", name):
         make = _sheet_make(draft, sizes)
-        if sizes.reinforced is None:
-            return _sheet(draft, p, q, width, beams, name, make, sizes.warping)
-        return _reinforced(draft, p, q, width, beams, name, make, sizes)
+        made: Sheet
+        if sizes.tapered is not None or (
+            isinstance(sizes.reinforced, Iterable) and not isinstance(sizes.reinforced, str)
+        ):
+            made = _stepped(draft, p, q, width, beams, name, make, sizes)
+        elif sizes.reinforced is not None:
+            made = _reinforced(draft, p, q, width, beams, name, make, sizes)
+            for leaf in ("leaf 1", "leaf 2"):
+                _give_fillets(draft, sizes.fillet, made.pieces[leaf])
+            return made
+        else:
+            made = _sheet(draft, p, q, width, beams, name, make, sizes.warping)
+        _give_fillets(draft, sizes.fillet, made)
+        return made
+
+
+def _give_fillets(draft: Draft, fillet: Quantity | None, made: Part) -> None:
+    """Give a flexure the radius of its fillets, where its end beams are clamped.
+
+    Raises:
+        ModelError: it is no positive length.
+    """
+    if fillet is None:
+        return
+    radius = length_of(draft.units, fillet, "the radius of a fillet")
+    for end in {made.elements[0], made.elements[-1]}:
+        draft.give_properties(draft.index_of(end.number), fillet=(radius,))
+
+
+#: Into how many beams of one section a tapered sheet is divided where nothing is said.
+_STEPS = 16
+
+
+def _stepped(
+    draft: Draft,
+    p: Point,
+    q: Point,
+    width: Direction | None,
+    beams: int,
+    name: str,
+    make: Make,
+    sizes: Sizes,
+) -> Sheet:
+    """A sheet of several sections in a row, which is one sheet that is divided.
+
+    Of a tapered sheet each beam has the section that gives way as its piece does, in elongation
+    and in bending out of its plane.
+    """
+    if make.shape is None:
+        raise model_error(
+            "missing-section",
+            "what is tapered or reinforced has a section",
+            "give thickness and breadth",
+        )
+    if sizes.warping is True or (sizes.tapered is not None and sizes.reinforced is not None):
+        raise model_error(
+            "surplus-size",
+            "a sheet is tapered, reinforced by a thickness, or held against warping",
+            "give one of them; a number as warping is a factor of your own",
+        )
+    t, b = make.shape.y, make.shape.z
+    beams = _beams(beams)
+    if sizes.tapered is None:
+        given = several(sizes.reinforced, "a share of the length and a thickness")
+        if len(given) != 2:
+            raise model_error(
+                "bad-number",
+                "a reinforced sheet has a share of its length and a thickness there",
+                'give both, such as (0.7, "2 mm"), or the share alone',
+            )
+        part, thickness = _share(given[0]), given[1]
+        thick = length_of(draft.units, thickness, "the thickness of the middle")
+        if not thick > t:
+            raise model_error(
+                "bad-size", "the middle of a reinforced sheet is not thicker than the sheet"
+            )
+        shapes = [(t, b)] * beams + [(thick, b)] * beams + [(t, b)] * beams
+        corners = [0.0, (1.0 - part) / 2.0, (1.0 + part) / 2.0, 1.0]
+        places = [
+            low + (high - low) * k / beams
+            for low, high in itertools.pairwise(corners)
+            for k in range(beams)
+        ][1:]
+    else:
+        far = numbers_of_size(
+            sizes.tapered,
+            (1, 2),
+            "a taper ends with its thickness, or breadth and thickness",
+            draft.units.symbol("m"),
+        )
+        t1, b1 = far[-1], far[0] if len(far) == 2 else b
+        if not min(far) > 0.0:
+            raise model_error("bad-size", "a size at the end of a taper is not positive")
+        beams = beams if beams > 1 else _STEPS
+        shapes = [
+            tapered_section((t, t1), (b, b1), k / beams, (k + 1) / beams) for k in range(beams)
+        ]
+        places = [k / beams for k in range(1, beams)]
+    made = [
+        made_of(
+            draft.units,
+            kind(draft, "BEAM"),
+            Shape(CrossSection.RECT, *each),
+            sizes.material,
+            "sheet",
+        ).with_warping(sizes.warping, 0.0)
+        for each in shapes
+    ]
+    return _sheet_of(draft, p, q, width, name, places, made)
 
 
 def _reinforced(
@@ -248,10 +500,7 @@ def _reinforced(
 
     What the second of them releases is declared, as of the beams of a divided sheet.
     """
-    what = "the reinforced part of a sheet is a share of its length"
-    (share,) = numbers_of_size(sizes.reinforced, (1,), what)
-    if not 0.0 < share < 1.0:
-        raise model_error("out-of-range", f"{what}, not {share:g}", "give one such as 0.7")
+    share = _share(sizes.reinforced)
     ends = point(draft, p), point(draft, q)
     draft.require_two_ends((ends[0].position, 0, ends[1].position, 0))
     start, end = (draft.node_value[each.position][:3] for each in ends)
@@ -270,6 +519,15 @@ def _reinforced(
     declare_released(draft, beams)
     elements = *first.elements, middle, *second.elements
     return ReinforcedSheet(elements, first.nodes + second.nodes)
+
+
+def _share(given: object) -> float:
+    """The share of its length in which a sheet is reinforced."""
+    what = "the reinforced part of a sheet is a share of its length"
+    (share,) = numbers_of_size(given, (1,), what)
+    if not 0.0 < share < 1.0:
+        raise model_error("out-of-range", f"{what}, not {share:g}", "give one such as 0.7")
+    return share
 
 
 def declare_released(draft: Draft, beams: int) -> None:
@@ -299,6 +557,8 @@ def add_folded_sheet(
         leaves = [f"{name}, leaf {k}" if name else "" for k in (1, 2)]
         first = _sheet(draft, start, middle, width, beams, leaves[0], make, sizes.warping)
         second = _sheet(draft, middle, end, width, beams, leaves[1], make, sizes.warping)
+        for leaf in (first, second):
+            _give_fillets(draft, sizes.fillet, leaf)
         with call("independent", first):
             bending = ("out-of-plane bending",)
             give_deformations(draft, first, bending, Class.INDEPENDENT, "q")
@@ -322,12 +582,41 @@ def _sheet(
     make: Make,
     warping: bool | float,
 ) -> Sheet:
+    p, q = point(draft, p), point(draft, q)
+    make = make.with_warping(warping, math.hypot(*span(draft, p, q)))
+    return _sheet_of(draft, p, q, width, name, *_equal(make, beams))
+
+
+def _sheet_of(
+    draft: Draft,
+    p: Point,
+    q: Point,
+    width: Direction | None,
+    name: str,
+    places: Sequence[float],
+    makes: Sequence[Make],
+) -> Sheet:
     name = text(name, "the name of a sheet")
     p, q = point(draft, p), point(draft, q)
     normal = _sheet_normal(draft, p, q, width)
     released = (2, 3) if draft.planar else (2, 5, 6)
-    make = make.with_warping(warping, math.hypot(*span(draft, p, q)))
-    return Sheet(*_chain(draft, p, q, normal, released, name, make, beams))
+    return Sheet(*_chain(draft, p, q, normal, released, name, places, makes))
+
+
+def _beams(given: object) -> int:
+    """Into how many beams a flexure is divided."""
+    beams = whole(given, "the number of beams must be a whole number")
+    if not 1 <= beams <= LARGEST:
+        raise model_error(
+            "out-of-range", f"a flexure cannot be divided into {in_short(beams)} beams"
+        )
+    return beams
+
+
+def _equal(make: Make, given: object) -> tuple[list[float], list[Make]]:
+    """The inner points of a flexure of equal beams, as shares of its length, and its beams."""
+    beams = _beams(given)
+    return [i / beams for i in range(1, beams)], [make] * beams
 
 
 def _chain(
@@ -337,8 +626,8 @@ def _chain(
     y: Direction | None,
     released: tuple[int, ...],
     name: str,
-    make: Make,
-    beams: int,
+    places: Sequence[float],
+    makes: Sequence[Make],
 ) -> tuple[tuple[Element, ...], tuple[Node, ...]]:
     """Beams in a row that are one flexure, and their points.
 
@@ -347,20 +636,17 @@ def _chain(
     name = text(name, "the name of an element")
     ends = point(draft, p), point(draft, q)
     draft.require_two_ends((ends[0].position, 0, ends[1].position, 0))
-    beams = whole(beams, "the number of beams must be a whole number")
-    if not 1 <= beams <= LARGEST:
-        raise model_error(
-            "out-of-range", f"a flexure cannot be divided into {in_short(beams)} beams"
-        )
+    beams = len(makes)
     start, end = (draft.node_value[each.position][:3] for each in ends)
     nodes = [ends[0]]
-    for t in (i / beams for i in range(1, beams)):
+    for t in places:
         x, y_, z = (a * (1.0 - t) + b * t for a, b in zip(start, end, strict=True))
         nodes.append(add_point(draft, (x, y_, z, 0.0)))
     nodes.append(ends[1])
     names = [f"{name}, {i + 1}" if name and beams > 1 else name for i in range(beams)]
     elements = tuple(
-        add_beam(draft, nodes[i], nodes[i + 1], y, released, names[i], make) for i in range(beams)
+        add_beam(draft, nodes[i], nodes[i + 1], y, released, names[i], makes[i])
+        for i in range(beams)
     )
     for index in range(len(draft.kinds) - beams + 1, len(draft.kinds)):
         for number in released:

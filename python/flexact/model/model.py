@@ -58,6 +58,7 @@ from .handles import (
     Wire,
 )
 from .members import Flexure, Sizes
+from .notches import NotchContour
 from .parts.parts import surplus_of
 from .sections import Make, MaterialLike, Section, shape_of
 from .transform import NO_VECTOR
@@ -381,23 +382,60 @@ class Model:
         self,
         p: Point,
         axis: Direction | None = None,
-        q: Node | None = None,
+        q: Point | None = None,
         name: str = "",
         *,
         independent: bool = False,
         stiffness: Quantity | Sequence[Quantity] | None = None,
+        contour: str | NotchContour | None = None,
+        thickness: Quantity | None = None,
+        height: Quantity | None = None,
+        breadth: Quantity | None = None,
+        radius: Quantity | None = None,
+        length: Quantity | None = None,
+        material: MaterialLike | None = None,
     ) -> Notch:
         """A notch at p: all is held but the bending about its axis.
 
         A notch is so short that it is a hinge at a point: what is fastened to p before it,
         and what is fastened to `notch.q` beyond it, turn about the axis against each other.
-        Arguments as of `hinge`.
+
+        With a contour it reaches from p to q: a hinge in its middle, called as the notch, and
+        two halves that do not turn, "name, half 1" and "name, half 2". It has the six
+        compliances of the contour about its middle, see `flexact.NotchContour`, which tells
+        them with what is published. What of it is beyond the contour is rigid.
+
+        Args:
+            p: The point on the near side; with a contour the near end.
+            axis: Direction of the axis; not for a planar model.
+            q: The point on the far side, at the same position node; by default a new one. With a
+                contour the far end, at least the length of the contour away.
+            name: What it is called.
+            independent: Whether the rotation is a degree of freedom.
+            stiffness: As of `hinge`; with a contour it follows.
+            contour: "circular", "fillet", "elliptic", "parabolic", or a `NotchContour`.
+            thickness: At the thinnest [m].
+            height: Of the blank [m]; elliptic and parabolic contours need it.
+            breadth: Along the axis [m].
+            radius: Of a circular contour, or of the fillets [m].
+            length: Of any other than a circular contour [m].
+            material: Steel by default, see `wire`.
 
         Returns:
-            The notch, with its points p and q.
+            The notch, with its points p and q; with a contour it has `pieces`.
+
+        Raises:
+            ModelError: something of it is wrong; its text begins with the name of the notch.
         """
         draft = self._change()
-        return members.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
+        sizes = {"thickness": thickness, "height": height, "breadth": breadth}
+        sizes |= {"radius": radius, "length": length}
+        with call("notch", name):
+            if contour is None:
+                members.require_no_contour(sizes, material)
+                return members.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
+            made = members.contour_of(draft, contour, sizes, material, stiffness)
+            return members.add_contour_notch(draft, p, axis, q, name, independent, made)
 
     def wire(
         self,
@@ -410,6 +448,7 @@ class Model:
         section: Section | None = None,
         thickness: Quantity | None = None,
         material: MaterialLike | None = None,
+        fillet: Quantity | None = None,
     ) -> Wire:
         """A wire flexure: its elongation is held, torsion and bending are released.
 
@@ -425,12 +464,13 @@ class Model:
             material: "steel", "titanium" or another name of `MATERIALS`, a
                 `flexact.Material`, or {"E": ..., "G": ..., "density": ...}. With it the
                 beams get ESTIFF (EA, G It, E Iy, E Iz, shear) and EM, which stand in the deck.
+            fillet: See `sheet`.
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the wire.
         """
         draft = self._change()
-        sizes = Sizes(section, thickness, material)
+        sizes = Sizes(section, thickness, material, fillet=fillet)
         return members.add_wire(draft, p, q, y, name, beams, sizes)
 
     def sheet(
@@ -446,7 +486,9 @@ class Model:
         breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
-        reinforced: float | None = None,
+        reinforced: float | Sequence[Quantity] | None = None,
+        tapered: Section | None = None,
+        fillet: Quantity | None = None,
     ) -> Sheet:
         """A sheet flexure: elongation and in-plane bending are held, the rest released.
 
@@ -471,12 +513,18 @@ class Model:
                 rigid body between two sheets, called "name, leaf 1", "name, middle" and "name,
                 leaf 2". The handle is a `ReinforcedSheet`. How the middle moves while both
                 ends stand still is declared, so that the verdict is that of one sheet;
-                thickness and material are those of the leaves.
+                thickness and material are those of the leaves. With the thickness of the
+                middle [m], (0.7, 4e-3), the middle is a beam of that thickness, and the whole is
+                a divided sheet like any other, a `Sheet`.
+            tapered: The thickness at q [m], or breadth and thickness there, to which those at p
+                go evenly; a divided sheet of 16 beams where `beams` is 1.
+            fillet: Radius of the fillets at its clamped ends [m]. It raises the peak stress
+                (`flexact.model.notches.stress_factor`), and changes no stiffness.
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the sheet.
         """
-        sizes = Sizes(section, thickness, material, breadth, warping, reinforced)
+        sizes = Sizes(section, thickness, material, breadth, warping, reinforced, tapered, fillet)
         return members.add_sheet(self._change(), p, q, width, beams, name, sizes)
 
     def folded_sheet(
@@ -493,6 +541,7 @@ class Model:
         breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
+        fillet: Quantity | None = None,
     ) -> FoldedSheet:
         """A folded sheet: two sheets in series, which take one translation, along the fold.
 
@@ -512,11 +561,12 @@ class Model:
             breadth: The size along the fold line [m], instead of `section`.
             material: See `wire`.
             warping: Of each leaf, see `sheet`.
+            fillet: Of each leaf, see `sheet`.
 
         Raises:
             ModelError: something of it is wrong, such as three points on a line and no width.
         """
-        sizes = Sizes(section, thickness, material, breadth, warping)
+        sizes = Sizes(section, thickness, material, breadth, warping, fillet=fillet)
         return members.add_folded_sheet(self._change(), (a, fold, b), width, beams, name, sizes)
 
     def body(
@@ -569,6 +619,7 @@ class Model:
         breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
+        fillet: Quantity | None = None,
     ) -> Assembly:
         """A cross hinge: two, three or more sheets that cross, and the body that they carry.
 
@@ -591,11 +642,12 @@ class Model:
             breadth: The size along the axis [m], instead of `section`.
             material: See `wire`.
             warping: See `sheet`.
+            fillet: See `sheet`.
 
         Returns:
             Parts "sheet 1", ..., "body" and points "ground 1", ..., "body 1", ...
         """
-        sizes = Sizes(section, thickness, material, breadth, warping)
+        sizes = Sizes(section, thickness, material, breadth, warping, fillet=fillet)
         return assemblies.add_cross_hinge(
             self._change(), (ground, moving), width, name, carries, (mass, inertia), beams, sizes
         )
@@ -618,6 +670,7 @@ class Model:
         breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
+        fillet: Quantity | None = None,
     ) -> Assembly:
         """A parallel guide: equal sheets side by side, and the stage that they carry.
 
@@ -640,11 +693,12 @@ class Model:
             breadth: The size along the width [m], instead of `section`.
             material: See `wire`.
             warping: See `sheet`.
+            fillet: See `sheet`.
 
         Returns:
             Parts "sheet 1", ..., "stage" and points "ground 1", ..., "stage 1", ...
         """
-        sizes = Sizes(section, thickness, material, breadth, warping)
+        sizes = Sizes(section, thickness, material, breadth, warping, fillet=fillet)
         return assemblies.add_parallel_guide(
             self._change(),
             (p, q),
@@ -708,7 +762,8 @@ class Model:
 
     # Hinges, struts and mounts ----------------------------------------------
     # `flexures` are those of `sheet`: beams, section, thickness, breadth, material, warping,
-    # reinforced. Nothing is clamped, and masses are given with `body([hinge.body], mass=...)`.
+    # reinforced, tapered, fillet. Nothing is clamped, and masses are given with
+    # `body([hinge.body], mass=...)`.
 
     def cartwheel(
         self,

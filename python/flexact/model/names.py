@@ -37,6 +37,11 @@ def part_name(element_name: str) -> str:
     return found[1] if found else _TAIL.sub("", element_name)
 
 
+def is_half(name: str) -> bool:
+    """Whether this is what the half of a notch is called, which a body may carry."""
+    return name.endswith((", half 1", ", half 2"))
+
+
 def own_number(element_name: str) -> int:
     """The number of an element in its part, 2 of "stage, 2"; 0 where it has none."""
     found = re.search(r"\d+", element_name[len(part_name(element_name)) :])

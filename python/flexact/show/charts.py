@@ -25,6 +25,7 @@ _WRITTEN: dict[str, tuple[tuple[float, str], ...]] = {
         *((1e3, "kN m/rad"), (1e6, "MN m/rad")),
     ),
     "Hz": ((1e-3, "mHz"), (1.0, "Hz"), (1e3, "kHz"), (1e6, "MHz")),
+    "Pa": ((1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")),
 }
 #: A frequency of up to so many Hz is written in Hz.
 _HERTZ = 10_000.0
@@ -51,7 +52,7 @@ def unit_for(values: ArrayLike, unit: str) -> Unit:
 
     Args:
         values: In the SI unit.
-        unit: The SI unit: m, rad, N/m, N m/rad or Hz; another one stays.
+        unit: The SI unit: m, rad, N/m, N m/rad, Hz or Pa; another one stays.
     """
     known = _WRITTEN.get(unit, ((1.0, unit),))
     sizes = np.abs(np.asarray(values, float))

@@ -12,6 +12,7 @@ from ...costs.cost import COSTS, Cost
 from ...costs.request import DRIVE, HELD, POINTS, Request, RequestError
 from ...costs.words import WIDTH, describe
 from ...deck.rendering import ModelError, ProblemsError
+from ...elasticity.limits import AGAINST
 from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
@@ -51,6 +52,10 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             points=POINTS if chosen.points is None else chosen.points,
             bodies=chosen.bodies,
             beyond=chosen.beyond,
+            strength=chosen.strength,
+            share=chosen.share,
+            support=chosen.support,
+            against=chosen.against,
         )
     except RequestError as error:
         *others, last = error.messages
@@ -132,6 +137,11 @@ VERB = Verb(
             "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
         ),
         (
+            "How far the stage may go before a sheet is stressed to half of its strength",
+            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --strength "
+            "--support 0.5",
+        ),
+        (
             "Two kinds of files at once",
             "flexact cost input_decks/flexures/notch_guide.dat -o results/cost.csv "
             "-o results/cost.json",
@@ -170,6 +180,23 @@ VERB = Verb(
             default="-5%",
             metavar="PART",
             help="of the first frequency, for which tolerances are found (-5%%)",
+        ),
+        argument(
+            "--strength",
+            action="store_true",
+            help="how far the drive may go until half of the strength is reached (STRENGTH), and "
+            "safety factors",
+        ),
+        argument("--share", metavar="PART", help="of the strength, in place of half"),
+        argument(
+            "--support",
+            metavar="PART",
+            help="the stroke, too, to which supported directions keep this part of their stiffness",
+        ),
+        argument(
+            "--against",
+            choices=AGAINST,
+            help="which strength counts (that of fatigue where it is given)",
         ),
         argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates"),
         argument("--held", choices=HELD, default=HELD[0], help="held deformations"),

@@ -17,7 +17,7 @@ from ...util.groups import grouped, groups_of
 from ...util.records import Word, cached_property
 from ...util.text import harmless, in_short
 from ..data import ModelData
-from ..names import own_number, part_name
+from ..names import is_half, own_number, part_name
 from .forms import Form, all_held, forms_of, is_member
 
 
@@ -147,7 +147,8 @@ class Parts:
         """Of each of `bodies`, index of the position node for which it stands."""
         names, nodes = self.data.element_names, self.data.arrays.element_node[0]
         first = (
-            min(body.elements, key=lambda i: (own_number(names[i]), i)) for body in self.bodies
+            min(body.elements, key=lambda i: (is_half(names[i]), own_number(names[i]), i))
+            for body in self.bodies
         )
         return tuple(int(nodes[i]) - 1 for i in first)
 
@@ -240,9 +241,9 @@ class Parts:
 
     def _made(self, kind: PartKind, elements: tuple[int, ...], ends: tuple[int, ...]) -> Part:
         number = int(self.data.arrays.element_number[min(elements)])
-        given = Counter(
-            name for i in elements if (name := part_name(self.data.element_names[i]).strip())
-        )
+        names = [name for i in elements if (name := part_name(self.data.element_names[i]).strip())]
+        # A body that carries the half of a notch is called by its own name.
+        given = Counter([name for name in names if not is_half(name)] or names)
         if given:
             # Of several names the commonest, of those the first.
             return Part(kind, harmless(given.most_common(1)[0][0]), elements, ends, number, True)

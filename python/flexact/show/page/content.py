@@ -484,7 +484,8 @@ def content_of(
             beside it, and the step in words.
         misaligned: What one misalignment does, to be switched on by a slider: its "words" and
             "unit"; the "name" of what falls, in "hertz" or in parts; its "measure" at "values"
-            [m, rad]; "elements" and the "peaks" of their stress [Pa] at an error of 1.
+            [m, rad]; "elements" and the "peaks" of their stress [Pa] at an error of 1, and
+            their "strengths" [Pa] where all have one.
     """
     require_kind(analysis, Result, "a page is that of a result")
     told = list(missing)

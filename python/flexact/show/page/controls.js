@@ -77,14 +77,15 @@ const Controls = (() => {
 
     /** What the misalignment does, in words. */
     tellError() {
-      const { error, misaligned: { measure, rest, peak }, data } = this.viewer;
+      const { error, misaligned: { measure, rest, peak, used }, data } = this.viewer;
       const { unit, name, hertz } = data.misaligned;
       const size = unit === "rad" ? `${Words.number(1e3 * error)} mrad` : `${Words.number(1e6 * error)} \u00b5m`;
       const part = `${Math.round((100 * measure) / rest)} %`;
       const falls = hertz ? `${Words.number(measure)} Hz (${part})` : part;
+      const share = used === null ? "" : `, ${Words.number(100 * used)} % of the strength`;
       this.error.value = error;
       this.error.nextElementSibling.textContent =
-        `${size}: ${name} ${measure > 1e-6 * rest ? falls : "0: it buckles"}, up to ${Words.number(peak)} MPa`;
+        `${size}: ${name} ${measure > 1e-6 * rest ? falls : "0: it buckles"}, up to ${Words.number(peak)} MPa${share}`;
     }
   }
 

@@ -158,19 +158,26 @@ const Viewer = (() => {
       this.refresh();
     }
 
-    /** What the misalignment does at its size, and at most; stresses in MPa by rows of members. */
+    /** What the misalignment does at its size, and at most; stresses in MPa by rows of members.
+
+        Where strengths are given the colours end at them: of one for all in MPa, else in percent. */
     get misaligned() {
-      const { elements, peaks, values, measure } = this.data.misaligned, last = values.length - 1;
+      const { elements, peaks, values, measure, strengths } = this.data.misaligned, last = values.length - 1;
       const at = Math.max(1, values.findIndex((each) => each >= this.error));
       const share = (this.error - values[at - 1]) / (values[at] - values[at - 1]);
-      const most = Math.max(...peaks) * 1e-6;
+      const most = Math.max(...peaks) * 1e-6, error = Math.abs(this.error);
+      const isOne = strengths && strengths.every((each) => each === strengths[0]);
+      const scale = (k) => (strengths && !isOne ? 100 / strengths[k] : 1e-6);
       const stress = new Float32Array(2 * this.members.plan.count);
       elements.forEach((number, k) => {
-        const row = this.memberOf.get(number), own = peaks[k] * 1e-6 * Math.abs(this.error);
+        const row = this.memberOf.get(number), own = peaks[k] * scale(k) * error;
         if (row !== undefined) stress.fill(own, 2 * row, 2 * row + 2);
       });
       return {
-        stress, peak: most * Math.abs(this.error), largest: most * Math.max(-values[0], values[last]),
+        stress, peak: most * error,
+        largest: strengths ? strengths[0] * scale(0) : most * Math.max(-values[0], values[last]),
+        unit: strengths && !isOne ? "% of the strength" : "MPa",
+        used: strengths ? Math.max(...peaks.map((peak, k) => (peak * error) / strengths[k])) : null,
         measure: measure[at - 1] + share * (measure[at] - measure[at - 1]), rest: measure[values.indexOf(0)],
       };
     }
@@ -238,10 +245,11 @@ const Viewer = (() => {
       this.part("legend-bar").style.background = PageData.gradient(stops);
       this.part("legend-low").nextElementSibling.hidden = Boolean(this.error);
       if (this.error) {
-        this.part("legend-name").textContent = "largest normal stress [MPa]";
+        const { unit, largest, used } = this.misaligned, ends = used === null ? "" : "; the colours end at the strength";
+        this.part("legend-name").textContent = `largest normal stress [${unit}]`;
         this.part("legend-low").textContent = "0";
-        this.part("legend-high").textContent = Words.number(this.misaligned.largest);
-        this.part("legend-note").textContent = "in proportion to the misalignment";
+        this.part("legend-high").textContent = Words.number(largest);
+        this.part("legend-note").textContent = `in proportion to the misalignment${ends}`;
         return;
       }
       if (!stress) return;
