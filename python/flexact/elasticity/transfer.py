@@ -152,7 +152,7 @@ def unsaid(pair: LinearSystem) -> str:
         made.append(f"{unseen} {are} not driven or not seen.")
     right = int(np.count_nonzero(pair.zeros.real > 1e-9 * np.abs(pair.zeros)))
     if right:
-        made.append("A zero lies to the right: the output first goes the other way.")
+        made.append("A zero lies to the right: it limits how fast a loop may be.")
     return " ".join(made)
 
 
