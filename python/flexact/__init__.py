@@ -46,6 +46,7 @@ With stiffness and mass
     PointTable, StrokeTable: stiffness in any frame at a point, and along a stroke
     Warmed: a state in which something is warm: drift, thermal centre
     Limits: how far a stroke may go
+    StateSpace: A, B, C, D, poles and frequency response of a state, for a controller
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
@@ -104,6 +105,7 @@ if _typing.TYPE_CHECKING:
         Limits,
         PointTable,
         State,
+        StateSpace,
         StrokeError,
         StrokeTable,
         UnknownError,
@@ -187,6 +189,7 @@ _HOMES = {
         "PointTable",
         "Limits",
         "State",
+        "StateSpace",
         "StrokeError",
         "StrokeTable",
         "UnknownError",
@@ -285,6 +288,7 @@ __all__ = [
     "Shape",
     "Sheet",
     "State",
+    "StateSpace",
     "Step",
     "StrokeError",
     "StrokeTable",
