@@ -141,11 +141,6 @@ VERB = Verb(
             "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
         ),
         (
-            "How far the stage may go before a sheet is stressed to half of its strength",
-            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --strength "
-            "--support 0.5",
-        ),
-        (
             "Two kinds of files at once",
             "flexact cost input_decks/flexures/notch_guide.dat -o results/cost.csv "
             "-o results/cost.json",
