@@ -347,8 +347,20 @@ def test_what_cannot_be_asked_is_refused_in_words() -> None:
     with pytest.raises(flexact.UnknownError, match="no coordinate"):
         model.limits("stage", "w")
     text = cantilever().replace("ESTIFF", "STRENGTH 1 1e8\nESTIFF")
-    with pytest.raises(flexact.ElasticError, match="section of element 1 is not known"):
+    with pytest.raises(
+        flexact.ElasticError, match="section of sheet 1 is not known: give BEAMPROPS"
+    ):
         elastic(text).limits(3, "x")
+
+
+def test_a_strength_below_that_of_fatigue_ends_the_path_all_the_same() -> None:
+    odd = flexact.Material("", YOUNG, SHEAR, strength=0.4 * FATIGUE, fatigue=FATIGUE)
+    found = flexact.elastic(guide(material=odd), beams=4).limits("middle", "x")
+    assert found.of("strength") == ()
+    assert found.reason == "the strength (8 MPa)"
+    whole = flexact.elastic(guide(), beams=4).limits("middle", "x", share=1.0, against="strength")
+    assert whole.reason == "the strength (400 MPa)"
+    assert [each.criterion for each in whole.limits] == ["strength", "strength"]
 
 
 # -- the cost ----------------------------------------------------------------------------------
