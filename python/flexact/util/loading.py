@@ -31,6 +31,8 @@ def load(name: str, *, for_good: bool = False) -> ModuleType:
 FEATURES = {
     "show": ("flexact.api", "show_model"),
     "html": ("flexact.show.notebook.output", "html_of_model"),
+    "at_rest": ("flexact.costs.at_rest", "json_of"),
+    "at_rest_in_words": ("flexact.costs.at_rest", "at_rest_in_words"),
 }
 
 
