@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from functools import partial
 from pathlib import Path
 
 from ...costs.compute import compute
@@ -19,7 +20,7 @@ from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
-from .decks import opened, report_problems, take
+from .decks import UNITS, opened, report_problems, take
 from .parser import Argument, Verb, argument
 from .targets import number, one_deck
 from .terminal import Bar, ExitCode, Outcome, complain, give, put, say, text_width
@@ -39,24 +40,27 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     deck = one_deck(chosen)
     if chosen.points is not None and chosen.stroke is None:
         raise BatchError("--points is for the places along a stroke: give --stroke, too")
+    # Numbers without a unit are in those of the deck, which is read later.
+    request = partial(
+        Request.of,
+        at=_point(chosen.at),
+        release=chosen.release or None,
+        stroke=chosen.stroke,
+        misalign=chosen.misalign,
+        shift=chosen.shift,
+        held=chosen.held,
+        drive=chosen.drive,
+        beams=chosen.beams,
+        points=POINTS if chosen.points is None else chosen.points,
+        bodies=chosen.bodies,
+        beyond=chosen.beyond,
+        strength=chosen.strength,
+        share=chosen.share,
+        support=chosen.support,
+        against=chosen.against,
+    )
     try:
-        asked = Request.of(
-            at=_point(chosen.at),
-            release=chosen.release or None,
-            stroke=chosen.stroke,
-            misalign=chosen.misalign,
-            shift=chosen.shift,
-            held=chosen.held,
-            drive=chosen.drive,
-            beams=chosen.beams,
-            points=POINTS if chosen.points is None else chosen.points,
-            bodies=chosen.bodies,
-            beyond=chosen.beyond,
-            strength=chosen.strength,
-            share=chosen.share,
-            support=chosen.support,
-            against=chosen.against,
-        )
+        request()
     except RequestError as error:
         *others, last = error.messages
         for each in others:
@@ -82,7 +86,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                         look()
                         bar.show_work(what, done)
 
-                    made = compute(model, asked, deck.name, show, Cost)
+                    made = compute(model, request(units=model.units), deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
                         made.save(target)
@@ -135,11 +139,6 @@ VERB = Verb(
         (
             "Which errors lower the first frequency by 1 %",
             "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
-        ),
-        (
-            "How far the stage may go before a sheet is stressed to half of its strength",
-            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --strength "
-            "--support 0.5",
         ),
         (
             "Two kinds of files at once",
@@ -216,6 +215,7 @@ VERB = Verb(
             action="store_true",
             help="take strokes and misalignments that are larger than the model",
         ),
+        UNITS,
         argument("--json", action="store_true", help="one JSON object on stdout"),
         argument(
             *("-o", "--output"),
