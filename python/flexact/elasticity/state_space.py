@@ -118,12 +118,17 @@ class StateSpace(LinearSystem):
         return f"<StateSpace from {' to '.join(ends)}: {self.square.size} modes, {self.label}>"
 
 
+_MISSING = {
+    "scipy.signal": "this needs the package scipy: pip install scipy",
+    "control": "this needs the package control: pip install control",
+}
+
+
 def _package(name: str) -> Any:
     try:
         return load(name)
     except ImportError:
-        package = name.split(".")[0]
-        raise FlexactError(f"this needs the package {package}: pip install {package}") from None
+        raise FlexactError(_MISSING[name]) from None
 
 
 # -- how it is made ----------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
+from ...util.quantities import QuantityError, as_typed
 from ...util.text import harmless
 from .decks import UNITS, opened, report_problems, take
 from .parser import Verb, argument
@@ -105,9 +106,9 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
     point, name, by, value = place.groups()
     node = int(point) if point.isdigit() else point
     try:
-        there: float | str = float(value)
-    except ValueError:
-        there = value
+        there = as_typed(value, "rad" if name.startswith("r") else "m")
+    except QuantityError as error:
+        raise BatchError(str(error)) from None
     (state,) = found.along(node, name, [there], from_rest=bool(by))
     return state.state_space(*asked)
 
