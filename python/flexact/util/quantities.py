@@ -52,7 +52,8 @@ _KINDS = {
     "N m": _Kind("a moment", "0.5Nm or 20Nmm", {"Nm": 0, "mNm": -3, "Nmm": -3, "kNm": 3}),
     "N/m": _Kind("a stiffness", "5N/mm or 5000", {"N/m": 0, "N/mm": 3, "kN/m": 3, "N/um": 6}),
     "N m/rad": _Kind(
-        *("a stiffness", "3.5Nm/rad or 3.5"), {"Nm/rad": 0, "mNm/rad": -3, "Nmm/rad": -3}
+        *("a stiffness of a rotation", "3.5Nm/rad or 3.5"),
+        {"Nm/rad": 0, "mNm/rad": -3, "Nmm/rad": -3},
     ),
     "m/s2": _Kind("an acceleration", "9.81m/s2 or 9.81", {"m/s2": 0, "mm/s2": -3}),
     "1/K": _Kind("an expansion", "11e-6 or 11um/m/K", {"1/K": 0, "ppm/K": -6, "um/m/K": -6}),

@@ -7,7 +7,7 @@ import argparse
 import re
 from pathlib import Path
 
-from ...costs.request import DRIVE, HELD, RequestError, release_of
+from ...costs.request import DRIVE, HELD, ReleaseRequest, RequestError, release_of
 from ...deck.rendering import ModelError
 from ...elasticity import ElasticError, elastic
 from ...elasticity.state_space import StateSpace
@@ -86,10 +86,9 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         ElasticError: something is not there, or has no answer.
     """
     try:
-        release: dict[tuple[object, ...], float | str] = {}
+        release: ReleaseRequest = {}
         for text in chosen.release:
-            for which, notch in release_of(text).items():
-                release[which] = f"{notch!r} N m/rad" if notch else 0.0
+            release.update(release_of(text))
         beams = int(chosen.beams) if chosen.beams.isdigit() else chosen.beams
         found = elastic(model, chosen.held, chosen.drive, release, beams)
     except (RequestError, TypeError) as error:
