@@ -133,9 +133,11 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
     axial = [draft.stiffness[k][0] for k in (0, 1)]
     assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
     assert set(draft.stiffness) == {0, 1}, "the body has none"
-    with pytest.raises(ModelError) as error:
-        model.made_of("hinge body", "steel")
-    assert code_of(error) == "no-section"
+    # Of a body it says how it expands.
+    model.made_of("hinge body", "steel")
+    draft = model._change()
+    assert set(draft.stiffness) == {0, 1}
+    assert draft.expansion[2] == (pytest.approx(12e-6, rel=0.1),)
 
 
 def test_common_materials_are_isotropic_within_reason() -> None:

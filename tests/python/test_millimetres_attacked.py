@@ -139,3 +139,47 @@ def test_what_is_larger_than_the_model_is_said_in_its_units() -> None:
         flexact.FlexactError, match=r"is 1000 mm, larger than the whole model, 89\.4 mm"
     ):
         flexact.cost(sheet_guide(), misalign=[(1, "x", 1000)], beams=1)
+
+
+@pytest.mark.parametrize(
+    ("statement", "code", "said"),
+    [
+        ("GRAVITY 0 0 -9.81", "unlikely-gravity", "9.81 is a usual number in m/s2"),
+        ("STRENGTH 1 450 1200", "unlikely-strength", "a fatigue strength above the strength"),
+        ("STRENGTH 1 1e-3", "unlikely-strength", "a strength of 0.001 MPa"),
+        ("STRENGTH 1 0", "unlikely-strength", "a strength of 0 MPa"),
+        ("EXPANSION 1 12", "unlikely-expansion", "for 12 um/m/K write 12e-6"),
+        ("EM 1 0.0942", "unlikely-density", "as of an EM in kg/m"),
+    ],
+)
+def test_slips_of_new_statements_are_warned_of(statement: str, code: str, said: str) -> None:
+    """What is hardly meant has a warning that names the likely slip."""
+    deck = sheet_guide().to_deck()
+    assert not flexact.read_text(deck).diagnostics
+    word = " ".join(statement.split()[:2]) if "GRAVITY" not in statement else "GRAVITY"
+    kept = [line for line in deck.splitlines() if not line.startswith(word)]
+    kept.insert(kept.index("HALT") + 1, statement)
+    found = flexact.read_text("\n".join(kept)).diagnostics
+    assert [each.code for each in found] == [code]
+    assert said in f"{found[0].message} {found[0].help}"
+
+
+@pytest.mark.parametrize("strength", ["0", "-5", ""])
+def test_a_part_without_a_strength_above_zero_has_none(strength: str) -> None:
+    """It is not left out of what is asked: nobody knows how far it may go."""
+    deck = sheet_guide().to_deck()
+    lines = [line for line in deck.splitlines() if not line.startswith("STRENGTH 1")]
+    if strength:
+        lines.insert(lines.index("HALT") + 1, f"STRENGTH 1 {strength}")
+    with pytest.raises(flexact.ElasticError, match="sheet 1 has no strength"):
+        flexact.elastic(flexact.read_text("\n".join(lines)), beams=2).limits("stage", "x")
+
+
+def test_without_masses_there_is_no_weight() -> None:
+    """Loads alone are told of then."""
+    model = sheet_guide()
+    model.force("stage", 1.0, 0.0, 0.0)
+    model.gravity(0, 0, "-9.81 m/s2")
+    assert "Under its weight and its loads" in flexact.analyse(model).describe()
+    deck = "\n".join(x for x in model.to_deck().splitlines() if x[:3] not in ("EM ", "XM "))
+    assert "Under its loads" in flexact.analyse(flexact.read_text(deck)).describe()

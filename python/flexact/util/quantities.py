@@ -121,10 +121,16 @@ def measured(given: object, unit: str) -> float:
     value, said = _read(given, unit)
     if not said:
         raise QuantityError(
-            f"a text says its unit, such as {_KINDS[unit].example.split(' or ')[0].split(',')[0]}: "
-            f"{in_short(given)} does not; give a number, or its unit"
+            f"a text says its unit, such as {_with_unit(unit)}: {in_short(given)} does not; give a "
+            "number, or its unit"
         )
     return value
+
+
+def _with_unit(unit: str) -> str:
+    """The first example of a kind that says its unit."""
+    examples = re.split(r", | or ", _KINDS[unit].example)
+    return next(each for each in examples if _NUMBER.fullmatch(each)[2])  # type: ignore[index]
 
 
 def without_units(given: object, unit: str) -> Any:
