@@ -323,7 +323,8 @@ def _unlike_any(data: ModelData) -> Iterator[Diagnostic]:
     units = data.units
     strength, fatigue = data.properties.strength.T
     # What is less than zero has a warning already.
-    weak = (np.abs(data.properties.strength - _WEAKEST / 2.0) <= _WEAKEST / 2.0).any(axis=1)
+    amiss = np.abs(data.properties.strength - _WEAKEST / 2.0) <= _WEAKEST / 2.0
+    weak = np.asarray(amiss.any(axis=1))
     if weak.any():
         least = units.said(float(np.fmin(strength, fatigue)[weak][0]), "Pa")
         plain = f"strengths are in {units.symbol('Pa')}, and above zero"
