@@ -131,6 +131,14 @@ def test_free_fall_is_in_the_plane_of_a_planar_model(
         told.append(capsys.readouterr().out)
     assert "Under its weight" in told[0]
     assert told[1:] == told[:1] * 2
+    for left_out, said in (("ESTIFF", "no stiffness (ESTIFF)"), ("EM", "no mass (EM, XM)")):
+        lines = flat.read_text().splitlines()
+        flat.write_text("\n".join(each for each in lines if left_out not in each))
+        assert main(["analyse", str(flat), "--gravity=-y"]) == 0
+        told = capsys.readouterr()
+        assert f"how it rests is not told: the deck gives {said}" in told.err
+        assert "Under" not in told.out
+        flat.write_text("\n".join(lines))
 
 
 def test_what_is_larger_than_the_model_is_said_in_its_units() -> None:
@@ -183,3 +191,16 @@ def test_without_masses_there_is_no_weight() -> None:
     assert "Under its weight and its loads" in flexact.analyse(model).describe()
     deck = "\n".join(x for x in model.to_deck().splitlines() if x[:3] not in ("EM ", "XM "))
     assert "Under its loads" in flexact.analyse(flexact.read_text(deck)).describe()
+
+
+def test_a_waist_that_a_deck_says_to_the_verdict_alone_is_told_of() -> None:
+    """RLSE leaves ESTIFF as it is: the tolerance is that of the whole sheet, and no waist's."""
+    model = sheet_guide()
+    model.release("sheet 1", "in-plane bending", at="ground 1")
+    as_typed = flexact.cost(model, release="none", beams=2)
+    assert "--release 1:3 (release=) shows what a waist does" in "\n".join(as_typed.left_out)
+    (_, waist) = flexact.cost(model, release=["1:3"], beams=2).designs
+    whole = as_typed.as_built.compliance.value[1, 1]
+    assert waist.compliance.value[1, 1] > 1.5 * whole
+    without = flexact.cost(sheet_guide(), release="none", beams=2).left_out
+    assert not any("waist" in each for each in without)

@@ -20,12 +20,13 @@ from ..analysis.naming import deformation_in_words, plain
 from ..analysis.places import deformation_word, part_words
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
-from ..core.elements import Class, Member, member_table
+from ..core.elements import Class, Member, member_table, role_table
 from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
 from ..elasticity.limits import Strengths, nearest
 from ..elasticity.solution import notch_unit
 from ..model.data import ModelData
+from ..model.deformations import AT_P, AT_Q
 from ..model.model import Model
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
@@ -652,6 +653,26 @@ class _Computation:
             yield (
                 f"under-constrained by {whole.under_constrained} as declared; what is elastic may "
                 "hold these motions all the same"
+            )
+        yield from self._stiff_waists()
+
+    def _stiff_waists(self) -> Iterator[str]:
+        """Bending that is released at one end of a beam alone, and stiff there all the same."""
+        arrays, stiff = self.data.arrays, self.built.elastic.policy.stiff
+        classes, roles = arrays.deformation_class, role_table()[arrays.element_kind].T
+        ends = np.isin(roles, tuple(AT_P)), np.isin(roles, tuple(AT_Q))
+        # Both ends of a bending stand behind each other.
+        held, free = classes == Class.FIXED, (classes == Class.DEPENDENT) & stiff
+        at_p, at_q = np.zeros_like(free), np.zeros_like(free)
+        at_p[:-1] = ends[0][:-1] & free[:-1] & held[1:]
+        at_q[1:] = ends[1][1:] & free[1:] & held[:-1]
+        found = np.argwhere((at_p | at_q).T).tolist()
+        if found:
+            numbers = [(int(arrays.element_number[e]), k + 1) for e, k in found]
+            every = "+".join(f"{element}:{number}" for element, number in numbers)
+            yield (
+                f"{_one(self.result, *numbers[0], 0.0).words} is released, and as stiff as ESTIFF "
+                f"has it all the same: --release {every} (release=) shows what a waist does"
             )
 
 

@@ -107,7 +107,7 @@ def _opening(cost: CostValues, width: int) -> Iterator[str]:
         yield from (*_strength(cost, width), "")
     yield wrapped(first_line(cost), width)
     if cost.tightest is not None and not cost.as_built.over_constrained:
-        yield wrapped("It is not over-constrained: only what is compliant is stressed.", width)
+        yield wrapped("It is not over-constrained: only what is released is stressed.", width)
 
 
 def _choices(cost: CostValues, width: int) -> str:

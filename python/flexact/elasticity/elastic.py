@@ -160,10 +160,7 @@ class Elastic(Frozen):
     @property
     def has_mass(self) -> bool:
         """Whether anything has a mass."""
-        given = self.data.properties
-        return given is not None and bool(
-            np.nan_to_num(given.mass).any() or np.nan_to_num(given.node_mass).any()
-        )
+        return self.data.has_mass
 
     def require_mass(self) -> None:
         """Raise where nothing has a mass.

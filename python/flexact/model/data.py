@@ -553,6 +553,13 @@ class ModelData(Frozen):
         given = self.properties
         return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
 
+    @property
+    def has_mass(self) -> bool:
+        """Whether anything has a mass (EM, XM)."""
+        given = self.properties
+        masses = () if given is None else (given.mass, given.node_mass)
+        return any(bool(np.nan_to_num(each).any()) for each in masses)
+
     @cached_property
     def size(self) -> float:
         """The diagonal of the box about its positions [m]; 1 without extent."""

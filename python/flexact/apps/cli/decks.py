@@ -349,6 +349,11 @@ def opened(deck: DeckFile, bar: Bar, chosen: argparse.Namespace) -> ModelData:
         acceleration = [*acceleration, 0.0][:3]
         nothing = np.zeros((model.arrays.node_number.size, 3))
         loads = model.loads or Loads(nothing, nothing, np.zeros(3))
+        none = "" if model.has_stiffness else "stiffness (ESTIFF)"
+        if not (none or model.has_mass or loads.force.any() or loads.increment.any()):
+            none = "mass (EM, XM)"
+        if none:
+            complain(f"{harmless(deck.name)}: how it rests is not told: the deck gives no {none}")
         model = replace(model, loads=replace(loads, gravity=np.array(acceleration)))
     return model
 
