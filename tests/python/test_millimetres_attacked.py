@@ -137,7 +137,7 @@ def test_free_fall_is_in_the_plane_of_a_planar_model(
         assert main(["analyse", str(flat), "--gravity=-y"]) == 0
         told = capsys.readouterr()
         assert f"how it rests is not told: the deck gives {said}" in told.err
-        assert "Under" not in told.out
+        assert "Under its" not in told.out
         flat.write_text("\n".join(lines))
 
 
@@ -204,3 +204,17 @@ def test_a_waist_that_a_deck_says_to_the_verdict_alone_is_told_of() -> None:
     assert waist.compliance.value[1, 1] > 1.5 * whole
     without = flexact.cost(sheet_guide(), release="none", beams=2).left_out
     assert not any("waist" in each for each in without)
+
+
+def test_what_warmth_buckles_has_no_frequency() -> None:
+    """Two sheets in line on cold ground: E alpha dT A is far above what they bear."""
+    model = flexact.Model(units="mm")
+    sizes: dict[str, Any] = {"thickness": 0.5, "breadth": 20, "material": "spring steel"}
+    model.sheet((0, 0, 0), (50, 0, 0), "y", name="left", **sizes)
+    model.sheet((150, 0, 0), (100, 0, 0), "y", name="right", **sizes)
+    model.body([(50, 0, 0), (100, 0, 0)], name="stage", mass=0.1)
+    model.fix((0, 0, 0), (150, 0, 0))
+    model.independent("stage", "z")
+    warm = flexact.elastic(model, beams=4).warmed(10)
+    assert -warm.resultants("left").normal_force == pytest.approx(206e3 * 12e-6 * 10 * 10)
+    assert "Hz before, and then it has buckled." in warm.describe()

@@ -475,8 +475,10 @@ def described(state: Warmed) -> str:
     if found["frequencies"]:
         one, two = found["frequencies"]
         change = 100.0 * (two / one - 1.0) if one > 0.0 else math.nan
-        told_as = f" ({change:+.2g} %)" if abs(change) > _TOLD else ""
-        lines.append(f"First frequency: {one:.5g} Hz before, {two:.5g} Hz then{told_as}.")
+        digits = 3 if abs(change) >= 99.5 else 2
+        told_as = f" ({change:+.{digits}g} %)" if abs(change) > _TOLD else ""
+        told_as = f"{two:.5g} Hz then{told_as}" if two >= 0.0 else "and then it has buckled"
+        lines.append(f"First frequency: {one:.5g} Hz before, {told_as}.")
     if state.loose:
         lines.append("There is a motion without stiffness: how far it drifts along that is open.")
     if cold := found["without_expansion"]:
