@@ -218,8 +218,8 @@ def _stroke(cost: CostValues, width: int) -> Iterator[str]:
     units = cost.data.units
     rows = [(each.label, *_worst(curve, asked, units)) for each, curve in followed]
     headings = (
-        *("design", "stiffness kept", "at", "lowest parasitic", "drive force"),
-        *("stress", "safety"),
+        *("design", "stiffness kept", "at", "lowest parasitic"),
+        *("drive moment" if asked.unit == "rad" else "drive force", "stress", "safety"),
     )
     yield _without_empty((headings, *rows), width)
     for design, curve in followed:
@@ -295,7 +295,7 @@ def _worst(curve: StrokeCurve, asked: Stroke, units: Units) -> tuple[str, ...]:
         parasitic = in_words(first.at(int(np.argmin(first.value))), "Hz")
     where = in_words(Number(float(curve.values[k])), asked.unit)
     largest = float(np.abs(curve.force.value).max())
-    force = f"{units.shown(largest, force_unit(asked.coordinate)):.4g}"
+    force = units.said(largest, force_unit(asked.coordinate))
     stress = safety = ""
     if curve.stress is not None and curve.safety is not None:
         k_least = int(np.argmin(curve.safety.value))

@@ -29,7 +29,7 @@ from ..analysis.places import axis_words
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind
 from ..model.data import ModelData
-from ..show.charts import Bar, BarChart, Chart, Curve, Group, Row, linear_scale, log_scale, told
+from ..show.charts import Bar, BarChart, Chart, Curve, Group, Row, linear_scale, log_scale, typed
 from ..show.writers import STILLS, Writers, as_bytes, write
 from ..util.loading import VERSION, load
 from ..util.matrices import complement, span
@@ -747,7 +747,7 @@ class StrokeTable(PlaceTable):
             if is_off:
                 is_none = abs(size) <= _ROUNDED * (1.0 if key == "rad" else self.data.size)
                 cells = (
-                    ["none", ""] if is_none else [told(size, key, 4), f"{self.values[worst]:.4g}"]
+                    ["none", ""] if is_none else [typed(size, key, 4), f"{self.values[worst]:.4g}"]
                 )
             ends = (_number(float(of(numbers))) for of in (np.min, np.max))
             rows.append([f"  {name}", *cells, *ends, symbol(stiff)])

@@ -22,7 +22,7 @@ from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind, Role, role_table
 from ..model.data import LARGEST_EXPANSION, ModelData
-from ..show.charts import told
+from ..show.charts import typed
 from ..util.quantities import without_units
 from ..util.records import Frozen
 from ..util.rotations import matrix_of, turned
@@ -433,7 +433,7 @@ def described(state: Warmed) -> str:
             unit, way = ("rad", f"about {name[1:]}") if name[0] == "r" else ("m", f"along {name}")
             size = units.si(value, unit)
             if abs(size) > _TOLD * strain * (data.size if unit == "m" else 1.0):
-                number = told(size / (warmth.by or 1.0), unit)
+                number = typed(size / (warmth.by or 1.0), unit)
                 moves[unit].append(f"{number}{'/K' if warmth.by else ''} {way}")
         both = [
             f"{verb} {' and '.join(moves[unit])}"

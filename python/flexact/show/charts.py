@@ -68,6 +68,11 @@ def told(value: float, unit: str, digits: int = 3) -> str:
     return unit_for([value], unit).told(value, digits)
 
 
+def typed(value: float, unit: str, digits: int = 3) -> str:
+    """The same in letters of a keyboard, as options take it, such as "-0.13 um"."""
+    return told(value, unit, digits).replace("\N{MINUS SIGN}", "-").replace("\N{MICRO SIGN}", "u")
+
+
 def number(value: float, digits: int = 3) -> str:
     """A number to so many digits, in full up to a million, with a proper minus."""
     text = f"{value:.{digits}g}"
