@@ -301,3 +301,13 @@ def test_whatever_is_typed_is_answered() -> None:
         dice = random.Random(f"typed {seed}")
         document = Document.of(mutated(dice.choice(texts), dice))
         ask_everything(document, some_positions(document, dice, 6))
+
+
+def test_numbers_of_a_deck_in_millimetres_are_said_to_be_so() -> None:
+    """Places and what numbers stand for, in the units that the deck says."""
+    text = "UNITS mm\nTRUSS 1 1 2\nX 2 40 0 0\nFIX 1\nFIX 2 2 3\nEND\nHALT\n"
+    text += "ESTIFF 1 100\nGRAVITY 0 0 1\n"
+    assert "at (40, 0, 0) mm" in said(text, 1, 10)
+    assert said(text, 2, 4) == "**40**: x (mm)"
+    assert said(text, 8, 8) == "**0**: gx (mm/s^2)"
+    assert said(text.replace("UNITS mm\n", ""), 1, 4) == "**40**: x (m)"

@@ -156,8 +156,8 @@ VERB = Verb(
         _many(
             "--release",
             "E:M[=K]",
-            "a design that releases deformation M of element E, with a notch of K N m/rad; several "
-            "together: 1:5+2:5=3.5; none: only as built (default: the proven releases)",
+            "a design that releases deformation M of element E, with a notch of K, such as "
+            "3.5Nm/rad; several together: 1:5+2:5=3.5; none: only as built (default: the proven releases)",
         ),
         argument(
             "--stroke",

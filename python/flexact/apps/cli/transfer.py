@@ -189,7 +189,8 @@ VERB = Verb(
             action="append",
             default=[],
             metavar="E:M[=K]",
-            help="release deformation M of element E, with a notch of K N m/rad; may be repeated",
+            help="release deformation M of element E, with a notch of K, such as 3.5Nm/rad; may be "
+            "repeated",
         ),
         argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates"),
         argument("--held", choices=HELD, default=HELD[0], help="held deformations"),

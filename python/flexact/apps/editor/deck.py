@@ -23,6 +23,7 @@ from ...model.parts.condensing import Condensed, as_given
 from ...model.parts.parts import Parts
 from ...model.reading import read_bytes
 from ...util.records import cached_property
+from ...util.units import METRES, MILLIMETRES, Units
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)")
 _BYTE_MARK = "\ufeff"
@@ -283,6 +284,13 @@ class Deck:
     def tokens(self) -> Tokens:
         """Its lines and words."""
         return Tokens("\n".join(self.document.bare))
+
+    @property
+    def units(self) -> Units:
+        """In which its numbers are; metres where what it says is none."""
+        said = [self.tokens[int(k)].words for k in self.tokens.lines_of("UNITS")]
+        named = [words[1].text.lower() for words in said if len(words) > 1]
+        return MILLIMETRES if named[-1:] == [MILLIMETRES.name] else METRES
 
     @cached_property
     def index(self) -> Index:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from ...analysis.naming import length_in_words
@@ -145,9 +147,11 @@ def _value(told: Told, place: int) -> str:
     arrays = told.data.arrays
     kind = int(arrays.node_kind[place])
     value = arrays.node_value[:, place]
+    units = told.data.units
+    value = units.shown(value, "m") if kind in _NUMBERS else value
     numbers = ", ".join(f"{each:.6g}" for each in value.tolist()[: _NUMBERS.get(NodeKind(kind), 4)])
     if kind in _NUMBERS:
-        return f"at ({numbers}) m"
+        return f"at ({numbers}) {units.symbol('m')}"
     at = told.parts.place_of(place)
     where = "" if at is None else f", at node {arrays.node_number[at]}"
     if kind == NodeKind.ANGLE:
@@ -261,7 +265,12 @@ def _real(deck: Deck, line: Line, place: int) -> str:
         named = meanings.of_node(line.name, node)
     elif letter == "e" and (made := deck.index.element(owner)) is not None:
         named = meanings.of_element(line.name, made.element) if made.element else ()
-    return f"**{line.words[place].text}**: {named[behind]}" if 0 <= behind < len(named) else ""
+    if not 0 <= behind < len(named):
+        return ""
+    meant = named[behind]
+    # A unit has its powers with a caret here.
+    unit = re.sub(r"(?<=[a-z])2", "^2", deck.units.symbol(meant.unit.replace("^", "")))
+    return f"**{line.words[place].text}**: {meant._replace(unit=unit)}"
 
 
 def _vector(line: Line, place: int) -> str:
