@@ -218,3 +218,16 @@ def test_what_warmth_buckles_has_no_frequency() -> None:
     warm = flexact.elastic(model, beams=4).warmed(10)
     assert -warm.resultants("left").normal_force == pytest.approx(206e3 * 12e-6 * 10 * 10)
     assert "Hz before, and then it has buckled." in warm.describe()
+
+
+def test_a_sheet_with_a_waist_is_drawn_with_one() -> None:
+    """Not with one in each of the beams into which it was divided."""
+    model = sheet_guide()
+    model.release("sheet 1", "in-plane bending", at="ground 1")
+    state = flexact.elastic(model, beams=4).undeformed()
+    drawn = flexact.shape(state, 2).data.arrays.deformation_class
+    of_sheet = [e for e, name in enumerate(state.data.element_names) if name.startswith("sheet 1")]
+    assert len(of_sheet) == 4
+    # Fixed is 1: of in-plane bending all but the end at the ground.
+    assert (drawn[2:4, of_sheet] == 1).sum() == 7
+    assert drawn[2, of_sheet[0]] != 1

@@ -60,7 +60,7 @@ from .elastic_design import (
 )
 from .request import ReleaseRequest, Request
 from .resolve import Places, given_of, strength_of, stroke_of
-from .shape import Shape, unit_mode
+from .shape import Shape, as_drawn, unit_mode
 
 #: How many proven releases stand beside the design as built, and how many are measured for that.
 MOST, LOOKED_AT = 5, 12
@@ -307,7 +307,8 @@ def _shape(
 ) -> Shape:
     """The shape of a mode (nodes, 3) at rest."""
     rest = mechanism.rest
-    return Shape(kind, words, value, rest.data, rest.configuration, unit_mode(rest.data, mode))
+    drawn = unit_mode(rest.data, mode)
+    return Shape(kind, words, value, as_drawn(rest), rest.configuration, drawn)
 
 
 #: What was reached of a stroke: states with their values (n,), ascending; how far it went each

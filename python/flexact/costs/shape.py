@@ -4,16 +4,17 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..core.elements import NodeKind
+from ..core.elements import Class, NodeKind, role_table
 from ..elasticity import ElasticError, State
 from ..model.configuration import Configuration
 from ..model.data import ModelData
+from ..model.deformations import AT_P
 from ..show.picture import shape_bytes
 from ..show.writers import require_name, write
 from ..util.errors import require_kind
@@ -107,7 +108,30 @@ def shape(state: State, mode: int = 1, *, buckled: bool = False) -> Shape:
     if buckled:
         words = f"buckles at {value:.4g} times its stresses"
     kind, drawn = "buckled" if buckled else "vibrating", unit_mode(state.data, field)
-    return Shape(kind, f"{words} ({state.label})", value, state.data, state.configuration, drawn)
+    return Shape(
+        kind, f"{words} ({state.label})", value, as_drawn(state), state.configuration, drawn
+    )
+
+
+def as_drawn(state: State) -> ModelData:
+    """The refined model of a state, with waists at the ends of its beams alone.
+
+    A bending that is released at one end of a beam is so in each piece, which is as stiff as the
+    others where it has a stiffness.
+    """
+    data, mesh = state.data, state.finest.solver.mesh
+    classes = data.arrays.deformation_class.copy(order="F")
+    roles = role_table()[data.arrays.element_kind]
+    last = np.append(mesh.first[1:], classes.shape[1]) - 1
+    for role in AT_P:
+        # Both ends of a bending stand behind each other.
+        piece, k = np.nonzero(roles == role)
+        held = classes[k, piece] == Class.FIXED, classes[k + 1, piece] == Class.FIXED
+        at_end = np.where(held[0], np.isin(piece, last), np.isin(piece, mesh.first))
+        inner = (held[0] != held[1]) & ~at_end
+        for number in (k[inner], k[inner] + 1):
+            classes[number, piece[inner]] = Class.FIXED
+    return replace(data, arrays=data.arrays._replace(deformation_class=classes))
 
 
 def unit_mode(data: ModelData, mode: FloatArray) -> FloatArray:

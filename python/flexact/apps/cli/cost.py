@@ -157,7 +157,8 @@ VERB = Verb(
             "--release",
             "E:M[=K]",
             "a design that releases deformation M of element E, with a notch of K, such as "
-            "3.5Nm/rad; several together: 1:5+2:5=3.5; none: only as built (default: the proven releases)",
+            "3.5Nm/rad; several together: 1:5+2:5=3.5; none: only as built (default: the proven "
+            "releases)",
         ),
         argument(
             "--stroke",
