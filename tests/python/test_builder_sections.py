@@ -137,8 +137,14 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
     axial = [draft.stiffness[k][0] for k in (0, 1)]
     assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
     assert set(draft.stiffness) == {0, 1}, "the body has none"
+    # Of a body it says how it expands.
+    model.made_of("hinge body", "aluminium")
+    assert [draft.expansion[k][0] for k in (0, 1, 2)] == [8.6e-6, 12e-6, 23e-6]
     with pytest.raises(ModelError) as error:
-        model.made_of("hinge body", "steel")
+        model.made_of("hinge body", "PA12")
+    assert code_of(error) == "no-expansion"
+    with pytest.raises(ModelError) as error:
+        model.made_of("hinge body", thickness=0.01)
     assert code_of(error) == "no-section"
 
 
