@@ -363,9 +363,15 @@ class Solution:
         """What the core is asked about."""
         return self.solver.model(self.held), self.solver.arrays, self.raw, self.way.gravity
 
-    def respond(self, force: FloatArray, shift: FloatArray | None = None) -> RawLinear:
-        """Increments under loads (3, nodes, k) and moves of what is held likewise."""
-        misfit = np.zeros((6, self.solver.elements, force.shape[2]), order="F")
+    def respond(
+        self,
+        force: FloatArray,
+        shift: FloatArray | None = None,
+        misfit: FloatArray | None = None,
+    ) -> RawLinear:
+        """Increments under loads (3, nodes, k), moves of what is held, and misfits of pieces."""
+        if misfit is None:
+            misfit = np.zeros((6, self.solver.elements, force.shape[2]), order="F")
         at_rest = np.zeros_like(force) if shift is None else shift
         return elastic.linear(*self._asked, force, misfit, at_rest)
 
@@ -383,7 +389,11 @@ class Solution:
     @property
     def lowest_square(self) -> float:
         """The square of the first angular frequency alone [rad^2/s^2]."""
-        return float(elastic.frequencies(*self._asked, 1).values[0])
+        return float(self.lowest(1).values[0])
+
+    def lowest(self, count: int) -> RawModes:
+        """Squares of so many of the lowest angular frequencies, with their modes."""
+        return elastic.frequencies(*self._asked, count)
 
     def compliance(self, point: Point, coordinates: list[Coordinate]) -> Compliance:
         """What a point does under unit loads along and about all of its coordinates."""
