@@ -43,6 +43,8 @@ What to do about it
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
+    PointTable, StrokeTable: stiffness in any frame at a point, and along a stroke
+    Warmed: a state in which something is warm: drift, thermal centre
     Limits: how far a stroke may go
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
@@ -100,9 +102,12 @@ if _typing.TYPE_CHECKING:
         ElasticError,
         Estimate,
         Limits,
+        PointTable,
         State,
         StrokeError,
+        StrokeTable,
         UnknownError,
+        Warmed,
         elastic,
     )
     from .model.arguments import polar
@@ -179,10 +184,13 @@ _HOMES = {
         "Elastic",
         "ElasticError",
         "Estimate",
+        "PointTable",
         "Limits",
         "State",
         "StrokeError",
+        "StrokeTable",
         "UnknownError",
+        "Warmed",
         "elastic",
     ),
     "model.arguments": ("polar",),
@@ -268,6 +276,7 @@ __all__ = [
     "Notch",
     "NotchContour",
     "Place",
+    "PointTable",
     "Proof",
     "ReinforcedSheet",
     "Results",
@@ -278,11 +287,13 @@ __all__ = [
     "State",
     "Step",
     "StrokeError",
+    "StrokeTable",
     "Table",
     "Tolerances",
     "Trace",
     "UnknownError",
     "Verdict",
+    "Warmed",
     "Wire",
     "__version__",
     "analyse",

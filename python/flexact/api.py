@@ -164,18 +164,14 @@ class Analysis(Result):
     def describe(self, verbose: bool = False) -> str:
         """The result in plain English, on one screen: verdict, bodies, what to do, and why.
 
-        Where stiffness is given (ESTIFF), also what over-constraint costs, in a sentence.
+        Where stiffness is given (ESTIFF), also what over-constraint costs, and where it rests
+        under loads, in a sentence each.
 
         Args:
             verbose: Whether all is said: all motions and self-stresses, how the rank was decided,
                 and everything that may be declared, held, released or freed.
         """
-        costs = ""
-        if self.over_constrained and self.given.has_stiffness:
-            # It takes a while to load.
-            quick = load("flexact.costs.quick_cost")
-            costs = attempted("", lambda: str(quick.quick_cost(self)), "", None)
-        return describe(self, verbose=verbose, todo=todo_of(self, costs))
+        return describe(self, verbose=verbose, todo=todo_of(self, *glances(self, None)))
 
     def __repr__(self) -> str:
         """Verdict, margin and size in a line."""
@@ -197,6 +193,28 @@ class Analysis(Result):
         """HTML of a motion, a self-stress or a row of them, with pictures."""
         made: str | None = load("flexact.show.notebook.output").html_of_part(self, what)
         return made
+
+
+def glances(result: Result, missing: list[str] | None) -> tuple[str, str]:
+    """What over-constraint costs, and where it rests under loads, in a sentence each, or empty.
+
+    Args:
+        result: The result.
+        missing: Takes why one is not there.
+    """
+    costs = rest = ""
+    # Both take a while to load.
+    if result.over_constrained and result.given.has_stiffness:
+        quick = load("flexact.costs.quick_cost")
+        costs = attempted(
+            "What over-constraint costs", lambda: str(quick.quick_cost(result)), "", missing
+        )
+    if result.given.loads is not None and result.given.has_stiffness:
+        module = load("flexact.costs.at_rest")
+        rest = attempted(
+            "Where it rests", lambda: str(module.at_rest_in_words(result)), "", missing
+        )
+    return costs, rest
 
 
 def analyse(

@@ -25,6 +25,7 @@ from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.scene import Shown, Stage
 from flexact.apps.watch.worker import answer_of
 from flexact.costs.cost import COSTS
+from flexact.elasticity.tables import TABLES as POINT_TABLES
 from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
@@ -99,6 +100,9 @@ def _commands() -> Iterator[str]:
     yield "cost DECK --json"
     for suffix in COSTS.suffixes:
         yield f"cost DECK -o OUT/cost{suffix} --beams 1 --release none"
+    for suffix in POINT_TABLES.suffixes:
+        yield f"table DECK -o OUT/table{suffix} --beams 1"
+    yield "table DECK --json --beams 1 --warm 10 --expansion 12e-6 --units mm"
     yield "declare DECK -o OUT/declared.dat"
     yield "regress DECK DECK2 --against OUT --store"
     for suffix in PICTURES:

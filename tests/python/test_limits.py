@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import math
 from pathlib import Path
@@ -345,8 +347,20 @@ def test_what_cannot_be_asked_is_refused_in_words() -> None:
     with pytest.raises(flexact.UnknownError, match="no coordinate"):
         model.limits("stage", "w")
     text = cantilever().replace("ESTIFF", "STRENGTH 1 1e8\nESTIFF")
-    with pytest.raises(flexact.ElasticError, match="section of element 1 is not known"):
+    with pytest.raises(
+        flexact.ElasticError, match="section of sheet 1 is not known: give BEAMPROPS"
+    ):
         elastic(text).limits(3, "x")
+
+
+def test_a_strength_below_that_of_fatigue_ends_the_path_all_the_same() -> None:
+    odd = flexact.Material("", YOUNG, SHEAR, strength=0.4 * FATIGUE, fatigue=FATIGUE)
+    found = flexact.elastic(guide(material=odd), beams=4).limits("middle", "x")
+    assert found.of("strength") == ()
+    assert found.reason == "the strength (8 MPa)"
+    whole = flexact.elastic(guide(), beams=4).limits("middle", "x", share=1.0, against="strength")
+    assert whole.reason == "the strength (400 MPa)"
+    assert [each.criterion for each in whole.limits] == ["strength", "strength"]
 
 
 # -- the cost ----------------------------------------------------------------------------------
@@ -384,6 +398,60 @@ def test_a_cost_says_how_far_it_may_go() -> None:
     assert "limits" not in plain["designs"][0]
     assert not {"stress", "safety"} & plain["designs"][0]["stroke"].keys()
     assert not {"von_mises", "safety"} & plain["designs"][0]["effect"].keys()
+
+
+def test_a_cost_in_millimetres_is_that_in_metres() -> None:
+    """Given in mm, N mm/rad and told in them; the numbers on the designs are the same."""
+    made = [
+        flexact.cost(
+            guide(units),
+            strength=True,
+            support=0.5,
+            beams=2,
+            stroke=("middle", "x", *(30 * size + np.array([-0.1, 0.1]) * size)),
+            misalign=[((0, 0, 0), "y", 0.02 * size)],
+            release=[{("sheet 1", 3): 3.5 * moment}],
+        )
+        for units, size, moment in (("m", 1e-3, 1.0), ("mm", 1.0, 1e3))
+    ]
+    one, other = made
+    assert other.stroke is not None and one.stroke is not None
+    assert other.stroke.asked == pytest.approx(one.stroke.asked)
+    assert [d.label for d in one.designs] == [
+        "as built",
+        f"{one.designs[1].released[0].element}:3=3.5",
+    ]
+    assert other.designs[1].label.endswith("=3500")
+    for first, second in zip(one.designs, other.designs, strict=True):
+        assert first.limits is not None and second.limits is not None
+        assert second.limits.high == pytest.approx(first.limits.high, rel=1e-6)
+        assert second.compliance.value == pytest.approx(first.compliance.value, rel=1e-6)
+    si, mm = (each.to_dict() for each in made)
+    closed = strict(schema("cost"))
+    jsonschema.Draft202012Validator({**closed, "$ref": "#/$defs/cost"}).validate(mm)
+    assert (si["units"], mm["units"]) == ("m", "mm")
+    a, b = (each["designs"][0] for each in (si, mm))
+    scale = {"m": 1e3, "rad": 1.0}
+    for x, y in zip(a["tolerances"], b["tolerances"], strict=True):
+        assert y["unit"] == ("mm" if x["unit"] == "m" else "rad")
+        if x["negative"]["value"] is not None:
+            wanted = scale[x["unit"]] * x["negative"]["value"]
+            assert y["negative"]["value"] == pytest.approx(wanted, rel=1e-6)
+    assert b["limits"]["high"] == pytest.approx(1e3 * a["limits"]["high"], rel=1e-6)
+    assert b["effect"]["von_mises"]["value"][1] == pytest.approx(
+        1e-6 * a["effect"]["von_mises"]["value"][1], rel=1e-6
+    )
+    assert np.array(b["stroke"]["values"]) == pytest.approx(1e3 * np.array(a["stroke"]["values"]))
+    assert b["stroke"]["stiffness"]["units"][:1] == ["N/mm"]
+    assert b["effect"]["resultants"]["value"][1][2] == pytest.approx(
+        1e3 * a["effect"]["resultants"]["value"][1][2], rel=1e-6
+    )
+    rows = list(csv.DictReader(io.StringIO(other.to_csv())))
+    assert {row["unit"] for row in rows} <= {
+        *("", "1", "Hz", "rad", "mm", "mm/N", "mm/(N mm)", "rad/N", "rad/(N mm)", "N/mm"),
+        *("N mm/rad", "N", "N mm", "MPa"),
+    }
+    assert "N mm" in other.describe()
 
 
 def test_the_safety_of_a_tolerance_is_that_of_a_small_part_of_the_error() -> None:

@@ -86,6 +86,10 @@ def elastic() -> flexact.Elastic:
     return STATES["elastic"]
 
 
+def warm(**given: Any) -> flexact.Warmed:
+    return elastic().warmed(1.0, expansion=1e-5, **given)
+
+
 def state() -> flexact.State:
     if "state" not in STATES:
         (STATES["state"],) = elastic().along(TOP.position, "x", 1e-3)
@@ -163,7 +167,27 @@ ARGUMENTS: dict[tuple[str, str], Asked] = {
         lambda n: elastic().misalignment_for(-0.01, "left foot", "ry", n),
     ),
     ("Elastic.misfit", "element"): (ELEMENTS, lambda e: elastic().misfit(e, 1, 1e-6)),
-    ("Elastic.warmed", "elements"): (ELEMENTS, lambda e: elastic().warmed(1.0, 1e-5, e)),
+    ("Elastic.warmed", "parts"): (ELEMENTS, lambda e: elastic().warmed(1.0, e, expansion=1e-5)),
+    ("Elastic.warmed", "about"): (
+        FORMS,
+        lambda n: warm(gradient=(0, 0, 9), about=n).drift("stage").values,
+    ),
+    ("Elastic.stroke_table", "node"): (
+        FORMS,
+        lambda n: elastic().stroke_table(n, "x", [1e-3]).motion,
+    ),
+    ("Elastic.stroke_table", "of"): (
+        FORMS,
+        lambda n: elastic().stroke_table("stage", "x", [1e-3], of=n).motion,
+    ),
+    ("Elastic.stroke_table", "at"): (
+        FORMS,
+        lambda n: elastic().stroke_table("stage", "x", [1e-3], at=n).motion,
+    ),
+    ("State.table", "point"): (FORMS, lambda n: state().table(n).compliance),
+    ("State.table", "at"): (FORMS, lambda n: state().table("stage", at=n).compliance),
+    ("Warmed.drift", "point"): (FORMS, lambda n: warm().drift(n).values),
+    ("Warmed.drift", "at"): (FORMS, lambda n: warm().drift("stage", n).values),
     ("State.compliance", "node"): (FORMS, lambda n: state().compliance(n)),
     ("State.stiffness", "node"): (FORMS, lambda n: state().stiffness(n)),
     ("State.position", "node"): (FORMS, lambda n: state().position(n)),
@@ -294,6 +318,10 @@ def test_every_argument_that_takes_a_point_or_a_part_is_tried() -> None:
                 f"{name}.{each}": method
                 for each, method in inspect.getmembers(what, inspect.isfunction)
                 if not each.startswith("_")
+                # What a public base has is met there.
+                and not any(
+                    base in public.values() for base in what.__mro__[1:] if hasattr(base, each)
+                )
             }
         for call, function in calls.items():
             taken = set(inspect.signature(function).parameters) & (_POINTS | _PARTS)
@@ -373,6 +401,8 @@ _SAME = {
     ("cost", "--at"): [str(TOP.position), "left top", "stage"],
     ("cost", "--stroke"): [f"{p}:x=-1mm..1mm" for p in (TOP.position, "left top", "stage")],
     ("cost", "--misalign"): [f"{p}:y=1um" for p in (FOOT.position, "left foot")],
+    ("table", "--at"): [str(TOP.position), "left top", "stage"],
+    ("table", "--stroke"): [f"{p}:x=-1mm..1mm" for p in (TOP.position, "left top", "stage")],
     ("cost", "--release"): [
         *("1:3+1:4", "left:3+left:4", "left:in-plane bending", "left:in-plane bending=0"),
         "left:bending about y@left foot+left:bending about y@stage",
@@ -391,7 +421,10 @@ def test_options_take_names(
 ) -> None:
     deck = tmp_path / "guide.dat"
     deck.write_text(MODEL.to_deck())
-    more = {"cost": ["--beams", "1", "--json"], "trace": ["--length", "1mm", "--steps", "2"]}
+    more = {
+        **{each: ["--beams", "1", "--json"] for each in ("cost", "table")},
+        "trace": ["--length", "1mm", "--steps", "2"],
+    }
     suffix = {"picture": ".svg", "export": ".vtu"}.get(verb, "")
     said = []
     for k, form in enumerate(_SAME[verb, option]):

@@ -459,3 +459,43 @@ def test_a_linkage_has_the_verdict_of_its_hinges(planar: bool) -> None:
         model.body([each[1] for each in ends])
         found.append(counts(model))
     assert found[0] == found[1] == ((1, 0) if planar else (1, 3))
+
+
+# How far it may go -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["circular", "fillet", "elliptic", "parabolic"])
+def test_how_far_a_notch_may_turn(name: str) -> None:
+    """Half of the fatigue strength is reached at an angle of 450 MPa/2 over the stress an angle."""
+    notch = contour(name, material="spring steel")
+    model = Model()
+    made = model.notch((0, 0, 0), "z", (0.02, 0, 0), "neck", contour=notch)
+    model.fix((0, 0, 0))
+    model.body([made.q, (0.06, 0, 0)], name="stage")
+    model.independent("stage", "rz")
+    wanted = 225e6 / notch.stress_per_angle
+    for each in (model, flexact.read_text(model.to_deck())):
+        elastic = flexact.elastic(each)
+        found = elastic.limits(made.q.position, "rz")
+        assert (-found.low, found.high) == pytest.approx((wanted, wanted), rel=1e-4)
+        assert found.part == "neck" and "225 MPa" in found.reason
+        (turned,) = elastic.along(made.q.orientation, "rz", [wanted])
+        assert turned.von_mises("neck") == pytest.approx(225e6, rel=1e-4)
+    if name == "circular":
+        # Paros and Weisbord, simplified, as above.
+        slender = notch.stress_factor * 4 / (3 * math.pi) * 206e9 * math.sqrt(0.3 / 4)
+        assert wanted == pytest.approx(225e6 / slender, rel=0.01)
+
+
+def test_a_notch_that_is_pulled() -> None:
+    notch, model = contour("circular", material="spring steel"), Model()
+    made = model.notch((0, 0, 0), "z", (0.02, 0, 0), "neck", contour=notch)
+    model.fix((0, 0, 0))
+    model.force(made.q, 100.0, 0.0, 0.0)
+    state = flexact.elastic(model).equilibrium()
+    assert state.peak_stress("neck") == pytest.approx(100.0 / (3e-4 * 1e-2), rel=1e-6)
+    assert state.von_mises("neck") == pytest.approx(
+        notch.stress_factor * 100.0 / (3e-4 * 1e-2), rel=1e-6
+    )
+    with pytest.raises(flexact.ElasticError, match="section"):
+        state.von_mises("neck, half 1")

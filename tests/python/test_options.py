@@ -23,6 +23,8 @@ _VALUES = {
     **{"CONDITION": ("rank > 1", "rank > 2"), "ADDRESS": ("tcp://a:1", "tcp://b:1")},
     **{"POINT": ("1", "2"), "POINT:C=FROM..TO": ("1:x=0..1mm", "1:x=0..2mm"), "auto|N": ("1", "2")},
     **{"PART": ("-1%", "-2%"), "NAME": ("a", "b"), "POINTS": ("1", "2")},
+    **{"X,Y,Z": ("0,0,1mm", "0,0,2mm"), "KELVIN": ("10", "20"), "ALPHA": ("1e-5", "2e-5")},
+    **{"GX,GY,GZ": ("0,0,1", "0,0,2"), "KELVIN,ALPHA": ("1,1e-5", "2,1e-5")},
     # Older names, which help leaves out.
     **{"--format": ("vtu", "vtk"), "--tolerance": ("1e-9", "1e-8")},
 }
@@ -130,13 +132,13 @@ def test_of_two_files_none_is_dropped(
     suffix = {
         **dict.fromkeys(("picture", "advise", "trace"), ".svg"),
         **dict.fromkeys(("export",), ".vtu"),
-        **dict.fromkeys(("batch", "cost"), ".csv"),
+        **dict.fromkeys(("batch", "cost", "table"), ".csv"),
         **dict.fromkeys(("view", "report"), ".html"),
         **dict.fromkeys(("declare", "convert"), ".dat"),
     }.get(verb, "")
     files = [tmp_path / f"{name}{suffix}" for name in "ab"]
     words = [verb, DECK, *itertools.chain(*(("-o", str(file)) for file in files))]
-    words += ["--beams", "1"] if verb == "cost" else []
+    words += ["--beams", "1"] if verb in ("cost", "table") else []
     code = main(words)
     written = [file.exists() for file in files]
     assert written == ([True, True] if code == 0 else [False, False])
@@ -149,6 +151,8 @@ def test_of_two_files_none_is_dropped(
         ("cost --release none --release 1:3", "choose"),
         ("cost --release 1:3 --release none", "choose"),
         ("cost --points 5", "--stroke"),
+        ("table --points 5", "--stroke"),
+        ("table --expansion 1e-5", "--warm"),
         ("cost --misalign 11:x=50um --misalign 11:x=1um", "twice"),
         ("batch -o a.csv --want verdict --columns values", "unexpected argument"),
         ("batch -o a.csv --mesh vtu --format vtk --files f", "unexpected argument"),

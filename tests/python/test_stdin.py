@@ -66,6 +66,7 @@ def test_stdin_stands_among_other_decks_once(
         ["advise", "-"],
         ["check", "-"],
         ["cost", "-"],
+        ["table", "-"],
         ["trace", "-"],
         ["batch", "-", "-j", "1", "-o", "out.csv"],
         ["declare", "-", "-o", "out.dat"],
@@ -81,7 +82,7 @@ def test_every_verb_that_reads_a_deck_reads_stdin(
     words: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    give(monkeypatch, NOTCH.read_bytes() if words[0] == "cost" else BAR.read_bytes())
+    give(monkeypatch, NOTCH.read_bytes() if words[0] in ("cost", "table") else BAR.read_bytes())
     assert main(words) == 0
     assert not (tmp_path / "-").exists()
 
@@ -126,7 +127,7 @@ def test_declared_and_converted_decks_go_round(
     assert result["over_constrained"] == 1
 
 
-@pytest.mark.parametrize("verb", ["trace", "cost"])
+@pytest.mark.parametrize("verb", ["trace", "cost", "table"])
 def test_tables_go_to_stdout_alone(
     verb: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -152,6 +153,7 @@ def test_tables_go_to_stdout_alone(
         ["advise", "-o", "-"],
         ["advise", "--json", "--apply", "1", "-o", "-"],
         ["cost", "--json", "-o", "-"],
+        ["table", "--json", "-o", "-"],
     ],
     ids=" ".join,
 )
@@ -185,6 +187,7 @@ def test_what_cannot_go_to_stdout_is_refused_in_words(
         (["picture", "-o", "x.txt"], "svg"),
         (["export", "-o", "x.txt"], "vtu"),
         (["cost", "-o", "x.txt"], ".csv"),
+        (["table", "-o", "x.txt"], ".csv"),
         (["trace", "-o", "x.txt"], ".csv"),
         (["convert", "-o", "x.txt"], ".json"),
         (["declare", "-o", "x.pdf"], ".dat"),

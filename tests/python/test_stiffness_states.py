@@ -135,7 +135,7 @@ def test_a_motion_without_stiffness_is_named_and_prestress_stiffens_it() -> None
 def test_what_is_warmed_between_walls_is_pressed() -> None:
     """N = EA alpha dT of a clamped bar (any textbook)."""
     text = deck("TRUSS 1 1 2\nX 2 1 0 0\nFIX 1\nFIX 2", "ESTIFF 1 2E5")
-    state = elastic(text).warmed(10.0, 1.2e-5)
+    state = elastic(text).warmed(10.0, expansion=1.2e-5)
     assert state.stress(1, 1) == pytest.approx(-2e5 * 1.2e-4, rel=1e-9)
     assert state.energy == pytest.approx(2e5 * 1.2e-4**2 / 2, rel=1e-9)
 

@@ -23,14 +23,15 @@ from .step import Step
 _MOST_TO_ADVISE, _MOST_TO_REPAIR = 1.0e6, 1.0e8
 
 
-def todo_of(result: Result, costs: str = "") -> tuple[Line, ...]:
-    """What is best done, then what over-constraint costs, where that is known."""
+def todo_of(result: Result, *told: str) -> tuple[Line, ...]:
+    """What is best done, then sentences on what is known besides, such as what it costs."""
 
     def found() -> Line | None:
         return do_this(result, first_steps(result, 1))
 
     lines = [attempted("What is best done", found, None, None)]
-    return tuple(line for line in (*lines, line_of(costs)) if line is not None and plain(line.head))
+    lines += map(line_of, told)
+    return tuple(line for line in lines if line is not None and plain(line.head))
 
 
 def first_steps(result: Result, most: int) -> tuple[Step, ...] | None:

@@ -14,7 +14,7 @@ import numpy as np
 from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import Dual, coordinate_name, keywords_of
 from ..model.parts.parts import PartKind
-from ..util.loading import VERSION
+from ..util.loading import VERSION, feature
 from ..util.units import Units
 from .calls import calls_of
 from .decomposition import row_duals, row_factors
@@ -628,5 +628,6 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         **modes[0],
         **modes[1],
         "advice": list(advice(analysis)),
+        **({"at_rest": feature("at_rest")(analysis)} if analysis.given.loads else {}),
         "warnings": [item.to_dict() for item in warnings_of(analysis)],
     }

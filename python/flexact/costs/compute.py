@@ -20,7 +20,7 @@ from ..analysis.naming import deformation_in_words, plain
 from ..analysis.places import deformation_word, part_words
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
-from ..core.elements import Class, Member, member_table
+from ..core.elements import Class, Member, Role, member_table, role_table
 from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
 from ..elasticity.limits import Strengths, nearest
@@ -55,7 +55,7 @@ from .elastic_design import (
     safeties_of,
     tolerances_of,
 )
-from .request import ReleaseRequest, Request
+from .request import Plain, ReleaseRequest, Request
 from .resolve import Places, given_of, strength_of, stroke_of
 from .shape import Shape, unit_mode
 
@@ -120,9 +120,13 @@ def given(result: Result, asked: ReleaseRequest) -> Candidate:
     Raises:
         ModelError: there is no such element or deformation.
     """
-    numbers = result.given.arrays.element_number
+    numbers, units = result.given.arrays.element_number, result.given.units
     pairs = {
-        (int(numbers[element]), k + 1): notch
+        (int(numbers[element]), k + 1): (
+            units.si(float(notch), _notch_unit(result.given, element, k + 1))
+            if isinstance(notch, Plain)
+            else notch
+        )
         for key, notch in asked.items()
         for element, k in deformations_of(result.parts, *key)
     }
@@ -151,7 +155,14 @@ def _one(result: Result, element: int, number: int, notch: float) -> Released:
         # Within a divided sheet that counts as one.
         kind = int(data.arrays.element_kind[index])
         words = f"element {element}: {deformation_word(kind, number)}"
-    return Released(element, number, notch, words)
+    shown = data.units.shown(notch, _notch_unit(data, index, number))
+    return Released(element, number, notch, words, shown if data.units.power else None)
+
+
+def _notch_unit(data: ModelData, index: int, number: int) -> str:
+    """Of the stiffness of a notch: of an elongation N/m."""
+    role = role_table()[data.arrays.element_kind[index], number - 1]
+    return "N/m" if role == Role.ELONGATION else "N m/rad"
 
 
 def _label(released: tuple[Released, ...]) -> str:

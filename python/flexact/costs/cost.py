@@ -192,5 +192,6 @@ def cost(
         share=share,
         support=support,
         against=against,
+        units=made.data.units,
     )
     return compute(made.data, asked, name, progress, Cost)

@@ -15,6 +15,7 @@ from ..elasticity.limits import Limits
 from ..elasticity.points import words_of_direction
 from ..model.data import ModelData
 from ..util.records import Frozen
+from ..util.units import METRES, Units
 from .shape import Shape
 
 #: What the first frequency is called where the deck has no masses.
@@ -24,6 +25,11 @@ FREQUENCY, STIFFNESS = "first frequency", "lowest stiffness"
 def unit_of_direction(direction: str) -> str:
     """Of a displacement or rotation: m or rad."""
     return "rad" if direction.startswith("r") else "m"
+
+
+def force_unit(direction: str) -> str:
+    """Of what acts along or about a direction: N or N m."""
+    return "N m" if unit_of_direction(direction) == "rad" else "N"
 
 
 def stiffness_unit(direction: str) -> str:
@@ -170,11 +176,14 @@ class Released(NamedTuple):
     """Stiffness of the notch [N m/rad; of an elongation N/m]; 0: ideal."""
     words: str
     """Such as "sheet 1: in-plane bending at its clamp"."""
+    shown: float | None = None
+    """The same stiffness in the units of the model; None where these are SI."""
 
     @property
     def label(self) -> str:
         """Such as "1:5" or "1:5=3.5"."""
-        return f"{self.element}:{self.deformation}" + (f"={self.notch:g}" if self.notch else "")
+        notch = self.notch if self.shown is None else self.shown
+        return f"{self.element}:{self.deformation}" + (f"={notch:g}" if notch else "")
 
 
 class Kept(NamedTuple):
@@ -442,6 +451,7 @@ class Stroke(Frozen):
         asked: First and last value, absolute [m, rad].
         reached: The same as far as every design could be followed.
         why: Why not farther; empty where all was reached.
+        units: In which it is told.
     """
 
     node: int
@@ -451,6 +461,7 @@ class Stroke(Frozen):
     asked: tuple[float, float]
     reached: tuple[float, float]
     why: str = ""
+    units: Units = METRES
 
     @property
     def unit(self) -> str:
@@ -462,7 +473,11 @@ class Stroke(Frozen):
         """How far it went, where that is not all the way; empty otherwise."""
         if not self.why:
             return ""
-        asked, reached = (f"{a:.6g} to {b:.6g} {self.unit}" for a, b in (self.asked, self.reached))
+        symbol, shown = self.units.symbol(self.unit), self.units.shown
+        asked, reached = (
+            f"{shown(a, self.unit):.6g} to {shown(b, self.unit):.6g} {symbol}"
+            for a, b in (self.asked, self.reached)
+        )
         return (
             f"the stroke of {self.words} was asked from {asked} and reached from {reached}: "
             f"{self.why}"

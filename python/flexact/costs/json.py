@@ -22,11 +22,13 @@ from .designs import (
     Misalignment,
     Number,
     Numbers,
+    Released,
     StrokeCurve,
     Tolerance,
+    force_unit,
     stiffness_unit,
-    unit_of_direction,
 )
+from .in_units import in_units
 
 Cell = str | int | float
 
@@ -45,12 +47,23 @@ Row = dict[str, Cell]
 
 def csv_text(cost: CostValues) -> str:
     """The table as CSV; numbers read back to the last bit, infinite ones are "inf"."""
-    text = io.StringIO()
+    text, cost = io.StringIO(), in_units(cost)
     writer = csv.DictWriter(text, HEADER, lineterminator="\n")
     writer.writeheader()
     for design in cost.designs:
-        writer.writerows(rows(cost, design))
+        for row in rows(cost, design):
+            writer.writerow({**row, "unit": _symbol(cost, str(row["unit"]))})
     return text.getvalue()
+
+
+def _symbol(cost: CostValues, unit: str) -> str:
+    """A unit, or one unit over another, in the units of the model."""
+    whole = cost.data.units.symbol(unit)
+    if whole != unit or "/(" not in unit:
+        return whole
+    above, below = unit.split("/(")
+    symbol = cost.data.units.symbol
+    return f"{symbol(above)}/({symbol(below[:-1])})"
 
 
 def rows(cost: CostValues, design: Design) -> Iterator[Row]:
@@ -178,7 +191,13 @@ def _row(label: str, quantity: str, found: Number | Cell, unit: str = "", **more
 
 
 def _force_unit(direction: str) -> str:
-    return "(N m)" if unit_of_direction(direction) == "rad" else "N"
+    unit = force_unit(direction)
+    return f"({unit})" if " " in unit else unit
+
+
+def _released(each: Released) -> dict[str, Any]:
+    notch = each.notch if each.shown is None else each.shown
+    return {**_of_fields(each, "element", "deformation"), "notch": notch, "words": each.words}
 
 
 #: Of the JSON of a cost; raised where an entry is taken away, renamed, or means something else.
@@ -187,11 +206,13 @@ FORMAT = 1
 
 def dictionary_of(cost: CostValues) -> dict[str, Any]:
     """The names and values of the JSON, in their order; what is infinite is null."""
+    cost = in_units(cost)
     deck = cost.name.encode("utf-8", "backslashreplace").decode("utf-8")
     return {
         "format": FORMAT,
         "deck": deck,
         "flexact": VERSION,
+        "units": cost.data.units.name,
         "choice": {
             "held": cost.held,
             "drive": cost.drive,
@@ -203,12 +224,16 @@ def dictionary_of(cost: CostValues) -> dict[str, Any]:
         "directions": list(cost.directions),
         "clamps": [_of_fields(each, "node", "orientation", "words") for each in cost.clamps],
         "stroke": cost.stroke
-        and _of_fields(
-            cost.stroke,
-            *("node", "coordinate", "words", "unit", "rest", "asked", "reached", "why"),
-        ),
+        and {
+            **_of_fields(
+                cost.stroke,
+                *("node", "coordinate", "words", "unit", "rest", "asked", "reached", "why"),
+            ),
+            "unit": cost.data.units.symbol(cost.stroke.unit),
+        },
         "misaligned": [
-            {**_place(each), "value": value, "unit": each.unit} for each, value in cost.misaligned
+            {**_place(each), "value": value, "unit": cost.data.units.symbol(each.unit)}
+            for each, value in cost.misaligned
         ],
         "designs": [_design(cost, each) for each in cost.designs],
         "left_out": list(cost.left_out),
@@ -225,20 +250,20 @@ def _design(cost: CostValues, design: Design) -> dict[str, Any]:
     kept, hertz, curve = design.kept, design.frequencies, design.curve
     return {
         "label": design.label,
-        "released": [each._asdict() for each in design.released],
+        "released": [_released(each) for each in design.released],
         "alike": list(design.alike),
         "under_constrained": design.under_constrained,
         "over_constrained": design.over_constrained,
         "compliance": _plain(design.compliance),
         "kept": kept and _of_fields(kept, "mu", "worst", "words"),
         "frequencies": hertz and {**_plain(hertz), "unit": "Hz", "is_drive": list(design.is_drive)},
-        "tightest": _told(design, design.tightest),
-        "buckles_at": _told(design, design.buckles_at),
-        "tolerances": [_told(design, each) for each in design.tolerances],
+        "tightest": _told(cost, design, design.tightest),
+        "buckles_at": _told(cost, design, design.buckles_at),
+        "tolerances": [_told(cost, design, each) for each in design.tolerances],
         "curve": curve
         and {
             **_place(curve.misalignment),
-            "unit": curve.misalignment.unit,
+            "unit": cost.data.units.symbol(curve.misalignment.unit),
             **_of_fields(curve, "values", "measure"),
         },
         "stroke": design.stroke and _with_units(cost, design.stroke),
@@ -269,11 +294,12 @@ def _with_units(cost: CostValues, given: StrokeCurve | Effect) -> dict[str, Any]
     names = (each.name for each in fields(given))
     names = (name for name in names if name not in of_strength or getattr(given, name) is not None)
     made = _of_fields(given, *names)
-    made["stiffness"]["units"] = [stiffness_unit(each) for each in cost.directions]
+    units = map(stiffness_unit, cost.directions)
+    made["stiffness"]["units"] = [cost.data.units.symbol(each) for each in units]
     return made
 
 
-def _told(design: Design, each: Tolerance | None) -> dict[str, Any] | None:
+def _told(cost: CostValues, design: Design, each: Tolerance | None) -> dict[str, Any] | None:
     """A tolerance, with its safety where a strength was asked for."""
     if each is None:
         return None
@@ -281,7 +307,7 @@ def _told(design: Design, each: Tolerance | None) -> dict[str, Any] | None:
     numbers = ("negative", "positive", "critical_negative", "critical_positive")
     return {
         **_place(each.misalignment),
-        "unit": each.misalignment.unit,
+        "unit": cost.data.units.symbol(each.misalignment.unit),
         **_of_fields(each, *numbers),
         **({} if safety is None else {"safety": _plain(safety)}),
     }

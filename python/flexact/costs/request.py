@@ -11,8 +11,9 @@ from typing import Any
 from ..elasticity.limits import AGAINST, share_given
 from ..model.deformations import is_word
 from ..util.errors import FlexactError
-from ..util.quantities import NOTCH, QuantityError, measured, quantity
+from ..util.quantities import NOTCH, QuantityError, as_typed, measured, quantity
 from ..util.text import in_short
+from ..util.units import METRES, Units
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 _COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
@@ -41,6 +42,10 @@ class RequestError(FlexactError, ValueError):
     def __reduce__(self) -> tuple[type[RequestError], tuple[str, ...]]:
         """What makes it anew, as a worker of a sweep does."""
         return type(self), self.messages
+
+
+class Plain(float):
+    """The stiffness of a notch without a unit: in those of the model."""
 
 
 def _target(text: str) -> int | str:
@@ -102,7 +107,8 @@ def release_of(text: str) -> ReleaseRequest:
         one = _target(found["part"]), int(which) if which.isdigit() else which
         at = () if found["at"] is None else (_target(found["at"]),)
         try:
-            notch = 0.0 if found["notch"] is None else quantity(found["notch"], NOTCH)
+            given = 0.0 if found["notch"] is None else as_typed(found["notch"], NOTCH)
+            notch = quantity(given, NOTCH) if isinstance(given, str) else Plain(given)
         except QuantityError:
             notch = -1.0
         if not notch >= 0.0:
@@ -114,7 +120,7 @@ def release_of(text: str) -> ReleaseRequest:
     return made
 
 
-def stroke_of(text: str) -> StrokeRequest:
+def stroke_of(text: str, units: Units = METRES) -> StrokeRequest:
     """A stroke: "1:z=25mm..35mm", or from the deck's place "1:z+=-5mm..5mm", "1:z=+-5mm".
 
     Raises:
@@ -132,13 +138,13 @@ def stroke_of(text: str) -> StrokeRequest:
             f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
-    first, last = quantity(start, unit), quantity(stop, unit)
+    first, last = (quantity(each, units.symbol(unit)) for each in (start, stop))
     if first == last:
         raise RequestError(f"the stroke {in_short(text)} ends where it begins")
     return _target(found["point"]), name, first, last, bool(found["by"]) or dots == "+-"
 
 
-def misalignment_of(text: str) -> MisalignmentRequest:
+def misalignment_of(text: str, units: Units = METRES) -> MisalignmentRequest:
     """A misalignment: "11:x=50um", or turned about a point "11:rx=1mrad@13".
 
     Raises:
@@ -154,7 +160,8 @@ def misalignment_of(text: str) -> MisalignmentRequest:
     name, unit = _coordinate(found["name"])
     if about and unit == "m":
         raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
-    return _target(found["point"]), name, quantity(value, unit), _target(about) if about else None
+    size = quantity(value, units.symbol(unit))
+    return _target(found["point"]), name, size, _target(about) if about else None
 
 
 def _coordinate(name: str) -> tuple[str, str]:
@@ -231,8 +238,9 @@ class Request:
         share: float | str | None = None,
         support: float | str | None = None,
         against: str | None = None,
+        units: Units = METRES,
     ) -> Request:
-        """From arguments as users give them.
+        """From arguments as users give them; numbers without a unit are in these.
 
         Raises:
             RequestError: some are not understood; all of them are told.
@@ -249,8 +257,8 @@ class Request:
         made = cls(
             at,
             None if release is None else tried(_releases, release),
-            None if stroke is None else tried(_stroke, stroke),
-            tried(_misalignments, misalign),
+            None if stroke is None else tried(_stroke, stroke, units),
+            tried(_misalignments, misalign, units),
             tried(shift_of, shift),
             tried(_one_of, "held", held, HELD),
             tried(_one_of, "drive", drive, DRIVE),
@@ -354,6 +362,7 @@ def _pair(given: object) -> tuple[Any, ...]:
 
 def _stiffness(given: Any) -> float:
     value = 0.0 if given is None else measured(given, NOTCH)
+    value = value if isinstance(given, str) else Plain(value)
     if not 0.0 <= value < float("inf"):
         raise RequestError(
             f"the stiffness of a notch is a finite number from 0, not {in_short(given)}"
@@ -361,13 +370,13 @@ def _stiffness(given: Any) -> float:
     return value
 
 
-def _stroke(given: object) -> StrokeRequest:
+def _stroke(given: object, units: Units) -> StrokeRequest:
     if isinstance(given, str):
-        return stroke_of(given)
+        return stroke_of(given, units)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
         name, unit = _coordinate_given(name)
-        return point, name, measured(start, unit), measured(stop, unit), False
+        return point, name, units.read(start, unit), units.read(stop, unit), False
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
@@ -380,21 +389,21 @@ def _coordinate_given(name: object) -> tuple[str, str]:
     return name, "rad" if name.startswith("r") else "m"
 
 
-def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
+def _misalignments(given: object, units: Units) -> tuple[MisalignmentRequest, ...]:
     if isinstance(given, str):
         given = [given]
     if not isinstance(given, Iterable):
         raise TypeError(f"misalignments are a list, not {in_short(given)}")
-    return tuple(map(_misalignment, given))
+    return tuple(_misalignment(each, units) for each in given)
 
 
-def _misalignment(given: object) -> MisalignmentRequest:
+def _misalignment(given: object, units: Units) -> MisalignmentRequest:
     if isinstance(given, str):
-        return misalignment_of(given)
+        return misalignment_of(given, units)
     if isinstance(given, Sequence) and len(given) in (3, 4):
         clamp, name, value, about = (*given, None)[:4]
         name, unit = _coordinate_given(name)
-        return clamp, name, measured(value, unit), about
+        return clamp, name, units.read(value, unit), about
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

@@ -236,7 +236,8 @@ def stroke_of(places: Places, asked: Request) -> tuple[Stroke, FloatArray] | Non
         values[int(np.argmin(np.abs(values - rest)))] = rest
     words = f"node {number} ({owner}) {words_of_direction(coordinate)}"
     whole = (float(values[0]), float(values[-1]))
-    return Stroke(number, coordinate, words, rest, whole, whole), values
+    made = Stroke(number, coordinate, words, rest, whole, whole, units=data.units)
+    return made, values
 
 
 def strength_of(

@@ -12,6 +12,7 @@ from ..elasticity.equilibria import is_far
 from ..elasticity.limits import REACH, STABILITY, STRENGTH, SUPPORT, Limit, Limits, mirrored
 from ..elasticity.points import words_of_direction
 from ..util.text import columns, harmless, table, wrapped
+from ..util.units import Units
 from .designs import (
     FREQUENCY,
     CostValues,
@@ -19,8 +20,10 @@ from .designs import (
     Effect,
     Misalignment,
     Number,
+    Stroke,
     StrokeCurve,
     Tolerance,
+    force_unit,
     in_words,
     percent,
     scale_of,
@@ -210,7 +213,8 @@ def _stroke(cost: CostValues, width: int) -> Iterator[str]:
     if asked.why:
         yield wrapped(f"{asked.beyond[:1].upper()}{asked.beyond[1:]}.", width)
     followed = [(each, each.stroke) for each in cost.designs if each.stroke is not None]
-    rows = [(each.label, *_worst(curve, asked.unit)) for each, curve in followed]
+    units = cost.data.units
+    rows = [(each.label, *_worst(curve, asked, units)) for each, curve in followed]
     headings = (
         *("design", "stiffness kept", "at", "lowest parasitic", "drive force"),
         *("stress", "safety"),
@@ -219,8 +223,9 @@ def _stroke(cost: CostValues, width: int) -> Iterator[str]:
     for design, curve in followed:
         lost = [float(v) for v, fine in zip(curve.values, curve.is_stable, strict=True) if not fine]
         if lost:
+            low, high = (units.shown(value, asked.unit) for value in (min(lost), max(lost)))
             yield wrapped(
-                f"{design.label}: a stiffness is negative from {min(lost):.6g} to {max(lost):.6g}: "
+                f"{design.label}: a stiffness is negative from {low:.6g} to {high:.6g}: "
                 "it has buckled there.",
                 width,
             )
@@ -274,7 +279,7 @@ def _limit_in_words(both: Sequence[Limit], limits: Limits) -> str:
     return f"{what}{' ' if is_end else ', '}{last.place}" if last.place else what
 
 
-def _worst(curve: StrokeCurve, unit: str) -> tuple[str, ...]:
+def _worst(curve: StrokeCurve, asked: Stroke, units: Units) -> tuple[str, ...]:
     """The least that is kept and where, the lowest parasitic frequency, and the largest force.
 
     And the largest stress and the least safety, where a strength was asked for.
@@ -284,8 +289,9 @@ def _worst(curve: StrokeCurve, unit: str) -> tuple[str, ...]:
     if curve.parasitic is not None and curve.parasitic.value.size:
         first = curve.parasitic.column(0)
         parasitic = in_words(first.at(int(np.argmin(first.value))), "Hz")
-    where = in_words(Number(float(curve.values[k])), unit)
-    force = f"{float(np.abs(curve.force.value).max()):.4g}"
+    where = in_words(Number(float(curve.values[k])), asked.unit)
+    largest = float(np.abs(curve.force.value).max())
+    force = f"{units.shown(largest, force_unit(asked.coordinate)):.4g}"
     stress = safety = ""
     if curve.stress is not None and curve.safety is not None:
         k_least = int(np.argmin(curve.safety.value))
@@ -305,7 +311,9 @@ def _effects(cost: CostValues, width: int) -> Iterator[str]:
     yield wrapped(f"With {given}, all of the nonlinearity:", width)
     found = [(each.label, each.effect) for each in cost.designs if each.effect is not None]
     headings = ("design", "first frequency", "stiffness kept", "moment", "stress", "safety")
-    yield _without_empty((headings, *((label, *_cells(each)) for label, each in found)), width)
+    yield _without_empty(
+        (headings, *((label, *_cells(each, cost.data.units)) for label, each in found)), width
+    )
     for label, effect in found:
         told = []
         if effect.reached < 1.0:
@@ -318,10 +326,11 @@ def _effects(cost: CostValues, width: int) -> Iterator[str]:
             yield wrapped(f"{label}: {'; '.join(told)}.", width, "  ")
 
 
-def _cells(effect: Effect) -> tuple[str, ...]:
+def _cells(effect: Effect, units: Units) -> tuple[str, ...]:
     first = effect.frequencies
     frequency = "" if first is None else f"{first.value[0, 0]:.4g} -> {first.value[1, 0]:.4g} Hz"
-    moment = f"{float(np.max(effect.resultants.value[1, 1:])):.3g} N m"
+    largest = units.shown(float(np.max(effect.resultants.value[1, 1:])), "N m")
+    moment = f"{largest:.3g} {units.symbol('N m')}"
     peak = "" if effect.peak is None else in_words(Number(float(effect.peak.value[1])), "Pa")
     safety = "" if effect.safety is None else in_words(effect.safety.at(1))
     return frequency, in_words(effect.kept), moment, peak, safety

@@ -18,7 +18,7 @@ from ..analysis.decomposition import asked_for
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elastic import RawMatrices
-from ..core.elements import Class, Dual, NodeKind, dual_table
+from ..core.elements import Class, Dual, NodeKind
 from ..core.progress import Progress
 from ..model.configuration import Configuration
 from ..model.data import ModelData
@@ -43,7 +43,6 @@ from .equilibria import (
     reaction_of,
     strokes_given,
     value_at,
-    warmth,
 )
 from .errors import (
     ElasticError,
@@ -75,6 +74,14 @@ from .solution import (
     policy_of,
     releases_given,
 )
+from .tables import (
+    PointTable,
+    StrokeTable,
+    seen_of,
+    stroke_table_of,
+    table_of,
+)
+from .thermal import Drift, Warmth, described, drift_of, found_in, warmth_of
 from .tolerance import Linear, Pair
 
 Match = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
@@ -149,10 +156,6 @@ class Elastic(Frozen):
         released = {pair: Class.DEPENDENT for pair in self.release}
         data = with_classes(self.data, released, {}) if released else self.data
         return result_of(data, asked_for("auto", None), None, None, Result)
-
-    def dual_of(self, element: int, k: int) -> int:
-        """Of what kind the stress dual to a deformation is, by their indices."""
-        return int(dual_table()[self.data.arrays.element_kind[element], k])
 
     @property
     def has_mass(self) -> bool:
@@ -468,6 +471,40 @@ class Elastic(Frozen):
             for value, states in zip(there, zip(*ways, strict=True), strict=True)
         )
 
+    def stroke_table(
+        self,
+        node: object,
+        coordinate: str,
+        values: Iterable[Quantity],
+        *,
+        of: object = None,
+        frame: object = "global",
+        at: object = None,
+        from_rest: bool = False,
+        beyond: bool = False,
+    ) -> StrokeTable:
+        """Force, motions and stiffness of a point along the stroke of a drive, without loads.
+
+        Args:
+            node: As of `along`, as `coordinate`, `values`, `from_rest` and `beyond` are.
+            coordinate: What is driven.
+            values: Where it is driven to.
+            of: The point that is looked at, as of `State.table`; by default the driven one.
+            frame: As of `State.table`; it does not turn with the point.
+            at: Likewise.
+            from_rest: Whether the values count from rest.
+            beyond: Whether it may be driven farther than the model is large.
+
+        Raises:
+            UnknownError, ElasticError, StrokeError: As of `along` and `State.table`.
+        """
+        # What is wrong with the frame or the place is said before anything is computed.
+        seen = seen_of(self.points, node if of is None else of, frame, at)
+        states = self.along(node, coordinate, values, from_rest=from_rest, beyond=beyond)
+        if not states:
+            raise ElasticError("a table along a stroke has one value at least")
+        return stroke_table_of(states, self.points.coordinate(node, coordinate), coordinate, seen)
+
     def limits(
         self,
         point: object,
@@ -666,26 +703,51 @@ class Elastic(Frozen):
             equilibria.misfit(self.points, element, deformation, value, beyond, self.units)
         )
 
-    def warmed(self, kelvin: float, expansion: float, elements: object = None) -> State:
-        """Elements that are warmer than the ground, and so longer.
+    def warmed(
+        self,
+        by: float,
+        parts: object = None,
+        gradient: object = None,
+        ground: object = None,
+        *,
+        expansion: object = None,
+        about: object = None,
+    ) -> Warmed:
+        """Bodies and flexures that have changed their temperature, and so their size and shape.
+
+        What has no coefficient of expansion keeps its size, which `describe` says. The ground
+        does, too, and with it bodies that are clamped at several places. Moduli stay.
 
         Args:
-            kelvin: By how much [K].
-            expansion: Of their material [1/K].
-            elements: Numbers of the elements, or names of parts; all by default.
+            by: By how much they are warmer [K].
+            parts: Names or handles of those that are, or numbers of elements; by default all.
+            gradient: (3,) of the temperature along x, y, z [K/m]: it bends what it warms.
+            ground: How much warmer the ground is [K], and its own coefficient [1/K]; and maybe the
+                place about which it expands, by default the mean of all clamps. A ground of
+                another place about which it expands goes with all it carries.
+            expansion: The coefficient [1/K] of what has none of its own, or coefficients by part,
+                which count before those of the model.
+            about: Where the temperature has changed by `by`, where it has a gradient; by default
+                the middle of the box about the model.
 
         Raises:
-            UnknownError: there is no such element.
-            ElasticError: it is over-constrained, and held rigid.
-            StrokeError: no equilibrium was found.
+            UnknownError, ModelError: there is no such part.
+            ElasticError: nothing has a coefficient, a part that is named has none, a value is no
+                finite number; or it is over-constrained, and held rigid.
+            StrokeError: no equilibrium was found: rigid parts expand unlike each other.
         """
-        return self._imperfect(warmth(self.points, kelvin, expansion, elements))
+        warmth = warmth_of(self.points, by, parts, gradient, ground, expansion, about)
+        model = replace(self, off=(*self.off, warmth.imperfection(self.data)))
+        before = State(self, "before it is warm", None, self._assembled())
+        return Warmed(
+            model, warmth.words(self.data.units), None, model._assembled(), warmth, before
+        )
 
     def imperfect(
         self,
         misaligned: Iterable[tuple[object, ...]] = (),
         misfit: Iterable[tuple[object, object, object]] = (),
-        warmed: tuple[object, ...] | None = None,
+        warmed: float | Mapping[str, Any] | None = None,
         beyond: bool = False,
     ) -> Elastic:
         """The same model with things off in all of its states: for strokes and loads then.
@@ -693,7 +755,7 @@ class Elastic(Frozen):
         Args:
             misaligned: Arguments of `misaligned`, of each clamp.
             misfit: Arguments of `misfit`, of each element.
-            warmed: Arguments of `warmed`.
+            warmed: By how much it is warmer [K], or arguments of `warmed` by name.
             beyond: Whether something may be larger than the model.
 
         Raises:
@@ -704,7 +766,8 @@ class Elastic(Frozen):
         off = [equilibria.misalignment(self.points, *each, **how) for each in misaligned]  # type: ignore[arg-type]
         off += [equilibria.misfit(self.points, *each, **how) for each in misfit]  # type: ignore[arg-type]
         if warmed is not None:
-            off.append(warmth(self.points, *warmed))
+            given = warmed if isinstance(warmed, Mapping) else {"by": warmed}
+            off.append(warmth_of(self.points, **given).imperfection(self.data))
         return replace(self, off=(*self.off, *off))
 
     def _imperfect(self, off: Imperfection) -> State:
@@ -808,7 +871,7 @@ class State(Frozen):
             UnknownError: there is no such element or deformation.
         """
         e, number = self.model.points.deformation(element, k)
-        is_angle = self.model.dual_of(e, number) == Dual.MOMENT
+        is_angle = self.model.points.dual(e, number) == Dual.MOMENT
         return float(self._shown(lambda at: at.deformation[number, e], "rad" if is_angle else "m"))
 
     def stress(self, element: object, k: object) -> float:
@@ -821,7 +884,7 @@ class State(Frozen):
             UnknownError: there is no such element or deformation.
         """
         e, number = self.model.points.deformation(element, k)
-        is_moment = self.model.dual_of(e, number) == Dual.MOMENT
+        is_moment = self.model.points.dual(e, number) == Dual.MOMENT
         return float(self._shown(lambda at: at.stress[number, e], "N m" if is_moment else "N"))
 
     def resultants(self, element: object) -> Resultants:
@@ -1024,6 +1087,23 @@ class State(Frozen):
         made = np.outer(here, here) / units.factor("m")
         return matrix * (made if sense > 0 else 1.0 / made)
 
+    def table(self, point: object, frame: object = "global", at: object = None) -> PointTable:
+        """Stiffness and compliance of a point in a frame, principal stiffnesses, centres.
+
+        Args:
+            point: A node, a name, also of a body, or a handle.
+            frame: "global"; the name of a part, for its axes at rest; or (3, 3) a rotation whose
+                columns are its axes.
+            at: A place (x, y, z) at rest that is carried with the point; by default the point's.
+
+        Raises:
+            UnknownError: there is no such node.
+            ModelError: there is no such point or part.
+            ElasticError: nothing has a stiffness, the frame is none, or nothing turns with the
+                point that could carry another place.
+        """
+        return table_of(self, point, frame, at)
+
     def _compliance(self, at: Solution, node: object) -> Compliance:
         at.require_stiffness()
         point = self.model.points.of(node)
@@ -1117,6 +1197,48 @@ class State(Frozen):
     def __repr__(self) -> str:
         """What it is a state of."""
         return f"<State: {self.label}, {self.model.words}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Warmed(State):
+    """A state in which something is warm; made by `Elastic.warmed`.
+
+    Attributes:
+        warmth: The change of temperature, and what expands by it; SI.
+        before: The state before.
+    """
+
+    warmth: Warmth
+    before: State
+
+    @cached_property
+    def alone(self) -> tuple[State, ...]:
+        """This state with each of its meshes alone."""
+        if len(self.meshes) == 1:
+            return (self,)
+        pairs = zip(self.meshes, self.before.alone, strict=True)
+        return tuple(replace(self, meshes=(at,), before=before) for at, before in pairs)
+
+    def drift(self, point: object, at: object = None) -> Drift:
+        """How a point moves and turns by the warmth, and the place of its body that stays.
+
+        Args:
+            point: A node, a name, also of a body, or a handle.
+            at: A place (x, y, z) at rest that is carried with it; by default the point's own.
+
+        Raises:
+            UnknownError, ModelError: there is no such point.
+            ElasticError: nothing turns with the point that could carry another place.
+        """
+        return drift_of(self, point, at)
+
+    def describe(self) -> str:
+        """Drift of each body, thermal centres, forces, stress, frequency, and what was left out."""
+        return described(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The same as the JSON has it, the `warmed` of `docs/table.schema.json`."""
+        return found_in(self)
 
 
 def _estimated(values: Sequence[FloatArray], match: Match) -> Estimate:

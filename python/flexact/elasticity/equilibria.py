@@ -15,7 +15,7 @@ import numpy as np
 from ..core import elastic
 from ..core.arrays import FloatArray
 from ..core.elastic import Waypoint
-from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
+from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
 from ..util.quantities import without_units
 from ..util.records import Frozen
@@ -56,9 +56,6 @@ def dual_to_parameters(euler: FloatArray, moment: FloatArray) -> FloatArray:
     )
 
 
-_LENGTHS = (Role.ELONGATION, Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z)
-
-
 @dataclass(frozen=True, eq=False)
 class Imperfection(Frozen):
     """What moves the supports of a model or changes its elements, by a value.
@@ -72,6 +69,8 @@ class Imperfection(Frozen):
         centre: (3,) about which they do.
         moved: (3, nodes) which of the held coordinates follow, as the deck numbers nodes.
         misfit: (6, elements) by how much the deck's elements are off for each unit.
+        spread: (3, nodes) by how much positions of the supports move besides for each unit, as
+            of ground that expands.
     """
 
     words: str
@@ -82,6 +81,7 @@ class Imperfection(Frozen):
     centre: FloatArray
     moved: FloatArray
     misfit: FloatArray
+    spread: FloatArray
 
     def label(self, units: Units) -> str:
         """Such as "off: x of clamp 11 by 5e-05"."""
@@ -89,9 +89,9 @@ class Imperfection(Frozen):
 
     def shift(self, data: ModelData) -> FloatArray:
         """(3, nodes) velocity of the supports for each unit."""
-        made = np.zeros(self.moved.shape, order="F")
         if self.axis < 0:
-            return made
+            return np.asfortranarray(self.spread)
+        made = np.zeros(self.moved.shape, order="F")
         direction = np.eye(3)[self.axis]
         turns = data.arrays.node_kind > NodeKind.POSITION
         if not self.is_turn:
@@ -105,6 +105,7 @@ class Imperfection(Frozen):
     def moved_to(self, value: FloatArray, data: ModelData) -> FloatArray:
         """(4, nodes) where the supports are at `value` (4, nodes) after it."""
         made = value.copy(order="F")
+        made[:3] += self.value * self.spread
         if self.axis < 0:
             return made
         direction = np.eye(3)[self.axis]
@@ -141,8 +142,9 @@ def number_given(value: object, what: str) -> float:
 
 def _none(data: ModelData, words: str, value: float, unit: str) -> Imperfection:
     nodes, elements = data.arrays.node_number.size, data.arrays.element_number.size
+    none = np.zeros((3, nodes))
     return Imperfection(
-        words, value, unit, -1, False, np.zeros(3), np.zeros((3, nodes)), np.zeros((6, elements))
+        words, value, unit, -1, False, np.zeros(3), none, np.zeros((6, elements)), none.copy()
     )
 
 
@@ -237,37 +239,6 @@ def misfit(
     if not beyond:
         require_within(size, data.size, bool(is_angle), f"the misfit, {words},", data.units)
     return replace(_none(data, words, size, unit), misfit=off)
-
-
-def warmth(
-    points: Points, kelvin: object, expansion: object, elements: object = None
-) -> Imperfection:
-    """Elements that are warmer than the ground: e0 = expansion times kelvin times l0.
-
-    Raises:
-        UnknownError: there is no such element.
-        ElasticError: a value is no finite number.
-    """
-    step = number_given(kelvin, "a temperature step")
-    alpha = number_given(expansion, "an expansion")
-    data = points.data
-    if elements is None:
-        which = np.arange(data.arrays.element_number.size)
-    elif isinstance(elements, (list, tuple, set, frozenset, range, np.ndarray)):
-        which = np.array([e for each in elements for e in points.elements(each)], np.intp)
-    else:
-        which = np.array(points.elements(elements), np.intp)
-    roles = role_table()[data.arrays.element_kind].T
-    frames, nodes = data.frames, data.arrays.element_node - 1
-    way = (data.arrays.node_value[:3, nodes[2]] - data.arrays.node_value[:3, nodes[0]]).T
-    offset = np.einsum("eij,ei->ej", frames.frame, way)
-    size = np.zeros(roles.shape)
-    for role in _LENGTHS:
-        value = frames.length if role == Role.ELONGATION else offset[:, role - Role.OFFSET_X]
-        size += np.where(roles == role, value, 0.0)
-    off = np.zeros(size.shape)
-    off[:, which] = alpha * size[:, which]
-    return replace(_none(data, "temperature", step, "K"), misfit=off)
 
 
 def order_of(values: Sequence[float], start: float) -> list[int | None]:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.places import listed, part_words, place_words
+from ..analysis.places import part_words, parts_words, place_words
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import Member, NodeKind, member_table
 from ..util.records import Frozen, cached_property
@@ -29,7 +29,7 @@ from .errors import ElasticError, Estimate, StrokeError
 from .mesh import stays_straight
 from .points import Coordinate, Points, words_of_direction
 from .solution import Held, Policy, Solution
-from .stresses import Sections
+from .stresses import SECTION, Sections
 
 #: What the stress may be compared with, and what may end a stroke.
 AGAINST = ("strength", "fatigue")
@@ -74,7 +74,7 @@ class Limits(Frozen):
         rest: Where the coordinate rests.
         drive: "free" or "locked" in what is asked about stiffness.
         limits: Of every criterion the first stroke each way, from the most negative to the
-            largest. Each way ends with one of "reach".
+            largest. Each way ends with one of "reach", or with that of the whole strength.
         strokes: (n,) of the path that was followed, from rest, ascending.
         stress: (n,) largest stress of von Mises on it; that of the part nearest to its strength.
         parts: (n,) names of these parts.
@@ -259,8 +259,9 @@ class Strengths(Frozen):
                 "nothing that bends, twists or stretches has a stiffness, so that no stress is "
                 "known: give ESTIFF in the deck's dynamics block, or a material with a section"
             )
-        for element in found.tolist():
-            sections.require(element)
+        unknown = found[~sections.is_known[found]].tolist()
+        if unknown:
+            raise ElasticError(f"the section of {_named(points, unknown)} is not known: {SECTION}")
         strength, fatigue = np.full((2, found.size), np.nan)
         if data.properties is not None:
             strength, fatigue = data.properties.strength[found].T
@@ -271,11 +272,8 @@ class Strengths(Frozen):
             what = "fatigue strength" if against == "fatigue" else "strength"
             raise ElasticError(_missing(points, missing, what))
         breaking = np.where(np.isnan(strength), fatigue, strength)
-        hinges = points.parts.data.arrays.element_number[~bears & elastic]
-        left_out = ""
-        if hinges.size:
-            named = (part_words(points.parts.of_element(data.element_index[e])) for e in hinges)
-            left_out = f"the stress in {listed(list(dict.fromkeys(named)))} is not known"
+        others = np.flatnonzero(~bears & elastic).tolist()
+        left_out = f"the stress in {_named(points, others)} is not known" if others else ""
         return cls(found.astype(np.int32), allowed, is_fatigue, breaking, left_out)
 
     def usage(self, stress: FloatArray) -> FloatArray:
@@ -287,16 +285,19 @@ class Strengths(Frozen):
 _MOST_NAMED = 3
 
 
+def _named(points: Points, elements: Sequence[int]) -> str:
+    """The parts of elements, by their indices, such as "sheet 1, sheet 2 and 4 more"."""
+    parts = dict.fromkeys(points.parts.of_element(e) for e in elements)
+    return parts_words(tuple(parts), _MOST_NAMED)
+
+
 def _missing(points: Points, missing: Sequence[int], what: str) -> str:
-    parts = dict.fromkeys(points.parts.of_element(e) for e in missing)
-    names = [part_words(part) for part in parts]
-    shown = names if len(names) <= _MOST_NAMED + 1 else names[:_MOST_NAMED]
-    more = [f"{len(names) - len(shown)} more"] if len(names) > len(shown) else []
-    has = "have" if len(names) > 1 else "has"
+    names = _named(points, missing)
+    has = "have" if len({points.parts.of_element(e) for e in missing}) > 1 else "has"
     number = int(points.data.arrays.element_number[missing[0]])
     form = "strength fatigue" if what.startswith("fatigue") else "strength [fatigue]"
     return (
-        f"{listed([*shown, *more])} {has} no {what}, so that nobody knows how far it may go: "
+        f"{names} {has} no {what}, so that nobody knows how far it may go: "
         f"write STRENGTH {number} {form} in the deck's dynamics block for each element, or make "
         f"it of a material with a {what}"
     )
@@ -521,9 +522,10 @@ class _Way:
         if path.breaking(to) >= 1.0:
             place = self._root(lambda s: 1.0 - path.breaking(s), here, there)
             reason, where, part = self._strength(place, 1.0, breaking=True)
-            if reason != self.found[STRENGTH].reason:
+            limit = self.found.get(STRENGTH)
+            if limit is None or reason != limit.reason:
                 self._keep(REACH, place, reason, where, part)
-            self.end = max(place, abs(self.found[STRENGTH].stroke))
+            self.end = place if limit is None else max(place, abs(limit.stroke))
         if there <= self.end:
             self.steps.append(there)
 

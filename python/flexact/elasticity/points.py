@@ -9,7 +9,7 @@ import numpy as np
 
 from ..analysis.locate import deformations_of, element_of, elements_of, numbers_listed, position_of
 from ..core.arrays import FloatArray, IntArray
-from ..core.elements import AXES, Class, NodeKind, coordinate_name
+from ..core.elements import AXES, Class, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
 from ..model.transform import Place
@@ -133,6 +133,10 @@ class Points:
     def words(self, coordinate: Coordinate) -> str:
         """Such as "z of node 3"."""
         return f"{self.name(coordinate)} of node {self.number(coordinate.node)}"
+
+    def dual(self, element: int, k: int) -> int:
+        """Of what kind the stress dual to a deformation is, by their indices."""
+        return int(dual_table()[self.data.arrays.element_kind[element], k])
 
     def unit(self, coordinate: Coordinate) -> str:
         """The SI unit of a coordinate."""

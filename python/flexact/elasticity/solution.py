@@ -207,14 +207,19 @@ class Compliance(NamedTuple):
     @property
     def stiffness(self) -> FloatArray:
         """Stiffness in SI units: infinite for what is held, 0 for motions without stiffness."""
+        values, some, none = self.springs
+        made = (some / values) @ some.T * np.outer(self.scale, self.scale)
+        return _with_infinity(made, none @ none.T)
+
+    @property
+    def springs(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """(k,) compliances of (n, k) orthonormal motions that are elastic, and (n, h) held ones."""
         across = complement(self.loose)
         inner = across.T @ self.finite @ across
         values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
         none = np.abs(values) <= NO_COMPLIANCE * np.abs(values).max(initial=0.0)
         turned = across @ vectors
-        some = turned[:, ~none]
-        made = (some / values[~none]) @ some.T * np.outer(self.scale, self.scale)
-        return _with_infinity(made, turned[:, none] @ turned[:, none].T)
+        return values[~none], turned[:, ~none], turned[:, none]
 
 
 def kept(before: Compliance, after: Compliance) -> FloatArray:

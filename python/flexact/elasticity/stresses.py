@@ -138,6 +138,13 @@ class Peaks(NamedTuple):
     fillets at the ends."""
 
 
+#: What to do where a section is not known.
+SECTION = (
+    "give BEAMPROPS with CROSSTYPE RECT or CIRC and CROSSDIM in the deck's picture block, or a "
+    "section in Python"
+)
+
+
 class Necks(NamedTuple):
     """Hinges of known section, as notches have them, and what stands beside each."""
 
@@ -215,10 +222,7 @@ class Sections(Frozen):
         number = int(arrays.element_number[element])
         if member_table()[arrays.element_kind[element]] not in (Member.BAR, Member.BEAM):
             raise ElasticError(f"element {number} is neither a bar nor a beam: it has no section")
-        raise ElasticError(
-            f"the section of element {number} is not known: give BEAMPROPS with CROSSTYPE RECT or "
-            "CIRC and CROSSDIM in the deck's picture block, or a section in Python"
-        )
+        raise ElasticError(f"the section of element {number} is not known: {SECTION}")
 
     def peaks(self, carried: Carried, owner: IntArray, first: IntArray) -> Peaks:
         """The largest stresses in elements.

@@ -8,6 +8,7 @@ is read again; where it does not say the same as the changed model, the model is
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from ..deck.keywords import Block
 from ..deck.rendering import DeckError
@@ -37,6 +38,9 @@ def edited_to_the_letter(given: ModelData, changed: ModelData) -> bytes | None:
     source = given.source or given.began_as
     if source is None:
         return None
+    # What is shown may be in other units than those of the deck.
+    own = read_bytes(source.text, "").units
+    given, changed = replace(given, units=own), replace(changed, units=own)
     old, new = dict(statements_of(given)), dict(statements_of(changed))
     edited = {
         key: new.get(key, "").encode().decode("latin-1")

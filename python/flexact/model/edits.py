@@ -36,6 +36,7 @@ from .arguments import (
 from .draft import ROUNDING, Colour, Draft, Said
 from .handles import (
     Assembly,
+    Body,
     CutNotch,
     Element,
     FoldedSheet,
@@ -50,6 +51,7 @@ from .sections import (
     MaterialLike,
     Section,
     made_of,
+    material_of,
     round_section,
     shape_of,
     sheet_section,
@@ -316,8 +318,24 @@ def make_of(
     breadth: Quantity | None,
     warping: bool | float,
 ) -> None:
-    """Say what flexures are made of; in place of a section that is not given stands the old one."""
-    flexures = _flexures(named_part(draft, target) if isinstance(target, str) else target)
+    """Say what flexures are made of; in place of a section that is not given stands the old one.
+
+    Of a body it is how it expands.
+    """
+    if isinstance(target, str):
+        target = named_part(draft, target)
+    if isinstance(target, Body) and material is not None:
+        found_material = material_of(material, draft.units)
+        if found_material.expansion is None:
+            raise model_error(
+                "no-expansion",
+                f"of the material {in_short(found_material.name)} no expansion is known",
+                "give flexact.Material(name, E, G, density, expansion=12e-6)",
+            )
+        for index in indices_of(draft, target):
+            draft.give_properties(index, expansion=(found_material.expansion,))
+        return
+    flexures = _flexures(target)
     if not flexures:
         raise model_error("no-section", "there is no flexure in it to be made of something")
     for each in flexures:

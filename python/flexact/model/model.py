@@ -579,6 +579,7 @@ class Model:
         section: Section | None = None,
         shape: str | None = None,
         thickness: Quantity | None = None,
+        material: MaterialLike | None = None,
     ) -> Body:
         """One rigid body through any points.
 
@@ -596,12 +597,18 @@ class Model:
             shape: As what it is drawn, "disc", "box" or "hull", see `Appearance.body_shape`. It is
                 kept with the model and its copies; a deck has no word for it.
             thickness: Of that shape [m].
+            material: What it is made of, which says how it expands where it is warm (see `wire`);
+                its mass is given by itself.
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the body.
         """
-        looks = shape, thickness
-        return assemblies.add_body(self._change(), points, name, (mass, inertia), section, looks)
+        looks, draft = (shape, thickness), self._change()
+        made = assemblies.add_body(draft, points, name, (mass, inertia), section, looks)
+        if material is not None:
+            with call("body", name):
+                edits.make_of(draft, made, material, None, None, None, False)
+        return made
 
     def cross_hinge(
         self,
@@ -1216,7 +1223,7 @@ class Model:
 
         Args:
             target: A part, its name, a folded sheet, or an assembly, all of whose flexures
-                it is said of.
+                it is said of; of a body the material says how it expands.
             material: See `wire`.
             section: Breadth and thickness of sheets; diameter or two sizes of others [m].
             thickness: Of a sheet, or the diameter of a wire [m].

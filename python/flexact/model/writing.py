@@ -48,8 +48,8 @@ def deck_of(data: ModelData) -> str:
         picture = []
     dynamics = dynamics_of(data, comments)
     blocks = (
-        [f"% {title}"] if title else comments.top,
         beside(UNITS, [(0, f"UNITS {data.units.name}")] if data.units.power else []),
+        [f"% {title}"] if title else comments.top,
         *(beside(*each) for each in _kinematics(data, comments)),
         comments.end,
         ["END"],

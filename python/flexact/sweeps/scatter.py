@@ -361,9 +361,6 @@ def _stroke(
     if given is None:
         # Alone and locked its force is known at rest.
         return (next(iter(model.locked)) if len(model.locked) == 1 else None), (), ""
-    if not isinstance(given, str) and isinstance(given, Sequence) and len(given) == 4:
-        unit = units.symbol("rad" if str(given[1]).startswith("r") else "m")
-        given = (*given[:2], *without_units(list(given[2:]), unit))
     asked = Request.of(
         at=None,
         release=None,
@@ -376,6 +373,7 @@ def _stroke(
         points=POINTS,
         bodies=False,
         beyond=beyond,
+        units=units,
     )
     found = stroke_of(places, asked)
     assert found is not None and asked.stroke is not None

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import math
 import os
@@ -18,7 +20,7 @@ from ..core.arrays import FloatArray
 from ..costs.designs import Number, in_words, scale_of
 from ..model.data import ModelData
 from ..show.picture.make import check_packages
-from ..show.writers import STILLS, TABLES, Writers
+from ..show.writers import STILLS, TABLES, Writers, as_bytes, write
 from ..util.loading import VERSION, load
 from ..util.outputs import OutputError
 from ..util.records import Frozen, cached_property
@@ -349,6 +351,23 @@ class Scatter(Frozen):
     def _rows(self) -> Iterator[tuple[Cell, ...]]:
         shown = [self[name].tolist() for name in self.columns[:-1]]
         return zip(*shown, self.parts, strict=True)
+
+    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
+        """The table of the samples as CSV; also written to a file, if one is named.
+
+        Raises:
+            OutputError: The file cannot be written.
+        """
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows(
+            ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in row]
+            for row in self._rows()
+        )
+        if path is not None:
+            write(Path(path), as_bytes(text.getvalue()))
+        return text.getvalue()
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write it to a file, whole or not at all.

@@ -26,7 +26,7 @@ from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import STDOUT, plan_file, write_together
 from ...util.text import harmless
-from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, UNITS, read_and_analysed, take
+from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, GRAVITY, UNITS, read_and_analysed, take
 from .parser import Verb, argument
 from .targets import plan_deck, write_text
 from .terminal import Bar, ExitCode, Outcome, complain, give, say, text_width
@@ -255,6 +255,7 @@ VERB = Verb(
         ),
         DECISION,
         UNITS,
+        GRAVITY,
         *ACCURACY_AND_BEYOND,
     ),
 )

@@ -19,12 +19,12 @@ from ...show.writers import TABLES
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.loading import load
-from ...util.partial import attempted
 from ...util.text import harmless
 from .decks import (
     ACCURACY_AND_BEYOND,
     DECISION,
     DECKS,
+    GRAVITY,
     UNITS,
     is_table,
     problems_of,
@@ -183,20 +183,13 @@ def _words(analysis: Result, chosen: argparse.Namespace, has_files: bool) -> tup
         return load("flexact.show.spacar_log").spacar_log(analysis), True
     # What concerns the deck stands on stderr already.
     missing: list[str] = []
-    costs = ""
-    if analysis.over_constrained and analysis.given.has_stiffness:
-        # It takes a while to load.
-        quick = load("flexact.costs.quick_cost")
-        costs = attempted(
-            "What over-constraint costs", lambda: str(quick.quick_cost(analysis)), "", missing
-        )
     words = describe(
         analysis,
         about_model=False,
         most=MOST_MODES,
         width=text_width(),
         verbose=is_verbose(),
-        todo=todo_of(analysis, costs),
+        todo=todo_of(analysis, *load("flexact.api").glances(analysis, missing)),
     )
     complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
     return f"{_coloured(words, analysis)}\n", False
@@ -264,6 +257,7 @@ VERB = Verb(
         ),
         DECISION,
         UNITS,
+        GRAVITY,
         *ACCURACY_AND_BEYOND,
         argument(
             "--expect",

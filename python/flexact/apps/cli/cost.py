@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import argparse
 import re
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ...costs.compute import compute
 from ...costs.cost import COSTS, Cost
@@ -19,8 +21,9 @@ from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
-from .decks import opened, report_problems, take
+from .decks import UNITS, opened, report_problems, take
 from .parser import Argument, Verb, argument
+from .scatter import ARGUMENTS, scatter_asked
 from .targets import number, one_deck
 from .terminal import Bar, ExitCode, Outcome, complain, give, put, say, text_width
 
@@ -39,24 +42,29 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     deck = one_deck(chosen)
     if chosen.points is not None and chosen.stroke is None:
         raise BatchError("--points is for the places along a stroke: give --stroke, too")
+    # Numbers without a unit are in those of the deck, which is read later.
+    request = partial(
+        Request.of,
+        at=_point(chosen.at),
+        release=chosen.release or None,
+        stroke=chosen.stroke,
+        misalign=chosen.misalign,
+        shift=chosen.shift,
+        held=chosen.held,
+        drive=chosen.drive,
+        beams=chosen.beams,
+        points=POINTS if chosen.points is None else chosen.points,
+        bodies=chosen.bodies,
+        beyond=chosen.beyond,
+        strength=chosen.strength,
+        share=chosen.share,
+        support=chosen.support,
+        against=chosen.against,
+    )
+    scatter = scatter_asked(chosen)
     try:
-        asked = Request.of(
-            at=_point(chosen.at),
-            release=chosen.release or None,
-            stroke=chosen.stroke,
-            misalign=chosen.misalign,
-            shift=chosen.shift,
-            held=chosen.held,
-            drive=chosen.drive,
-            beams=chosen.beams,
-            points=POINTS if chosen.points is None else chosen.points,
-            bodies=chosen.bodies,
-            beyond=chosen.beyond,
-            strength=chosen.strength,
-            share=chosen.share,
-            support=chosen.support,
-            against=chosen.against,
-        )
+        if scatter is None:
+            request()
     except RequestError as error:
         *others, last = error.messages
         for each in others:
@@ -69,7 +77,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     for target in files:
         plan_file(deck, target)
         with unwinding():
-            COSTS.require(target)
+            COSTS.require(target) if scatter is None else scatter.require(target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -82,7 +90,11 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                         look()
                         bar.show_work(what, done)
 
-                    made = compute(model, asked, deck.name, show, Cost)
+                    made: Any
+                    if scatter is not None:
+                        made = scatter(model, deck.name, show)
+                    else:
+                        made = compute(model, request(units=model.units), deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
                         made.save(target)
@@ -103,11 +115,12 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             if chosen.json:
                 give(made.to_json())
             else:
-                say(f"{describe(made, text_width(WIDTH))}\n")
+                words = describe if scatter is None else scatter.describe
+                say(f"{words(made, text_width(WIDTH))}\n")
         for target in files:
             text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
             complain(text) if chosen.json or to_stdout else say(text)
-        if made.stroke is not None and made.stroke.why:
+        if scatter is None and made.stroke is not None and made.stroke.why:
             complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
             return Outcome(deck.name, ExitCode.DECK_ERROR, "costed in part", "stroke beyond reach")
         return Outcome(deck.name, ExitCode.ANALYSED, "costed")
@@ -137,9 +150,9 @@ VERB = Verb(
             "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
         ),
         (
-            "How far the stage may go before a sheet is stressed to half of its strength",
-            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --strength "
-            "--support 0.5",
+            "What the workshop's scatter does to stress, frequencies and errors",
+            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --scatter "
+            "20um,0.1mrad,thickness=5um",
         ),
         (
             "Two kinds of files at once",
@@ -198,6 +211,7 @@ VERB = Verb(
             choices=AGAINST,
             help="which strength counts (that of fatigue where it is given)",
         ),
+        *ARGUMENTS,
         argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates"),
         argument("--held", choices=HELD, default=HELD[0], help="held deformations"),
         argument(
@@ -216,6 +230,7 @@ VERB = Verb(
             action="store_true",
             help="take strokes and misalignments that are larger than the model",
         ),
+        UNITS,
         argument("--json", action="store_true", help="one JSON object on stdout"),
         argument(
             *("-o", "--output"),

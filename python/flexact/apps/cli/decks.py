@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import re
 import sys
 import textwrap
 import time
@@ -15,6 +16,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+import numpy as np
+
 from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
 from ...analysis.verdict import Certainty, Verdict
@@ -22,7 +25,7 @@ from ...analysis.verdict_words import certainty_word, margin_cells
 from ...core.calls import METHODS
 from ...deck.diagnostics import Diagnostic, Problems, Severity
 from ...deck.rendering import DeckError, render_problems
-from ...model.data import ModelData
+from ...model.data import Loads, ModelData
 from ...model.reading import read_deck
 from ...show.writers import TABLES
 from ...util import machine as memory
@@ -30,7 +33,7 @@ from ...util.decks import SUFFIX, DeckFile, FolderError
 from ...util.errors import BatchError, FlexactError
 from ...util.loading import load
 from ...util.partial import why
-from ...util.quantities import Quantity, as_typed, quantity
+from ...util.quantities import Quantity, QuantityError, as_typed, quantity
 from ...util.text import columns as text_columns
 from ...util.text import harmless
 from ...util.units import units_of
@@ -298,13 +301,51 @@ UNITS = argument(
 )
 
 
+#: Standard acceleration of free fall [m/s2], ISO 80000-3.
+_FREE_FALL = 9.80665
+
+
+def gravity(text: str) -> tuple[Quantity, ...]:
+    """A direction of free fall, such as -z, or its three components, as an option's type."""
+    found = re.fullmatch(r"([+-]?)([xyz])", text.strip())
+    if found is not None:
+        size = f"{'-' if found[1] == '-' else ''}{_FREE_FALL}m/s2"
+        return tuple(size if axis == found[2] else 0.0 for axis in "xyz")
+    parts = text.split(",")
+    try:
+        if len(parts) != 3:
+            raise ValueError
+        return tuple(as_typed(part, "m/s2") for part in parts)
+    except (QuantityError, ValueError):
+        raise argparse.ArgumentTypeError(
+            "a direction in which everything falls is wanted, such as -z, or three accelerations, "
+            f"such as 0,0,-9.81m/s2, not {text!r}"
+        ) from None
+
+
+#: In which attitude the mechanism is.
+GRAVITY = argument(
+    "--gravity",
+    type=gravity,
+    metavar="DIRECTION",
+    help="where things fall, in place of GRAVITY of the deck: --gravity=-z, or "
+    "--gravity=0,0,-9.81; how the mechanism rests is told",
+)
+
+
 def opened(deck: DeckFile, bar: Bar, chosen: argparse.Namespace) -> ModelData:
-    """Read a deck, while a bar says so, for the units that were chosen."""
+    """Read a deck, while a bar says so, in the units and the attitude that were chosen."""
     bar.show("reading")
     model = read_deck(deck)
     bar.clear()
-    units = getattr(chosen, "units", None)
-    return replace(model, units=units_of(units)) if units else model
+    if units := getattr(chosen, "units", None):
+        model = replace(model, units=units_of(units))
+    if falls := getattr(chosen, "gravity", None):
+        acceleration = [model.units.read(part, "m/s2") for part in falls]
+        nothing = np.zeros((model.arrays.node_number.size, 3))
+        loads = model.loads or Loads(nothing, nothing, np.zeros(3))
+        model = replace(model, loads=replace(loads, gravity=np.array(acceleration)))
+    return model
 
 
 def report_problems(model: ModelData) -> None:

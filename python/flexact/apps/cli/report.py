@@ -41,6 +41,7 @@ from .decks import (
     ACCURACY_AND_BEYOND,
     DECISION,
     DECKS,
+    GRAVITY,
     NOT_READ,
     UNITS,
     analysed,
@@ -405,6 +406,7 @@ VERB = Verb(
         *COMPARE,
         DECISION,
         UNITS,
+        GRAVITY,
         *ACCURACY_AND_BEYOND,
     ),
 )

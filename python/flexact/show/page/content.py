@@ -39,7 +39,7 @@ from ...deck.diagnostics import Diagnostic, decode
 from ...deck.rendering import ProblemsError
 from ...model.writing import deck_of
 from ...util.errors import require_kind
-from ...util.loading import VERSION
+from ...util.loading import VERSION, feature
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
 from ..drawing import drawing_of
@@ -357,7 +357,11 @@ def verdict(analysis: Result, name: str, advice: Advised, held: str) -> str:
     todo = ""
     if line is not None:
         todo = f'<p class="todo">{flowing(line).replace("Do this", "<b>Do this</b>", 1)}</p>'
-    return head(kind, sign, verdict_in_words(analysis), about, held + todo + margin)
+    rest = ""
+    if analysis.given.loads is not None:
+        told = attempted("", lambda: str(feature("at_rest_in_words")(analysis)), "", None)
+        rest = f'<p class="rest">{text(told)}</p>' if told else ""
+    return head(kind, sign, verdict_in_words(analysis), about, held + todo + rest + margin)
 
 
 def verdict_of_side(analysis: Result, which: str) -> str:
