@@ -578,18 +578,18 @@ class Elastic(Frozen):
         """What the workshop's scatter does to stress, frequencies, errors and force.
 
         Each clamp is off along and about each direction in which it holds, and each sheet, wire,
-        beam and bar is thicker or thinner, all normal and independent. Stress and errors are
-        linear in what is off of clamps, near the states as designed on one mesh (8 beams a sheet,
-        or as many as the model has), with the stiffness of each sample; frequencies are those with
-        its stress. The first 100 samples are computed on the whole nonlinear path as well. Without
-        the deck's loads.
+        beam and bar is thicker or thinner, all normal and independent. Each sample is sought in one
+        way from the state as designed, on one mesh (8 beams a sheet, or as many as the model has);
+        frequencies are linear about it. The first 100 samples are computed on the whole path from
+        rest, on all meshes of the model, as well, and the difference is told. Without the deck's
+        loads.
 
         Args:
             position: Standard deviation of the three positions of each clamp [m, or the model's
                 unit of length], or a text such as "20um".
             angle: Of its three turns [rad], about its own point.
             thickness: Of the thickness of each part, of a wire its diameter.
-            samples: How many. Again as many, and 48 for each input at least, go into the
+            samples: How many. Again as many, and 16 for each input at least, go into the
                 total indices.
             seed: The same seed makes the same samples, whatever the number of workers.
             limits: What a good sample keeps, by quantity: "stress", "force", and errors "x" to
@@ -600,7 +600,7 @@ class Elastic(Frozen):
                 errors are those at the farther end.
             at: The point whose errors are told; by default the driven one, as for `flexact.cost`.
             against: As for `limits`.
-            beyond: Whether the stroke may be longer than the model.
+            beyond: Whether scatter and stroke may be larger than the model.
             workers: So many processes at most; by default one a processor.
             resume: A file that keeps what is done until all is, so that a run that was killed
                 goes on where it was.

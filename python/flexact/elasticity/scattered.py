@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A mechanism as a workshop makes it: clamps that are off, and thicknesses that differ.
 
-Near each state as designed, at rest or at the end of a stroke, what is off acts in one step with
-the tangent there: stress and displacement are linear in the errors of clamps, with the stiffness of
-each sample. Frequencies are those where this leads, of K + G with its stress.
+The state of a sample is sought from the state as designed, at rest or at the end of a stroke, in
+one way; frequencies are linear about it. The whole path goes from rest, for comparison.
 """
 
 from __future__ import annotations
@@ -32,6 +31,8 @@ from .tolerance import unit_errors
 if TYPE_CHECKING:
     from .elastic import Elastic
 
+#: What is called that a state is sought along.
+_OFF = "part of what is off"
 #: A mode in which a declared coordinate moves by this part of what moves farthest is the drive's.
 _DRIVEN = 0.1
 
@@ -190,14 +191,14 @@ class Scattered(Frozen):
             counts.append(max((k for k in range(len(found)) if found[k]), default=-1) + 2)
         return max(counts) + 1
 
-    def linear(self, errors: FloatArray) -> Measured:
-        """What a sample is, near the states as designed.
+    def near(self, errors: FloatArray) -> Measured:
+        """What a sample is, from the states as designed.
 
         Args:
             errors: (off and parts,) [m, rad].
 
         Raises:
-            FlexactError: a tangent could not be factorised.
+            StrokeError: no equilibrium was found.
         """
         by, count = self._by(errors), len(self.off)
         solver = self.solver
@@ -213,21 +214,17 @@ class Scattered(Frozen):
             size = np.where(self.thicknesses.is_known, scales.size, there.size)
             solver.__dict__.pop("elastic", None)
             solver.__dict__["sections"] = there.resized(size)
-        shift = (self._shift @ errors[:count])[:, :, None]
+        shift = self._shift @ errors[:count]
         states = []
         for at in self.designed:
-            here = Solution(solver, at.raw, at.way, at.held)
-            answer = here.respond(np.zeros_like(shift), shift, self._unbalanced(at, solver))
-            raw = at.raw._replace(
-                configuration=self._moved(at.raw.configuration, answer.displacement[:, :, 0]),
-                stress=np.asfortranarray(at.raw.stress + answer.stress[:, :, 0]),
-                reaction=np.asfortranarray(at.raw.reaction + answer.reaction[:, :, 0]),
-            )
-            states.append(self._freed(Solution(solver, raw, at.way, at.held)))
-        return self._measured(states, answer.displacement[:, :, 0])
+            way = at.way._replace(target=self._moved(at.way.target, shift))
+            begin = at.way._replace(misfit=at.way.misfit + self._unbalanced(at, solver))
+            start = Solution(solver, at.raw, begin, at.held)
+            states.append(self._freed(equilibria.reached(start, way, 0.0, 1.0, _OFF, "")))
+        return self._measured(states)
 
     def followed(self, errors: FloatArray) -> Measured:
-        """The same on the whole nonlinear path.
+        """The same on the whole path from rest.
 
         Raises:
             StrokeError: no equilibrium was found.
@@ -254,15 +251,7 @@ class Scattered(Frozen):
         states = list(model.assembled().meshes)
         if self.drive is not None and self.values:
             states += [at for each in model.driven(self.drive, self.values) for at in each.meshes]
-        there, designed = states[-1].raw.configuration, self.designed[-1].raw.configuration
-        kinds = self.solver.mesh.data.arrays.node_kind
-        moved = np.where(kinds > NodeKind.POSITION, 0.0, (there - designed)[:3])
-        for node, _ in self.coordinates:
-            if kinds[node] == NodeKind.ORIENTATION:
-                moved[:, node] = vector_between(designed[None, :, node], there[None, :, node])[0]
-            elif kinds[node] == NodeKind.ANGLE:
-                moved[2, node] = there[0, node] - designed[0, node]
-        return self._measured(states, moved)
+        return self._measured(states)
 
     def _moved(self, configuration: FloatArray, by: FloatArray) -> FloatArray:
         """(4, nodes) configuration after small displacements and turns (3, nodes)."""
@@ -281,16 +270,15 @@ class Scattered(Frozen):
             made[list(elements)] = value
         return made
 
-    def _unbalanced(self, at: Solution, solver: Solver) -> FloatArray | None:
-        """(6, pieces, 1) misfits for which another stiffness bears the stress of a state."""
-        if solver is self.solver or not at.is_stressed:
-            return None
-        (old, _), (new, _) = self.solver.elastic, solver.elastic
-        changed = np.flatnonzero((old != new).any(axis=(1, 2)))
-        made = np.zeros((6, solver.elements, 1), order="F")
-        less = np.linalg.pinv(new[changed], hermitian=True)
-        less -= np.linalg.pinv(old[changed], hermitian=True)
-        made[:, changed, 0] = np.einsum("eij,je->ie", less, at.raw.stress[:, changed])
+    def _unbalanced(self, at: Solution, solver: Solver) -> FloatArray:
+        """(6, pieces) further misfits with which another stiffness bears the stress of a state."""
+        made = np.zeros((6, solver.elements), order="F")
+        if solver is not self.solver and at.is_stressed:
+            (old, _), (new, _) = self.solver.elastic, solver.elastic
+            changed = np.flatnonzero((old != new).any(axis=(1, 2)))
+            more = np.linalg.pinv(old[changed], hermitian=True)
+            more -= np.linalg.pinv(new[changed], hermitian=True)
+            made[:, changed] = np.einsum("eij,je->ie", more, at.raw.stress[:, changed])
         return made
 
     def _freed(self, at: Solution) -> Solution:
@@ -300,7 +288,7 @@ class Scattered(Frozen):
             return at
         return at if self.elastic.drive == "locked" else freed(at, held, self.drive)
 
-    def _measured(self, states: Sequence[Solution], moved: FloatArray) -> Measured:
+    def _measured(self, states: Sequence[Solution]) -> Measured:
         stress = np.max([at.peaks.von_mises[2] for at in states], axis=0)
         usage, element = np.nan, int(np.argmax(stress))
         if self.strengths is not None:
@@ -314,6 +302,13 @@ class Scattered(Frozen):
         force = np.nan
         if self.drive is not None and (self.values or self.elastic.locked):
             force = force_of(states[-1], self.drive)
+        there, designed = states[-1].raw.configuration, self.designed[-1].raw.configuration
+        kinds, moved = self.solver.mesh.data.arrays.node_kind, (there - designed)[:3]
+        for node in {node for node, _ in self.coordinates}:
+            if kinds[node] == NodeKind.ORIENTATION:
+                moved[:, node] = vector_between(designed[None, :, node], there[None, :, node])[0]
+            elif kinds[node] == NodeKind.ANGLE:
+                moved[2, node] = there[0, node] - designed[0, node]
         errors = tuple(float(moved[axis, node]) for node, axis in self.coordinates)
         return Measured(
             float(stress.max()) if known else np.nan,

@@ -24,7 +24,7 @@ from ..costs.request import POINTS, SHIFT, Request
 from ..costs.resolve import Places, stroke_of
 from ..elasticity.elastic import Elastic
 from ..elasticity.equilibria import Imperfection, at_rest, misalignment
-from ..elasticity.errors import ElasticError, require_within
+from ..elasticity.errors import ElasticError, Estimate, require_within
 from ..elasticity.limits import Strengths, of_it, share_given
 from ..elasticity.mesh import COARSE, stays_straight
 from ..elasticity.points import Coordinate, words_of_direction
@@ -41,7 +41,7 @@ from ..util.units import METRES, Units
 from .indices import first_order, normal, points, totals
 from .journal import Journal, JournalError
 from .running import require_workers, results_of
-from .scatter_result import Answer, Checked, Input, Kept, Scatter, said
+from .scatter_result import LOWER, Answer, Checked, Input, Kept, Scatter, article, said
 from .tolerances import Share
 
 #: Samples by default, and those that are checked by the nonlinear path.
@@ -49,15 +49,13 @@ SAMPLES, CHECKED = 1000, 100
 #: A thickness is at least so many standard deviations: no sample has none.
 _THICK = 6.0
 #: Fewer pairs of an input say nothing of its total index.
-_FEW = 48
+_FEW = 16
 #: Number of the form of the journal.
 _FORM = 1
 #: What varies by less than this part of its mean varies by rounding.
 _ROUNDING = 1.0e-9
 
 _STRENGTH = "strength"
-#: Of these a limit is the least, of others the most.
-_LOWER = ("frequency", "parasitic")
 
 
 class Spread(NamedTuple):
@@ -82,11 +80,8 @@ def spread_of(text: str) -> dict[str, Quantity]:
         name, sign, value = part.partition("=")
         name = name.strip()
         if not sign:
-            name, value = "angle" if "position" in made else "position", part
-            try:
-                quantity(value, "rad" if name == "angle" else "m")
-            except QuantityError:
-                name = "position" if name == "angle" else "angle"
+            value = part
+            name = next((n for n in ("position", "angle") if n not in made and _is(value, n)), "")
         if name not in Spread._fields or name in made:
             raise QuantityError(
                 "scatter is written as standard deviations of positions and angles of clamps, and "
@@ -94,6 +89,15 @@ def spread_of(text: str) -> dict[str, Quantity]:
             )
         made[name] = as_typed(value, "rad" if name == "angle" else "m")
     return made
+
+
+def _is(text: str, name: str) -> bool:
+    """Whether a text is a length, or an angle where that is meant."""
+    try:
+        quantity(text, "rad" if name == "angle" else "m")
+    except QuantityError:
+        return False
+    return True
 
 
 class Tasks(NamedTuple):
@@ -125,19 +129,22 @@ class Tasks(NamedTuple):
 
 @dataclass(frozen=True)
 class Worker:
-    """Does tasks, in whatever process."""
+    """Does tasks, in whatever process; checks with each mesh of the model."""
 
     scattered: Scattered
+    checks: tuple[Scattered, ...]
     tasks: Tasks
 
     def __call__(self, task: int) -> list[float] | str:
         """The numbers of a task, or why there are none."""
         errors, is_followed = self.tasks.errors_of(task)
         try:
-            made = (self.scattered.followed if is_followed else self.scattered.linear)(errors)
+            if not is_followed:
+                return list(numbers_of(self.scattered.near(errors)))
+            rows = [numbers_of(each.followed(errors)) for each in self.checks]
         except FlexactError as error:
             return str(error)
-        return list(numbers_of(made))
+        return [float(each) for each in Estimate.of(*rows).value]
 
 
 def numbers_of(made: Measured) -> tuple[float, ...]:
@@ -179,7 +186,7 @@ def scatter_of(
             f"{loose_motion(rest, 0)}; give it a stiffness, or lock the drive"
         )
     data, places = model.data, Places(model.data, model.points.parts)
-    spread = _spread(elastic.units, data, (position, angle, thickness))
+    spread = _spread(elastic.units, data, (position, angle, thickness), beyond)
     clamps = _clamps(model, places, spread, notes)
     walls, parts = _walls(model, spread.thickness, notes)
     inputs = (
@@ -200,6 +207,8 @@ def scatter_of(
         tuple(model.points.coordinates(model.points.of(point.node))),
         *(drive, values, _strengths(model, against, limits or {}, notes)),
     )
+    whole = replace(elastic, only=None, off=(), is_si=True)
+    checks = tuple(replace(scattered, elastic=each) for each in whole.alone)
     answers, there = _answers(scattered)
     kept = _limits(scattered, answers, limits, elastic.units)
     with load("threadpoolctl").threadpool_limits(1):
@@ -207,12 +216,18 @@ def scatter_of(
         errors, others = np.split(normals * np.tile([each.sd for each in inputs], 2), 2, axis=1)
         pairs = min(samples, max(_FEW, samples // len(inputs)))
         tasks = Tasks(errors, others[:pairs], min(CHECKED, samples))
-        designed = numbers_of(scattered.linear(np.zeros(len(inputs))))
-        head = _head(data, (spread, model.words, scattered.drive, values, point, against))
+        designed = numbers_of(scattered.near(np.zeros(len(inputs))))
+        head = _head(data, (spread, whole.words, scattered.drive, values, point, against))
         head |= {"samples": samples, "seed": int(seed)}
         rows, why = _run(
-            *(Worker(scattered, tasks), len(designed), head, resume, workers, progress)
+            *(Worker(scattered, checks, tasks), len(designed), head, resume, workers, progress)
         )
+    # What is rounding beside what is off is nothing.
+    largest = max(spread.position, spread.thickness, spread.angle * data.size) * _ROUNDING
+    for place in range(_BEHIND, rows.shape[1]):
+        is_turn = model.points.unit(scattered.coordinates[place - _BEHIND]) == "rad"
+        least = largest / data.size if is_turn else largest
+        rows[np.abs(rows[:, place]) < least, place] = 0.0
     found = rows[:samples, there]
     has_answer = ~np.isnan(found).any(axis=1)
     if has_answer.sum() < 2:
@@ -247,10 +262,18 @@ def scatter_of(
             *(rows[samples + tasks.others.size :][:, there], found, variance, kept, answers)
         ),
         stroke=words,
+        mesh=f"one mesh of {_beams_in_words(beams)}",
+        mesh_checked=(
+            "8 and 16 beams a sheet, extrapolated" if len(checks) > 1 else _beams_in_words(beams)
+        ),
         point=point.words,
         seed=int(seed),
         notes=tuple(notes),
     )
+
+
+def _beams_in_words(beams: int) -> str:
+    return "the deck's own elements" if beams == 1 else f"{beams} beams a sheet"
 
 
 def _require_whole(what: str, value: Any, least: int) -> None:
@@ -260,7 +283,9 @@ def _require_whole(what: str, value: Any, least: int) -> None:
         raise ElasticError(f"{what} must be {least} or more, not {value}")
 
 
-def _spread(units: Units, data: ModelData, given: tuple[Quantity | None, ...]) -> Spread:
+def _spread(
+    units: Units, data: ModelData, given: tuple[Quantity | None, ...], beyond: bool
+) -> Spread:
     """Standard deviations in SI.
 
     Raises:
@@ -275,7 +300,8 @@ def _spread(units: Units, data: ModelData, given: tuple[Quantity | None, ...]) -
             raise ElasticError(f"{what} is a number [{symbol}], not {in_short(value)}")
         if not (math.isfinite(sd) and sd >= 0.0):
             raise ElasticError(f"{what} must be finite and not negative, not {in_short(value)}")
-        require_within(float(sd), data.size, name == "angle", what, data.units)
+        if not beyond:
+            require_within(float(sd), data.size, name == "angle", what, data.units)
         made.append(float(sd))
     return Spread(*made)
 
@@ -333,11 +359,15 @@ def _walls(model: Elastic, sd: float, notes: list[str]) -> tuple[Thicknesses, li
     parts = dict.fromkeys(part for e, part in every.items() if walls.is_known[e])
     others = dict.fromkeys(part for e, part in every.items() if not walls.is_known[e])
     if not parts:
-        sections.require(next(iter(every)))
+        raise ElasticError(
+            "no thickness is known that could scatter: give sheets, wires, bars or beams BEAMPROPS "
+            "with CROSSTYPE RECT or CIRC and CROSSDIM in the deck's picture block, or a section in "
+            "Python"
+        )
     for part in parts:
         least = min(float(walls.thickness[e]) for e in part.elements if walls.is_known[e])
         if least < _THICK * sd:
-            thin, large = (data.units.said(size, "m") for size in (least, sd))
+            thin, large = (said(size, "m", data.units) for size in (least, sd))
             raise ElasticError(
                 f"{part_words(part)} is {thin} thick, less than {_THICK:g} standard deviations of "
                 f"{large}: normal samples of it would be without any thickness"
@@ -473,7 +503,7 @@ def _limits(
     made = []
     for name, value in given.items():
         if name not in known:
-            if name in _LOWER:
+            if name in LOWER:
                 scattered.elastic.require_mass()
             if name == "stress":
                 raise ElasticError("no stress is known: no part has a known section (CROSSDIM)")
@@ -489,7 +519,7 @@ def _limits(
             if not (math.isfinite(number) and number > 0.0):
                 raise ElasticError(f"a limit of the {words} is positive, not {in_short(value)}")
         told = said(float(number), unit, units)
-        is_least = name in _LOWER
+        is_least = name in LOWER
         if name == _STRENGTH:
             assert scattered.strengths is not None
             is_fatigue = bool(scattered.strengths.is_fatigue.all())
@@ -498,12 +528,9 @@ def _limits(
         elif is_least:
             words = f"have a {words} of {told} or more"
         else:
-            words = f"have {_ARTICLE.get(name, 'an')} {words} of {told} or less"
+            words = f"have {article(words)} {words} of {told} or less"
         made.append(Kept(name, float(number), is_least, words, Share.counted(0, 0)))
     return tuple(made)
-
-
-_ARTICLE = {"stress": "a", "force": "a"}
 
 
 def _part(value: Quantity) -> float | str:
@@ -532,19 +559,15 @@ def _checked(
     kept: Sequence[Kept],
     answers: Sequence[Answer],
 ) -> Checked:
-    """What the nonlinear path (checked, q) says of the first samples."""
-    linear = values[: len(followed)]
-    there = ~np.isnan(followed - linear).any(axis=1)
-    off = np.abs(followed - linear)[there]
-    mean = np.full(variance.shape, np.nan)
-    if there.any():
-        some = variance > 0.0
-        mean[some] = np.sqrt((off**2).mean(axis=0)[some] / variance[some])
-    count = [
-        int(_keeps(kept, answers, each[there]).all(axis=0).sum()) for each in (followed, linear)
-    ]
-    largest = off.max(axis=0) if there.any() else np.full(variance.shape, np.nan)
-    return Checked(len(followed), int((~there).sum()), mean, largest, *count)
+    """What the whole path (checked, q) says of the first samples."""
+    here = values[: len(followed)]
+    there = ~np.isnan(followed - here).any(axis=1)
+    off, none = (followed - here)[there], np.full(variance.shape, np.nan)
+    shift, rest = (off.mean(axis=0), off.std(axis=0)) if there.any() else (none, none)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        rest = np.where(variance > 0.0, rest / np.sqrt(variance), np.nan)
+    count = [int(_keeps(kept, answers, each[there]).all(axis=0).sum()) for each in (followed, here)]
+    return Checked(len(followed), int((~there).sum()), shift, rest, *count)
 
 
 def _head(data: ModelData, asked: tuple[object, ...]) -> dict[str, Any]:

@@ -85,19 +85,19 @@ class Kept(NamedTuple):
 
 
 class Checked(NamedTuple):
-    """What the whole nonlinear path says of some of the samples."""
+    """What the whole path from rest, on all meshes of the model, says of some of the samples."""
 
     number: int
     """How many were checked."""
     failed: int
     """For how many no equilibrium was found."""
+    shift: FloatArray
+    """(q,) the mean of the differences, in SI: what they have in common."""
     off: FloatArray
-    """(q,) root mean square of the difference, over the standard deviation of all samples."""
-    largest: FloatArray
-    """(q,) the largest difference, in SI."""
+    """(q,) standard deviation of the differences, over that of all samples."""
     kept: int
     """How many keep all limits."""
-    kept_linear: int
+    kept_here: int
     """How many of the same do as told here."""
 
 
@@ -121,8 +121,10 @@ class Scatter(Frozen):
         total: Total indices, with all that it has together with others.
         kept: The limits.
         all_kept: How many samples keep all of them.
-        checked: What the nonlinear path says.
+        checked: What the whole path says.
         stroke: What is driven and where to, in words; empty where nothing is.
+        mesh: On which samples are computed, in words.
+        mesh_checked: On which those are that are checked.
         point: Whose errors are told, in words.
         seed: The same seed makes the same samples.
         notes: What is to be known besides, in sentences.
@@ -143,6 +145,8 @@ class Scatter(Frozen):
     all_kept: Share
     checked: Checked
     stroke: str
+    mesh: str
+    mesh_checked: str
     point: str
     seed: int
     notes: tuple[str, ...]
@@ -230,10 +234,12 @@ class Scatter(Frozen):
         """The point first: how many keep the limits, or how large the first quantity is."""
         many = f"{len(self):,} samples"
         if not self.kept:
-            first = self.answers[0]
-            high = self.units.si(float(self.quantiles(first.name, [0.95])[0]), first.unit)
-            told = f"95 % of {many} have a {first.words} below {said(high, first.unit, self.units)}"
-            return f"{told}; it is {self.causes(first.name)}."
+            name, words, unit = self.answers[0]
+            is_least = name in LOWER
+            sizes = self._sound(name) if is_least else np.abs(self._sound(name))
+            end = self.units.si(float(np.quantile(sizes, 0.05 if is_least else 0.95)), unit)
+            told = f"{words} {'above' if is_least else 'below'} {said(end, unit, self.units)}"
+            return f"95 % of {many} have {article(words)} {told}; it is {self.causes(name)}."
         each = [f"{_share(one.share)} {one.words}" for one in self.kept]
         worst = min(self.kept, key=lambda one: one.share.value).name
         behind = f"the {_SHORT.get(worst, self._words(worst))} is {self.causes(worst)}"
@@ -309,25 +315,33 @@ class Scatter(Frozen):
 
     def _check(self, varying: list[int]) -> str:
         found = self.checked
-        off = [(float(found.off[q]), self.answers[q].words) for q in varying]
-        off = [each for each in off if math.isfinite(each[0])]
+        off = [(float(found.off[q]), q) for q in varying if math.isfinite(found.off[q])]
         if not off:
-            return f"None of {found.number} samples could be followed on the nonlinear path."
+            return f"None of {found.number} samples could be followed from rest."
         most = max(off)
         text = (
-            "Stress and errors are linear in what is off, near the states as designed. On the "
-            f"whole nonlinear path {found.number - found.failed} of the samples differ from that "
-            f"by at most {100.0 * most[0]:.2g} % of a standard deviation (root mean square), in "
-            f"the {most[1]}"
+            f"Each sample is the equilibrium next to the state as designed, on {self.mesh}. On the "
+            f"whole path from rest ({self.mesh_checked}) {found.number - found.failed} of them "
+            f"differ by at most {100.0 * most[0]:.2g} % of a standard deviation, in the "
+            f"{self.answers[most[1]].words}"
         )
+        shifts = []
+        for _, q in off:
+            name, words, unit = self.answers[q]
+            shift = float(found.shift[q])
+            if abs(shift) > _OFF * self.units.si(self.sd(name), unit):
+                told = f"{100.0 * shift:+.2g} %" if not unit else said(shift, unit, self.units)
+                shifts.append(f"{words} {'+' if unit and shift > 0.0 else ''}{told}")
+        if shifts:
+            text += f", and all alike by this: {listed(shifts)}"
         if self.kept:
-            text += f"; {found.kept} of them keep the limits there, and {found.kept_linear} here"
+            text += f"; {found.kept} of them keep the limits there, {found.kept_here} here"
         text += "."
         if found.failed:
             text += f" For {found.failed} of {found.number} no equilibrium was found on it."
         if most[0] > _OFF:
-            names = listed([words for size, words in sorted(off, reverse=True) if size > _OFF])
-            text += f" Little more than a hint is therefore: {names}."
+            names = [self.answers[q].words for size, q in sorted(off, reverse=True) if size > _OFF]
+            text += f" Little more than a hint is therefore: {listed(names)}."
         if self.failed:
             text += f" {self.failed} samples have no answer, and count as keeping no limit."
         return text
@@ -419,8 +433,8 @@ class Scatter(Frozen):
                 "first": self.first[q].tolist(),
                 "total": self.total.value[q].tolist(),
                 "total_error": self.total.error[q].tolist(),
-                "nonlinear_off": float(self.checked.off[q]),
-                "nonlinear_largest": shown(float(self.checked.largest[q]), unit),
+                "off": float(self.checked.off[q]),
+                "shift": shown(float(self.checked.shift[q]), unit),
             }
             answers.append({key: _plain(value) for key, value in row.items()})
         found = self.checked
@@ -435,6 +449,7 @@ class Scatter(Frozen):
                 "failed": self.failed,
                 "seed": self.seed,
                 "stroke": self.stroke,
+                "mesh": self.mesh,
                 "point": self.point,
                 "inputs": [
                     {
@@ -457,11 +472,12 @@ class Scatter(Frozen):
                     for each in self.kept
                 ],
                 "kept": self.all_kept._asdict() if self.kept else None,
-                "nonlinear": {
+                "checked": {
+                    "mesh": self.mesh_checked,
                     "number": found.number,
                     "failed": found.failed,
                     "kept": found.kept,
-                    "kept_linear": found.kept_linear,
+                    "kept_here": found.kept_here,
                 },
                 "words": self.opening(),
                 "notes": list(self.notes),
@@ -477,8 +493,15 @@ _KIND = {"m": "place", "rad": "turn"}
 _MANY = {"place": "places of clamps", "turn": "turns of clamps", "thickness": "thicknesses"}
 
 
+#: Of these a limit is the least, of others the most.
+LOWER = ("frequency", "parasitic")
 _SHORT = {"strength": "stress"}
 _HEADINGS = ("", "as designed", "mean", "sd", *(f"{100.0 * part:g} %" for part in _TOLD))
+
+
+def article(words: str) -> str:
+    """The article of a quantity."""
+    return "an" if words.startswith("error") else "a"
 
 
 def said(value: float, unit: str, units: Units) -> str:
