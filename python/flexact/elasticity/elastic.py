@@ -579,8 +579,9 @@ class Elastic(Frozen):
 
         Each clamp is off along and about each direction in which it holds, and each sheet, wire,
         beam and bar is thicker or thinner, all normal and independent. Each sample is sought in one
-        way from the state as designed, on one mesh (8 beams a sheet, or as many as the model has);
-        frequencies are linear about it. The first 100 samples are computed on the whole path from
+        way from the state as designed, on one mesh (8 beams a sheet, or as many as the model has),
+        and shifted by what finer meshes, if the model has them, make of the design; frequencies are
+        linear about it. The first 100 samples are computed on the whole path from
         rest, on all meshes of the model, as well, and the difference is told. Without the deck's
         loads.
 

@@ -216,12 +216,19 @@ def scatter_of(
         errors, others = np.split(normals * np.tile([each.sd for each in inputs], 2), 2, axis=1)
         pairs = min(samples, max(_FEW, samples // len(inputs)))
         tasks = Tasks(errors, others[:pairs], min(CHECKED, samples))
-        designed = numbers_of(scattered.near(np.zeros(len(inputs))))
+        nothing = np.zeros(len(inputs))
+        every = [np.array(numbers_of(each.near(nothing))) for each in (scattered, *checks)]
+        designed = Estimate.of(*every[1:]).value
         head = _head(data, (spread, whole.words, scattered.drive, values, point, against))
         head |= {"samples": samples, "seed": int(seed)}
         rows, why = _run(
             *(Worker(scattered, checks, tasks), len(designed), head, resume, workers, progress)
         )
+    # Finer meshes shift the design as they shift its samples, those without a stiffness excepted.
+    near = rows[: len(rows) - tasks.checked]
+    finer = np.where(np.isnan(designed), 0.0, designed - every[0])
+    finer[_ELEMENT] = 0.0
+    near += np.where(near == 0.0, 0.0, finer)
     # What is rounding beside what is off is nothing.
     largest = max(spread.position, spread.thickness, spread.angle * data.size) * _ROUNDING
     for place in range(_BEHIND, rows.shape[1]):
@@ -250,7 +257,7 @@ def scatter_of(
         errors=errors,
         values=found,
         parts=tuple(part_of(int(e)).name if e >= 0 else "" for e in stressed.tolist()),
-        designed=np.array(designed)[there],
+        designed=designed[there],
         first=first,
         total=total,
         kept=tuple(
@@ -262,7 +269,8 @@ def scatter_of(
             *(rows[samples + tasks.others.size :][:, there], found, variance, kept, answers)
         ),
         stroke=words,
-        mesh=f"one mesh of {_beams_in_words(beams)}",
+        mesh=f"one mesh of {_beams_in_words(beams)}"
+        + (", shifted as the design is by finer ones" if len(checks) > 1 else ""),
         mesh_checked=(
             "8 and 16 beams a sheet, extrapolated" if len(checks) > 1 else _beams_in_words(beams)
         ),
