@@ -25,6 +25,7 @@ _VALUES = {
     **{"PART": ("-1%", "-2%"), "NAME": ("a", "b"), "POINTS": ("1", "2")},
     **{"X,Y,Z": ("0,0,1mm", "0,0,2mm"), "KELVIN": ("10", "20"), "ALPHA": ("1e-5", "2e-5")},
     **{"GX,GY,GZ": ("0,0,1", "0,0,2"), "KELVIN,ALPHA": ("1,1e-5", "2,1e-5")},
+    **{"SD,SD,thickness=SD": ("20um", "30um"), "DIRECTION": ("x", "y")},
     # Older names, which help leaves out.
     **{"--format": ("vtu", "vtk"), "--tolerance": ("1e-9", "1e-8")},
 }

@@ -152,6 +152,20 @@ def test_a_sample_is_what_imperfect_models_say() -> None:
     assert np.nanmax(found.checked.off) < 5e-3
 
 
+def test_samples_are_shifted_by_what_finer_meshes_make_of_the_design() -> None:
+    """As designed it is the state of 8 and 16 beams; the samples lie as those of `imperfect` do."""
+    found = flexact.elastic(DECK).scatter(
+        "10um", "0.05mrad", samples=4, limits={}, workers=1, stroke=(13, "x", 0.0, 2.5e-3)
+    )
+    q = [each.name for each in found.answers].index("parasitic")
+    driven = flexact.elastic(DECK).along(13, "x", [2.5e-3])[0]
+    assert found.designed[q] == pytest.approx(driven.frequencies[1], rel=1e-6)
+    coarse = flexact.elastic(DECK, beams=8).along(13, "x", [2.5e-3])[0]
+    shift = float(driven.frequencies[1] - coarse.frequencies[1])
+    assert abs(shift) > 5.0
+    assert abs(found.checked.shift[q]) < 0.02 * abs(shift)
+
+
 def test_a_sheet_that_is_divided_in_the_deck_has_one_thickness() -> None:
     model = flexact.Model()
     model.sheet((0, 0, 0), (0.1, 0, 0), width=(0, 0, 1), thickness=0.5e-3, breadth=0.02,

@@ -52,8 +52,10 @@ _THICK = 6.0
 _FEW = 16
 #: Number of the form of the journal.
 _FORM = 1
-#: What varies by less than this part of its mean varies by rounding.
+#: What is smaller than this part of what is off is rounding.
 _ROUNDING = 1.0e-9
+#: What varies by less than this part of its size is the same in all samples.
+_CONSTANT = 1.0e-6
 
 _STRENGTH = "strength"
 
@@ -210,6 +212,11 @@ def scatter_of(
     whole = replace(elastic, only=None, off=(), is_si=True)
     checks = tuple(replace(scattered, elastic=each) for each in whole.alone)
     answers, there = _answers(scattered)
+    if not answers:
+        raise ElasticError(
+            "nothing is known that could be told: no section, no mass, no drive, and the point is "
+            "held; give another point (at), masses, or sections (CROSSDIM)"
+        )
     kept = _limits(scattered, answers, limits, elastic.units)
     with load("threadpoolctl").threadpool_limits(1):
         normals = normal(points(samples, 2 * len(inputs), seed))
@@ -239,7 +246,7 @@ def scatter_of(
     has_answer = ~np.isnan(found).any(axis=1)
     if has_answer.sum() < 2:
         raise ElasticError(f"no sample has an answer: {why}")
-    varies = found[has_answer].std(axis=0) > _ROUNDING * np.abs(found[has_answer]).max(axis=0)
+    varies = found[has_answer].std(axis=0) > _CONSTANT * np.abs(found[has_answer]).max(axis=0)
     variance = np.where(varies, found[has_answer].var(axis=0, ddof=1), 0.0)
     first = first_order(normals[has_answer, : len(inputs)], found[has_answer])
     first[~varies] = np.nan

@@ -12,10 +12,11 @@ from ..show.charts import unit_for
 from ..show.picture.files import still_bytes
 from ..show.picture.make import shown_figure
 from .plots import finished
-from .scatter_result import Scatter
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from .scatter_result import Scatter
 
 #: Width of the picture, height of a row and room above [inch].
 _WIDTH, _ROW, _ABOVE, _DPI = 9.0, 1.75, 0.7, 120

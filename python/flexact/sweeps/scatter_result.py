@@ -273,8 +273,8 @@ class Scatter(Frozen):
                 factor, symbol = 0.01, "%"
             elif unit == "N m":
                 factor, symbol = 1.0 / self.units.factor(unit), self.units.symbol(unit)
-            # What is rounding of these is zero.
-            least = 5.0e-4 * max(map(abs, si))
+            # What is little beside the scatter is zero.
+            least = 5.0e-4 * si[2]
             cells = (f"{value / factor if abs(value) > least else 0.0:.3g}" for value in si)
             rows.append((f"{words} [{symbol}]", *cells))
             if not np.isnan(self.total.value[q]).all():

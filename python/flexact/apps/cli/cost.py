@@ -151,8 +151,7 @@ VERB = Verb(
         ),
         (
             "What the workshop's scatter does to stress, frequencies and errors",
-            "flexact cost input_decks/flexures/parallel_guide_width_as_y.dat --scatter "
-            "20um,0.1mrad,thickness=5um",
+            "flexact cost input_decks/flexures/notch_guide.dat --scatter 20um,0.1mrad",
         ),
         (
             "Two kinds of files at once",
