@@ -47,6 +47,7 @@ With stiffness and mass
     Warmed: a state in which something is warm: drift, thermal centre
     Limits: how far a stroke may go
     Scatter: what the workshop's scatter does, of `elastic(...).scatter(...)`
+    StateSpace: A, B, C, D, poles and frequency response of a state, for a controller
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
@@ -105,6 +106,7 @@ if _typing.TYPE_CHECKING:
         Limits,
         PointTable,
         State,
+        StateSpace,
         StrokeError,
         StrokeTable,
         UnknownError,
@@ -190,6 +192,7 @@ _HOMES = {
         "PointTable",
         "Limits",
         "State",
+        "StateSpace",
         "StrokeError",
         "StrokeTable",
         "UnknownError",
@@ -290,6 +293,7 @@ __all__ = [
     "Shape",
     "Sheet",
     "State",
+    "StateSpace",
     "Step",
     "StrokeError",
     "StrokeTable",

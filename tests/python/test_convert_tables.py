@@ -283,6 +283,29 @@ def test_what_a_model_does_not_hold_is_told_once_each() -> None:
     assert "values of prescribed motions (1)" in codes
 
 
+def test_a_state_space_that_is_asked_for_is_told_as_a_command() -> None:
+    """SPACAR Light takes true, or true with a relative damping; without one there is none."""
+    ends = {"transfer_in": "force_z", "transfer_out": ["displ_z", "veloc_x"]}
+    nprops = [*CROSS["nprops"]]
+    nprops[2] = {**nprops[2], **ends}
+    for asked, damping in (([True, 0.02], "0.02"), (True, "0")):
+        tables = {**CROSS, "nprops": nprops, "opt": {**CROSS["opt"], "transfer": asked}}
+        (note,) = [each for each in model_of(tables).diagnostics if each.code == "state-space"]
+        assert "--from 7:z --to 7:z --to '7:x velocity'" in note.message
+        assert (
+            f"--damping {damping} " in note.message and "['7:z'], ['7:z', '7:x vel" in note.message
+        )
+    tables["opt"]["transfer"] = False
+    codes = [(each.code, each.message) for each in model_of(tables).diagnostics]
+    assert ("left-out", "what is for a simulation: nprops.transfer_out (2)") in codes
+    for wrong in ([True, -1], "yes", [True, 0.1, 0.2]):
+        with pytest.raises(TablesError, match=r"opt\.transfer"):
+            model_of({**CROSS, "opt": {"transfer": wrong}})
+    nprops[2] = {"transfer_in": "moment_z"}
+    with pytest.raises(TablesError, match="force_x, force_y, force_z"):
+        model_of({**CROSS, "nprops": nprops})
+
+
 def test_loads_are_those_of_a_deck() -> None:
     """SPACAR Light writes force_initial as XF, force as DELXF, and gravity as GRAVITY."""
     model = model_of(CROSS)

@@ -8,6 +8,7 @@ form must be that to the number.
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -414,6 +415,10 @@ _SAME = {
         *("1:3+1:4", "left:3+left:4", "left:in-plane bending", "left:in-plane bending=0"),
         "left:bending about y@left foot+left:bending about y@stage",
     ],
+    ("transfer", "--from"): [f"{p}:x" for p in (TOP.position, "left top", "stage")],
+    ("transfer", "--to"): [f"{p}:x" for p in (TOP.position, "left top", "stage")],
+    ("transfer", "--stroke"): [f"{p}:x+=1mm" for p in (TOP.position, "left top", "stage")],
+    ("transfer", "--release"): ["1:3+1:4", "left:3+left:4", "left:in-plane bending"],
     **{
         (verb, "--freedom"): ["1", "stage x", "left top:x"]
         for verb in VERBS
@@ -439,8 +444,14 @@ def test_options_take_names(
         words = [verb, str(deck), option, form, *more.get(verb, []), *out]
         if verb == "cost" and option != "--release":
             words += ["--release", "none"]
+        if verb == "transfer":
+            ends = {"--from": "stage:z", "--to": "stage:z", "--beams": "1"}
+            words += [part for end in ends.items() if end[0] != option for part in end]
         assert main(words) == 0, form
         said.append(capsys.readouterr().out)
+        if option in ("--from", "--to"):
+            # They are called as they were asked for.
+            said[-1] = re.sub(r"\s+", " ", said[-1].replace(form, "there"))
         if suffix:
             content = (tmp_path / f"made{suffix}").read_bytes()
             said[-1] += str(len(content))

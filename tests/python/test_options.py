@@ -22,10 +22,15 @@ _VALUES = {
     **{"LENGTH[,ANGLE]": ("20um", "30um"), "QUANTITY": ("N", "T"), "FORMAT": ("vtu", "vtk")},
     **{"CONDITION": ("rank > 1", "rank > 2"), "ADDRESS": ("tcp://a:1", "tcp://b:1")},
     **{"POINT": ("1", "2"), "POINT:C=FROM..TO": ("1:x=0..1mm", "1:x=0..2mm"), "auto|N": ("1", "2")},
+    **{"RATIO": ("1%", "2%"), "POINT:C=VALUE": ("1:x=1mm", "1:x=2mm")},
     **{"PART": ("-1%", "-2%"), "NAME": ("a", "b"), "POINTS": ("1", "2")},
     **{"X,Y,Z": ("0,0,1mm", "0,0,2mm"), "KELVIN": ("10", "20"), "ALPHA": ("1e-5", "2e-5")},
-    **{"GX,GY,GZ": ("0,0,1", "0,0,2"), "KELVIN,ALPHA": ("1,1e-5", "2,1e-5")},
-    **{"SD,SD,thickness=SD": ("20um", "30um"), "DIRECTION": ("x", "y")},
+    **{"SD,SD,thickness=SD": ("20um", "30um")},
+    **{
+        "DIRECTION": ("x", "y"),
+        "GX,GY,GZ": ("0,0,1", "0,0,2"),
+        "KELVIN,ALPHA": ("1,1e-5", "2,1e-5"),
+    },
     # Older names, which help leaves out.
     **{"--format": ("vtu", "vtk"), "--tolerance": ("1e-9", "1e-8")},
 }

@@ -492,7 +492,7 @@ class Strength(NamedTuple):
     coordinate: str
     """One of x y z rx ry rz."""
     words: str
-    """Such as "node 1 (the stage) along z"."""
+    """Such as "the stage along z"."""
     rest: float
     """Its value in the deck [m, rad]."""
     share: float

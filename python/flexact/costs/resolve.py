@@ -269,7 +269,7 @@ def strength_of(
         rest = float(places.data.arrays.node_value["xyz".index(coordinate[-1]), index])
         rest = 0.0 if turns else rest
         owner = node_words(places.parts, index)
-        words = f"node {node} ({owner}) {words_of_direction(coordinate)}"
+        words = f"{owner} {words_of_direction(coordinate)}"
     return Strength(node, coordinate, words, rest, asked.share, asked.support, asked.against)
 
 

@@ -47,7 +47,6 @@ def describe(cost: CostValues, width: int = WIDTH) -> str:
     """The cost for people, in rows of a width."""
     paragraphs = (
         _opening(cost, width),
-        _strength(cost, width),
         (_choices(cost, width),),
         (_table(cost, width),),
         (wrapped(_weakest(design), width, "  ") for design in cost.designs),
@@ -103,6 +102,9 @@ def off(where: Misalignment, by: Number) -> str:
 def _opening(cost: CostValues, width: int) -> Iterator[str]:
     if cost.name:
         yield wrapped(harmless(cost.name), width)
+    # What is asked for by name is the point.
+    if cost.strength is not None:
+        yield from (*_strength(cost, width), "")
     yield wrapped(first_line(cost), width)
     if cost.tightest is not None and not cost.as_built.over_constrained:
         yield wrapped("It is not over-constrained: only what is compliant is stressed.", width)
@@ -242,7 +244,9 @@ def _strength(cost: CostValues, width: int) -> Iterator[str]:
     asked = cost.strength
     if asked is None:
         return
-    yield wrapped(f"How far {harmless(asked.words)} may go from rest, drive locked:", width)
+    along = words_of_direction(asked.coordinate)
+    what = harmless(asked.words).removesuffix(f" {along}")
+    yield wrapped(f"How far {what} may go {along} from rest, drive locked:", width)
     for design in cost.designs:
         if design.limits is not None:
             told = "; ".join(limits_in_words(design.limits))

@@ -4,6 +4,7 @@
 from .elastic import Elastic, State, Warmed, elastic
 from .errors import ElasticError, Estimate, StrokeError, StrokeWarning, UnknownError
 from .limits import Limits
+from .state_space import StateSpace
 from .tables import PointTable, StrokeTable
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "Limits",
     "PointTable",
     "State",
+    "StateSpace",
     "StrokeError",
     "StrokeTable",
     "StrokeWarning",

@@ -54,7 +54,7 @@ from .errors import (
     require_within,
 )
 from .limits import Asked, Limits, Path, Strengths, limits_of, share_given, supported
-from .mesh import Beams, Mesh, beams_given, divisible, divisions
+from .mesh import COARSE, Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
 from .reduced import Reducer, Resultants, resultants_of, verdict_of
 from .solution import (
@@ -74,6 +74,7 @@ from .solution import (
     policy_of,
     releases_given,
 )
+from .state_space import StateSpace, state_space_of
 from .tables import (
     PointTable,
     StrokeTable,
@@ -780,6 +781,17 @@ class Elastic(Frozen):
         with self._in_units():
             return tuple(equilibria.assembled(each, self.off, self.locked) for each in self.solvers)
 
+    def state_space(
+        self,
+        inputs: object,
+        outputs: object,
+        damping: ArrayLike = 0.01,
+        modes: int | None = None,
+    ) -> StateSpace:
+        """The linear system from forces or base motion to displacements, at rest; see `State`."""
+        at_rest = self.assembled() if self.off else self.undeformed()
+        return at_rest.state_space(inputs, outputs, damping, modes)
+
     def __repr__(self) -> str:
         """The choices."""
         return f"<Elastic {self.data.name!r}: {self.words}>"
@@ -1162,6 +1174,39 @@ class State(Frozen):
         return tuple(
             loose_motion(self.finest, k) for k in range(self.finest.tangent.loose.shape[2])
         )
+
+    def state_space(
+        self,
+        inputs: object,
+        outputs: object,
+        damping: ArrayLike = 0.01,
+        modes: int | None = None,
+    ) -> StateSpace:
+        """The linear system about this state, of the finer mesh: A, B, C, D, poles and response.
+
+        Args:
+            inputs: One, or a list: a force or moment on (point, coordinate); the motion of what
+                is fixed or locked, (clamp, coordinate, "motion"), of all clamps as one
+                ("ground", coordinate, "motion"); a pair of opposite forces ((p, "y"), (q, "y")).
+                Or texts: "stage:y", "stage:y-base:y", "base:y motion".
+            outputs: One, or a list: (point, coordinate); a difference ((p, "y"), (q, "y")); with
+                "velocity" behind, its rate. Or texts: "stage:y", "stage:y-base:y",
+                "stage:y velocity".
+            damping: Modal ratio, one or one a mode; of base motion it acts on the relative one.
+            modes: How many, the slowest; what others do statically is in D. None: all.
+
+        Raises:
+            UnknownError: a point or coordinate is not there.
+            ElasticError: nothing has a mass or a stiffness; something is not understood, a force
+                is on what is held, or what is moved is not held; or the mesh is too large.
+        """
+        self.model.require_mass()
+        self.finest.require_stiffness()
+        # Of two meshes the finer one.
+        beams = 2 * COARSE if self.model.beams == "auto" else self.model.beams
+        label = f"{self.label}; {replace(self.model, beams=beams).words}"
+        given = inputs, outputs, damping, modes
+        return state_space_of(self.finest, self.model.points, *given, label, self.model.units)
 
     def describe(self) -> str:
         """What it is, its verdict, whether it is stable, frequencies and multipliers, in words."""

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..analysis.places import axis_words
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind
 from ..model.data import ModelData
@@ -463,7 +464,7 @@ class PointTable(PlaceTable):
             if not 0.0 < each.stiffness < math.inf:
                 size = "held" if each.stiffness else "no stiffness"
             way = "along" if each.kind == "translation" else "about"
-            words = f"  {each.kind} {way} {listed(each.direction)}: {size}"
+            words = f"  {each.kind} {way} {axis_words(each.direction)}: {size}"
             if each.through is not None and each.pitch is not None:
                 words += f", on the line through {listed(each.through, least)} {length}"
                 if abs(each.pitch) > _EQUAL / _ROUNDED * least:

@@ -473,7 +473,7 @@ def described(state: Warmed) -> str:
         lines.append("No normal force anywhere.")
     if found["stress"] and units.si(found["stress"]["value"], "Pa") > _ROUNDED * strain * modulus:
         stress = f"{found['stress']['value']:.4g} {units.symbol('Pa')}"
-        lines.append(f"Largest normal stress: {stress} in {found['stress']['part']}.")
+        lines.append(f"Largest stress: {stress} in {found['stress']['part']}.")
     if found["frequencies"]:
         one, two = found["frequencies"]
         change = 100.0 * (two / one - 1.0) if one > 0.0 else math.nan

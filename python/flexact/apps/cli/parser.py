@@ -24,6 +24,7 @@ VERBS = {
     "advise": "what is wrong with decks and why, and steps that mend it",
     "cost": "what over-constraint costs: tolerances of clamps, and what each release keeps",
     "table": "stiffness and compliance at a point, along a stroke, and when it is warm",
+    "transfer": "what a controller sees: poles, zeros and the response from forces to motion",
     "check": "the diagnostics of decks, without analysing them",
     "batch": "a table of many decks, by all processors",
     "declare": "a deck in which every divided sheet or wire counts as one beam",

@@ -181,6 +181,28 @@ def moments(value: Any) -> tuple[float, ...]:
 
 
 LETTERS = ("x", "y", "z")
+
+
+def words_of(*stems: str) -> Callable[[Any], tuple[str, ...]]:
+    """What checks for words such as force_x, one or several."""
+    known = [f"{stem}_{axis}" for stem in stems for axis in LETTERS]
+
+    def check(value: Any) -> tuple[str, ...]:
+        made = texts(value)
+        _require(all(each in known for each in made), f"of {', '.join(known)} are wanted")
+        return made
+
+    return check
+
+
+def transfer(value: Any) -> float | None:
+    """The modal damping of a state space that is asked for: true, or true with a number."""
+    asked, *rest = value if isinstance(value, (list, tuple)) and value else [value]
+    _require(len(rest) <= 1, "true or false is wanted, perhaps with a modal damping")
+    damping = not_negative(rest[0]) if rest else 0.0
+    return damping if flag(asked) else None
+
+
 #: Nodes of a deck by point: a position, an orientation, and a warping node, which is not used.
 NODES_A_POINT = 3
 
@@ -188,9 +210,8 @@ NODES_A_POINT = 3
 #: Gives the value of a field as it is used, or raises ValueError in words.
 Check = Callable[[Any], Any]
 PRESCRIBED = "values of prescribed motions"
-#: Fields that only Flexact knows, and those that are for a simulation.
+#: Fields that only Flexact knows.
 OWN_FIELDS = frozenset(("fix_rx", "fix_ry", "fix_rz", "name", "same_pos", "same_orien", "type"))
-_SIMULATION = ("transfer_in", "transfer_out")
 
 #: Of each node.
 NODE_FIELDS: dict[str, Check] = {
@@ -204,8 +225,8 @@ NODE_FIELDS: dict[str, Check] = {
     "mass": not_negative,
     "mominertia": moments,
     **{f"{load}{start}": vector(3) for load in ("force", "moment") for start in ("", "_initial")},
-    "transfer_in": texts,
-    "transfer_out": texts,
+    "transfer_in": words_of("force"),
+    "transfer_out": words_of("displ", "veloc"),
     "name": text,
     "same_pos": count,
     "same_orien": count,
@@ -233,7 +254,7 @@ ELEMENT_FIELDS: dict[str, Check] = {
 RELEASE_FIELDS = {"def": deformations}
 #: What SPACAR Light calls the loads of a deck: XF, on which a simulation starts, and DELXF.
 LOADS = {"force": "_initial", "increment": ""}
-#: Options; of these releases and gravity are used, and none of the others is looked at.
+#: Options; of these releases, gravity and transfer are used, and none of the others is looked at.
 OPTIONS = (
     *("rls", "filename", "gravity", "silent", "calcbuck", "showinputonly", "loadsteps", "mode"),
     *("transfer", "calccompl", "customvis", "customdyn", "customkin", "spavisual", "rigidstress"),
@@ -246,7 +267,7 @@ def is_unset(value: Any) -> bool:
     return value is None or (isinstance(value, Sequence) and len(value) == 0)
 
 
-LEFT_OUT, LOST, OWN_FIELD = "left-out", "lost", "own-field"
+LEFT_OUT, LOST, OWN_FIELD, TRANSFER = "left-out", "lost", "own-field", "state-space"
 
 
 @dataclass
@@ -353,6 +374,7 @@ class Tables:
         set_of: Number of the set of each element that is in one.
         released: Deformations of elements that are released.
         gravity: Acceleration of free fall [m/s^2].
+        transfer: Modal damping of the state space that is asked for; None without one.
         left_out: What is said that a model does not hold.
         name: What the model is called.
         faulty: Places of entries with a field that is wrong, of which no more is said.
@@ -365,6 +387,7 @@ class Tables:
     set_of: dict[int, int] = field(default_factory=dict)
     released: dict[int, tuple[int, ...]] = field(default_factory=dict)
     gravity: tuple[float, ...] = (0.0, 0.0, 0.0)
+    transfer: float | None = None
     left_out: Counter[str] = field(default_factory=Counter)
     name: str = ""
     faulty: set[str] = field(default_factory=set)
@@ -491,8 +514,6 @@ def _fields(
                     made.faulty.add(place)
                     continue
                 into.setdefault(i, {})[key] = value
-                if key in _SIMULATION:
-                    made.left_out[f"what is for a simulation: {name}.{key}"] += 1
     return into
 
 
@@ -536,10 +557,12 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     for name, value in (options or {}).items():
         if name not in OPTIONS:
             found.error(f"opt.{name}", f"there is no such option{_meant(name, OPTIONS)}")
-        elif name not in ("gravity", "rls"):
+        elif name not in ("gravity", "rls", "transfer"):
             made.left_out[f"what is for a simulation: opt.{name}"] += 1
         elif is_unset(value):
             continue
+        elif name == "transfer":
+            made.transfer = found.checked("opt.transfer", transfer, value)
         elif name == "gravity":
             made.gravity = found.checked("opt.gravity", vector(3), value) or made.gravity
         else:

@@ -16,6 +16,7 @@ spacar.nl and github.com/precision-utwente/spalight, by M. Nijenhuis and M. Nave
 from __future__ import annotations
 
 import math
+import shlex
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise, product
@@ -25,7 +26,7 @@ import numpy as np
 
 from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
 from ...core.raw import ElementKind
-from ...deck.diagnostics import Diagnostic
+from ...deck.diagnostics import Diagnostic, Severity
 from ...model.data import ModelData
 from ...model.draft import Draft
 from ...model.draft_arrays import data_of as data_of_draft
@@ -39,6 +40,7 @@ from .table_input import (
     LOADS,
     NODES_A_POINT,
     PRESCRIBED,
+    TRANSFER,
     Entry,
     Found,
     Remarks,
@@ -97,9 +99,10 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
         making.add_element(element)
     making.give_nodes()
     making.note_warping()
+    asked = making.transfer()
     found.require_none()
     data = data_of_draft(making.draft, tables.name)
-    return replace(data, besides=(*data.besides, *making.remarks.diagnostics()))
+    return replace(data, besides=(*data.besides, *making.remarks.diagnostics(), *asked))
 
 
 class _Making:
@@ -304,6 +307,37 @@ class _Making:
                     table[number] = self._in_scene(entry[f"{stem}{end}"], axes)
         gravity = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
         self.draft.gravity = gravity
+
+    def transfer(self) -> tuple[Diagnostic, ...]:
+        """How the state space is found that opt.transfer asks for; ends alone are left out."""
+        ends: dict[str, list[str]] = {"transfer_in": [], "transfer_out": []}
+        for point, entry in self.tables.nodes.items():
+            for name, said in ends.items():
+                for stem, axis in (each.split("_") for each in entry.get(name, ())):
+                    if self._is_given(point, entry, name, self.position.get(point, 0)):
+                        rate = " velocity" * (stem == "veloc")
+                        said.append(f"{self.position[point]}:{axis}{rate}")
+        sources, sinks = ends.values()
+        damping = self.tables.transfer
+        if damping is None or not (sources and sinks):
+            self.remarks.leave_out("opt.transfer without ends", int(damping is not None))
+            for name, said in ends.items():
+                self.remarks.leave_out(f"what is for a simulation: nprops.{name}", len(said))
+            return ()
+        words = " ".join(
+            f"--{option} {shlex.quote(end)}"
+            for option, said in (("from", sources), ("to", sinks))
+            for end in said
+        )
+        return (
+            Diagnostic(
+                Severity.NOTE,
+                TRANSFER,
+                f"opt.transfer: flexact transfer DECK {words} --damping {damping:g} --held rigid "
+                f"--beams 1; in Python flexact.elastic(DECK, held='rigid', beams=1).state_space("
+                f"{sources}, {sinks}, damping={damping:g})",
+            ),
+        )
 
     def _axes(self, number: int) -> tuple[int, ...]:
         """Of a node that an element uses."""
