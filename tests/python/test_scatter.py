@@ -149,6 +149,8 @@ def test_a_sample_is_what_imperfect_models_say() -> None:
         error = driven.position(13) - straight.position(13)
         assert found["z"][k] == pytest.approx(error[2], rel=1e-3, abs=1e-9)
     assert found.checked.number == 3
+    # Of three samples nobody knows first-order indices.
+    assert "nan" not in found.describe() and np.isnan(found.first).all()
     assert np.nanmax(found.checked.off) < 5e-3
 
 

@@ -211,21 +211,16 @@ def scatter_of(
     )
     whole = replace(elastic, only=None, off=(), is_si=True)
     checks = tuple(replace(scattered, elastic=each) for each in whole.alone)
-    answers, there = _answers(scattered)
-    if not answers:
-        raise ElasticError(
-            "nothing is known that could be told: no section, no mass, no drive, and the point is "
-            "held; give another point (at), masses, or sections (CROSSDIM)"
-        )
-    kept = _limits(scattered, answers, limits, elastic.units)
     with load("threadpoolctl").threadpool_limits(1):
+        nothing = np.zeros(len(inputs))
+        every = [np.array(numbers_of(each.near(nothing))) for each in (scattered, *checks)]
+        designed = Estimate.of(*every[1:]).value
+        answers, there = _answers(scattered, designed)
+        kept = _limits(scattered, answers, limits, elastic.units)
         normals = normal(points(samples, 2 * len(inputs), seed))
         errors, others = np.split(normals * np.tile([each.sd for each in inputs], 2), 2, axis=1)
         pairs = min(samples, max(_FEW, samples // len(inputs)))
         tasks = Tasks(errors, others[:pairs], min(CHECKED, samples))
-        nothing = np.zeros(len(inputs))
-        every = [np.array(numbers_of(each.near(nothing))) for each in (scattered, *checks)]
-        designed = Estimate.of(*every[1:]).value
         head = _head(data, (spread, whole.words, scattered.drive, values, point, against))
         head |= {"samples": samples, "seed": int(seed)}
         rows, why = _run(
@@ -333,8 +328,10 @@ def _clamps(
     ]
     if not found:
         return []
-    rest = at_rest(model.solvers[0], model.locked)
-    stiff = unit_errors(rest, [off for _, off in found])[1].mismatch > MISMATCH
+    stiff = (
+        unit_errors(at_rest(model.solvers[0], model.locked), [off for _, off in found])[1].mismatch
+        > MISMATCH
+    )
     if stiff.any():
         named = [each.words for (each, _), left in zip(found, stiff, strict=True) if left]
         notes.append(f"rigid parts cannot follow {listed(named)}, which does not scatter")
@@ -462,36 +459,44 @@ def _strengths(
     return None
 
 
-#: Where the element stands in the numbers of a sample; behind its force stand the errors.
-_ELEMENT, _BEHIND = Measured._fields.index("element"), len(Measured._fields) - 1
+#: The numbers of a sample in their order, each with its unit; behind them stand the errors.
+_NUMBERS = (
+    *(("stress", "largest stress", "Pa"), (_STRENGTH, "part of the strength", "")),
+    *(("element", "", ""), ("frequency", "first frequency", "Hz")),
+    *(("parasitic", "first parasitic frequency", "Hz"), ("force", "drive force", "N")),
+)
+_ELEMENT, _BEHIND = Measured._fields.index("element"), len(_NUMBERS)
 
 
-def _answers(scattered: Scattered) -> tuple[tuple[Answer, ...], list[int]]:
-    """The quantities that are known, and where each stands in the numbers of a sample."""
-    model, drive = scattered.elastic, scattered.drive
-    made: list[tuple[Answer, int]] = []
+def _answers(scattered: Scattered, designed: FloatArray) -> tuple[tuple[Answer, ...], list[int]]:
+    """The quantities that are known, and where each stands in the numbers of a sample.
 
-    def add(name: str, words: str, unit: str, place: int) -> None:
-        made.append((Answer(name, words, unit), place))
-
-    if scattered.solver.sections.is_known.any():
-        add("stress", "largest stress", "Pa", 0)
-    if scattered.strengths is not None:
-        add(_STRENGTH, "part of the strength", "", 1)
-    if model.has_mass:
-        add("frequency", "first frequency", "Hz", 3)
-        declared = model.data.arrays.coordinate_class == Class.INDEPENDENT
-        if declared.any() and model.drive == "free":
-            add("parasitic", "first parasitic frequency", "Hz", 4)
-    if drive is not None:
-        is_turn = model.points.unit(drive) == "rad"
-        add("force", "drive moment" if is_turn else "drive force", "N m" if is_turn else "N", 5)
+    Raises:
+        ElasticError: none is.
+    """
+    model, drive, points = scattered.elastic, scattered.drive, scattered.elastic.points
+    declared = model.data.arrays.coordinate_class == Class.INDEPENDENT
+    # Where no drive is free all frequencies are parasitic.
+    left_out = (
+        ("element",) if declared.any() and model.drive == "free" else ("element", "parasitic")
+    )
+    made = {}
+    for place, (name, words, unit) in enumerate(_NUMBERS):
+        if name == "force" and drive is not None and points.unit(drive) == "rad":
+            words, unit = "drive moment", "N m"
+        if math.isfinite(designed[place]) and name not in left_out:
+            made[Answer(name, words, unit)] = place
     for k, each in enumerate(scattered.coordinates):
-        if not (each == drive or each in model.locked or scattered.designed[0].is_held(each)):
-            name = model.points.name(each)
+        if each != drive and not scattered.designed[0].is_held(each):
+            name = points.name(each)
             words = f"error {words_of_direction(name)}"
-            add(name, words, model.points.unit(each), _BEHIND + k)
-    return tuple(each for each, _ in made), [place for _, place in made]
+            made[Answer(name, words, points.unit(each))] = _BEHIND + k
+    if not made:
+        raise ElasticError(
+            "nothing is known that could be told: no section, no mass, no drive, and the point is "
+            "held; give another point (at), masses, or sections (CROSSDIM)"
+        )
+    return tuple(made), list(made.values())
 
 
 #: Why a quantity is not known.
@@ -560,10 +565,9 @@ def _keeps(kept: Sequence[Kept], answers: Sequence[Answer], values: FloatArray) 
     """(limits, samples) which samples keep each limit; those without an answer none."""
     column = {each.name: q for q, each in enumerate(answers)}
     made = np.zeros((len(kept), len(values)), np.bool_)
-    with np.errstate(invalid="ignore"):
-        for row, each in zip(made, kept, strict=True):
-            found = values[:, column[each.name]]
-            row[:] = found >= each.value if each.is_least else np.abs(found) <= each.value
+    for row, each in zip(made, kept, strict=True):
+        found = values[:, column[each.name]]
+        row[:] = found >= each.value if each.is_least else np.abs(found) <= each.value
     return made
 
 

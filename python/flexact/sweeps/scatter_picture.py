@@ -44,7 +44,7 @@ def _drawn(scatter: Scatter) -> Any:
         _histogram(left, scatter, q)
         _bars(right, scatter, q)
     grid[0][0].set_title(f"{len(scatter):,} samples", fontsize=10, loc="left", pad=12)
-    title = "part of the variance: alone (dark), with others"
+    title = "of the variance: alone, with others"
     grid[0][1].set_title(title, fontsize=10, loc="left", pad=12)
     return figure
 

@@ -217,9 +217,11 @@ class Scatter(Frozen):
         first, total, error = self.first[q], self.total.value[q], self.total.error[q]
         made = []
         for k in [k for k in self._order(q)[:_MOST] if total[k] >= _LEAST]:
-            together = total[k] - first[k] > max(_LEAST, 2.0 * error[k])
-            more = f", with others {100.0 * min(total[k], 1.0):.0f} %" if together else ""
-            made.append((k, f"{100.0 * first[k]:.0f} %{more}"))
+            # Of too few samples nobody knows what an input has alone.
+            alone = [f"{100.0 * first[k]:.0f} %"] if math.isfinite(first[k]) else []
+            if not alone or total[k] - first[k] > max(_LEAST, 2.0 * error[k]):
+                alone.append(f"with others {100.0 * min(total[k], 1.0):.0f} %")
+            made.append((k, ", ".join(alone)))
         return made
 
     def causes(self, name: str) -> str:
