@@ -40,8 +40,9 @@ _WIDTH = 80
 _TOLD, _KEPT = (0.05, 0.95), (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 #: Inputs with less of a variance than this are not told; so many are at most.
 _LEAST, _MOST = 0.05, 3
-#: From this part of a standard deviation on the linear answer is said to be off.
-_OFF = 0.1
+#: Of a standard deviation: from which part on the whole path is said to shift a quantity, and to
+#: leave a hint of it alone.
+_SHIFTED, _OFF = 0.1, 0.3
 
 
 class Input(NamedTuple):
@@ -331,7 +332,7 @@ class Scatter(Frozen):
         for _, q in off:
             name, words, unit = self.answers[q]
             shift = float(found.shift[q])
-            if abs(shift) > _OFF * self.units.si(self.sd(name), unit):
+            if abs(shift) > _SHIFTED * self.units.si(self.sd(name), unit):
                 told = f"{100.0 * shift:+.2g} %" if not unit else said(shift, unit, self.units)
                 shifts.append(f"{words} {'+' if unit and shift > 0.0 else ''}{told}")
         if shifts:
