@@ -30,6 +30,7 @@ from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
 from flexact.show.writers import PAGES, PICTURES, STILLS, TABLES
+from flexact.sweeps.scatter_result import SCATTERS
 from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.
@@ -100,6 +101,10 @@ def _commands() -> Iterator[str]:
     yield "cost DECK --json"
     for suffix in COSTS.suffixes:
         yield f"cost DECK -o OUT/cost{suffix} --beams 1 --release none"
+    scatter = "cost DECK --scatter 20um,0.1mrad --samples 6 --beams 1 -j 1"
+    yield f"{scatter} --json"
+    for suffix in (*SCATTERS.suffixes, *TABLES):
+        yield f"{scatter} -o OUT/scatter{suffix}"
     for suffix in POINT_TABLES.suffixes:
         yield f"table DECK -o OUT/table{suffix} --beams 1"
     yield "table DECK --json --beams 1 --warm 10 --expansion 12e-6 --units mm"
