@@ -76,7 +76,8 @@ contains
       associate (kind => elastic%model%element_kind(k), class => elastic%model%deformation_class(:, k), &
                  s => elastic%stiffness(:, :, k), notch => elastic%given%notch(:, k))
          call element_stiffness(kind, elastic%reference(k)%length, elastic%given%stiffness(:, k), notch, s)
-         elastic%reference(k)%c_t = torsion_elongation(kind, elastic%given%stiffness(:, k), elastic%given%mass(:, k))
+         elastic%reference(k)%c_t = torsion_elongation(kind, elastic%reference(k)%length, &
+                                                       elastic%given%stiffness(:, k), elastic%given%mass(:, k))
          elastic%part(:, k) = is_missing
          do i = 1, deformations_of(kind)
             elastic%part(i, k) = is_elastic

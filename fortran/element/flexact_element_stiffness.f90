@@ -12,6 +12,9 @@ module flexact_element_stiffness
    private
    public :: element_stiffness, torsion_elongation
 
+   !> Beams whose shear, EI/(G A k), is more than this in their length squared, both ways.
+   real(wp), parameter :: straight = 10.0_wp
+
 contains
 
    !> S (6, 6) of sigma = S e: symmetric and positive semidefinite for numbers that
@@ -93,15 +96,19 @@ contains
    end subroutine put_in_series
 
    !> c_t of eq. (3), the polar second moment of area over the area [m^2]: from the
-   !> stiffness, else from the inertia per length; zero where neither says.
-   pure real(wp) function torsion_elongation(kind, stiffness, mass) result(c_t)
+   !> stiffness, else from the inertia per length; zero where neither says. The stiffness
+   !> of what stays straight, as a half of a notch, says nothing of its section.
+   pure real(wp) function torsion_elongation(kind, length, stiffness, mass) result(c_t)
       integer, intent(in) :: kind
+      !> l0 [m].
+      real(wp), intent(in) :: length
       !> As ESTIFF (6) and EM (5) have them; NaN where not given.
       real(wp), intent(in) :: stiffness(:), mass(:)
 
       c_t = 0.0_wp
       if (.not. any(element_kinds(kind)%role == role_torsion)) return
-      if (given(stiffness(1)) > 0.0_wp) then
+      if (given(stiffness(1)) > 0.0_wp .and. &
+          .not. minval(given(stiffness(5:6))) > straight*length**2) then
          c_t = sum(given(stiffness(3:4)))/stiffness(1)
       else if (given(mass(1)) > 0.0_wp) then
          c_t = given(mass(2))/mass(1)

@@ -25,6 +25,7 @@ from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.scene import Shown, Stage
 from flexact.apps.watch.worker import answer_of
 from flexact.costs.cost import COSTS
+from flexact.elasticity.system_files import TRANSFERS
 from flexact.elasticity.tables import TABLES as POINT_TABLES
 from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import MESHES
@@ -108,6 +109,9 @@ def _commands() -> Iterator[str]:
     for suffix in POINT_TABLES.suffixes:
         yield f"table DECK -o OUT/table{suffix} --beams 1"
     yield "table DECK --json --beams 1 --warm 10 --expansion 12e-6 --units mm"
+    yield "transfer DECK --beams 1 --modes 3 --json"
+    for suffix in TRANSFERS.suffixes:
+        yield f"transfer DECK --beams 1 --modes 3 -o OUT/transfer{suffix}"
     yield "declare DECK -o OUT/declared.dat"
     yield "regress DECK DECK2 --against OUT --store"
     for suffix in PICTURES:

@@ -150,14 +150,22 @@ contains
    end subroutine test_notches
 
    subroutine test_torsion_elongation()
+      real(wp) :: halves(6), wide(6)
       integer :: beam
 
       beam = find_element_kind('BEAM')
-      call tally%near([torsion_elongation(beam, numbers, [2.0_wp, 8.0_wp, none(3:5)]), &
-                       torsion_elongation(beam, none, [2.0_wp, 8.0_wp, none(3:5)]), &
-                       torsion_elongation(beam, 0*numbers, [2.0_wp, none(2:5)]), &
-                       torsion_elongation(beam, none, none(1:5)), &
-                       torsion_elongation(find_element_kind('PLBEAM'), numbers, numbers(1:5))], &
+      call tally%near([torsion_elongation(beam, l, numbers, [2.0_wp, 8.0_wp, none(3:5)]), &
+                       torsion_elongation(beam, l, none, [2.0_wp, 8.0_wp, none(3:5)]), &
+                       torsion_elongation(beam, l, 0*numbers, [2.0_wp, none(2:5)]), &
+                       torsion_elongation(beam, l, none, none(1:5)), &
+                       torsion_elongation(find_element_kind('PLBEAM'), l, numbers, numbers(1:5))], &
                       [5/7.0_wp, 4.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, 'coupling of torsion and elongation')
+      ! A half of a notch, stiff in both bendings, has no section; a wide sheet shears one way alone.
+      halves = [numbers(:4), 10*l**2 + 1, 10*l**2 + 1]
+      wide = [numbers(:4), 10*l**2 + 1, 0.09_wp]
+      call tally%near([torsion_elongation(beam, l, halves, [2.0_wp, 8.0_wp, none(3:5)]), &
+                       torsion_elongation(beam, l, halves, none(1:5)), &
+                       torsion_elongation(beam, l, wide, none(1:5))], &
+                      [4.0_wp, 0.0_wp, 5/7.0_wp], 1.0e-15_wp, 'coupling of what stays straight')
    end subroutine test_torsion_elongation
 end program test_stiffness

@@ -70,12 +70,12 @@ def at_rest(result: Result) -> AtRest | None:
     if data.loads is None or not data.has_stiffness or not is_small:
         return None
     forces = bool(data.loads.force.any() or data.loads.increment.any())
-    weight = bool(data.loads.gravity.any())
-    loads = " and ".join(["its weight"] * weight + ["its loads"] * forces)
     beams: int | str = "auto" if data.arrays.element_number.size <= _MOST_DIVIDED else 1
     model = replace(elastic(Model.from_data(data), beams=beams), is_si=True)
-    if weight and not forces and not model.has_mass:
+    weight = bool(data.loads.gravity.any()) and model.has_mass
+    if not (weight or forces):
         return None
+    loads = " and ".join(["its weight"] * weight + ["its loads"] * forces)
     try:
         if model.undeformed().loose and result.with_internal_declared is None:
             free = str(model.undeformed().loose[0])

@@ -208,7 +208,7 @@ def _strength(cost: CostValues) -> Iterator[Chart]:
         size = told(abs(both[-1].stroke) if len(both) > 1 else both[-1].stroke, asked.unit)
         size = f"\N{PLUS-MINUS SIGN}{size}" if len(both) > 1 else size
         points = tuple((each.stroke, float(level[0])) for each in both)
-        marks.append(Mark(0, points, f"{words} at {size}"))
+        marks.append(Mark(0, points, f"{words} at {size}", is_open=len(points) > 1))
     yield Chart(
         "strength",
         "Largest stress",

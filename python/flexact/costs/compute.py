@@ -20,14 +20,16 @@ from ..analysis.naming import deformation_in_words, plain
 from ..analysis.places import deformation_word, part_words
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
-from ..core.elements import Class, Member, Role, member_table, role_table
+from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
 from ..elasticity.limits import Strengths, nearest
+from ..elasticity.solution import notch_unit
 from ..model.data import ModelData
 from ..model.model import Model
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
+from ..util.quantities import Quantity
 from .designs import (
     FREQUENCY,
     STIFFNESS,
@@ -55,7 +57,7 @@ from .elastic_design import (
     safeties_of,
     tolerances_of,
 )
-from .request import Plain, ReleaseRequest, Request
+from .request import ReleaseRequest, Request
 from .resolve import Places, given_of, strength_of, stroke_of
 from .shape import Shape, unit_mode
 
@@ -72,7 +74,7 @@ class Candidate(NamedTuple):
     over_constrained: int
 
     @property
-    def pairs(self) -> ReleaseRequest:
+    def pairs(self) -> dict[tuple[int, int], float]:
         """As the elastic model takes it."""
         return {(each.element, each.deformation): each.notch for each in self.released}
 
@@ -119,14 +121,16 @@ def given(result: Result, asked: ReleaseRequest) -> Candidate:
 
     Raises:
         ModelError: there is no such element or deformation.
+        QuantityError: the stiffness of a notch is one of another kind.
     """
     numbers, units = result.given.arrays.element_number, result.given.units
+
+    def stiffness(notch: Quantity, element: int, k: int) -> float:
+        unit = notch_unit(result.given, element, k)
+        return units.read(notch, unit) if isinstance(notch, str) else units.si(notch, unit)
+
     pairs = {
-        (int(numbers[element]), k + 1): (
-            units.si(float(notch), _notch_unit(result.given, element, k + 1))
-            if isinstance(notch, Plain)
-            else notch
-        )
+        (int(numbers[element]), k + 1): stiffness(notch, element, k)
         for key, notch in asked.items()
         for element, k in deformations_of(result.parts, *key)
     }
@@ -155,14 +159,8 @@ def _one(result: Result, element: int, number: int, notch: float) -> Released:
         # Within a divided sheet that counts as one.
         kind = int(data.arrays.element_kind[index])
         words = f"element {element}: {deformation_word(kind, number)}"
-    shown = data.units.shown(notch, _notch_unit(data, index, number))
+    shown = data.units.shown(notch, notch_unit(data, index, number - 1))
     return Released(element, number, notch, words, shown if data.units.power else None)
-
-
-def _notch_unit(data: ModelData, index: int, number: int) -> str:
-    """Of the stiffness of a notch: of an elongation N/m."""
-    role = role_table()[data.arrays.element_kind[index], number - 1]
-    return "N/m" if role == Role.ELONGATION else "N m/rad"
 
 
 def _label(released: tuple[Released, ...]) -> str:
@@ -657,7 +655,7 @@ class _Computation:
             )
 
 
-def with_release(design: ElasticDesign, release: ReleaseRequest) -> ElasticDesign:
+def with_release(design: ElasticDesign, release: dict[tuple[int, int], float]) -> ElasticDesign:
     """The same with something released."""
     return replace(design, elastic=replace(design.elastic, release=release))
 

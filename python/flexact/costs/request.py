@@ -11,7 +11,7 @@ from typing import Any
 from ..elasticity.limits import AGAINST, share_given
 from ..model.deformations import is_word
 from ..util.errors import FlexactError
-from ..util.quantities import NOTCH, QuantityError, as_typed, measured, quantity
+from ..util.quantities import NOTCH, Quantity, QuantityError, as_typed, measured, quantity
 from ..util.text import in_short
 from ..util.units import METRES, Units
 
@@ -44,10 +44,6 @@ class RequestError(FlexactError, ValueError):
         return type(self), self.messages
 
 
-class Plain(float):
-    """The stiffness of a notch without a unit: in those of the model."""
-
-
 def _target(text: str) -> int | str:
     """A point or element as it is written: its number, or its name."""
     text = text.strip()
@@ -59,9 +55,10 @@ def _target(text: str) -> int | str:
 StrokeRequest = tuple[object, str, float, float, bool]
 #: A misalignment: of which clamp, along what, by how much, and about which point.
 MisalignmentRequest = tuple[object, str, float, object]
-#: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
-#: (element, deformation) by numbers or names, or with the end as the third.
-ReleaseRequest = dict[tuple[Any, ...], float]
+#: Deformations that are released, with the stiffness of each one's notch, in the units of the
+#: model or a text; 0: ideal. Each is (element, deformation) by numbers or names, or with the end
+#: as the third.
+ReleaseRequest = dict[tuple[Any, ...], Quantity]
 
 
 def shift_of(text: str | float) -> float:
@@ -107,14 +104,14 @@ def release_of(text: str) -> ReleaseRequest:
         one = _target(found["part"]), int(which) if which.isdigit() else which
         at = () if found["at"] is None else (_target(found["at"]),)
         try:
-            given = 0.0 if found["notch"] is None else as_typed(found["notch"], NOTCH)
-            notch = quantity(given, NOTCH) if isinstance(given, str) else Plain(given)
+            notch = 0.0 if found["notch"] is None else as_typed(found["notch"], NOTCH)
+            is_right = (quantity(notch, NOTCH) if isinstance(notch, str) else notch) >= 0.0
         except QuantityError:
-            notch = -1.0
-        if not notch >= 0.0:
+            is_right = False
+        if not is_right:
             raise RequestError(
-                "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
-                f"not {in_short(found['notch'].strip())}"
+                "the stiffness of a notch is a number from 0, such as 3.5Nm/rad (of an elongation "
+                f"5N/mm), not {in_short(found['notch'].strip())}"
             )
         made[(*one, *at)] = notch
     return made
@@ -360,14 +357,13 @@ def _pair(given: object) -> tuple[Any, ...]:
     raise TypeError(_REQUEST_RELEASE.format(in_short(given)))
 
 
-def _stiffness(given: Any) -> float:
+def _stiffness(given: Any) -> Quantity:
     value = 0.0 if given is None else measured(given, NOTCH)
-    value = value if isinstance(given, str) else Plain(value)
     if not 0.0 <= value < float("inf"):
         raise RequestError(
             f"the stiffness of a notch is a finite number from 0, not {in_short(given)}"
         )
-    return value
+    return given if isinstance(given, str) else value
 
 
 def _stroke(given: object, units: Units) -> StrokeRequest:

@@ -176,7 +176,7 @@ def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float]
                 raise model_error("not-held", words, what)
             if not asked.beyond:
                 words = f"the misalignment of {clamp.words} {words_of_direction(coordinate)}"
-                _require_within(value, places.data.size, coordinate, words)
+                _require_within(value, places.data, coordinate, words)
             centre = None
             if about is not None:
                 pivot = places.parts.place_of(node_of(places.parts, about))
@@ -229,7 +229,7 @@ def stroke_of(places: Places, asked: Request) -> tuple[Stroke, FloatArray] | Non
     first, last = sorted((start + offset, stop + offset))
     for value in () if is_any else (start + offset, stop + offset):
         what = f"the stroke of {owner} along {coordinate}"
-        _require_within(value - rest, data.size, coordinate, what)
+        _require_within(value - rest, data, coordinate, what)
     values = np.linspace(first, last, asked.points)
     if values[0] < rest < values[-1]:
         # Where it rests is one of them.
@@ -273,9 +273,9 @@ def strength_of(
     return Strength(node, coordinate, words, rest, asked.share, asked.support, asked.against)
 
 
-def _require_within(value: float, size: float, coordinate: str, what: str) -> None:
+def _require_within(value: float, data: ModelData, coordinate: str, what: str) -> None:
     try:
-        require_within(value, size, coordinate.startswith("r"), what)
+        require_within(value, data.size, coordinate.startswith("r"), what, data.units)
     except ElasticError as error:
         raise model_error("beyond-size", str(error)) from None
 

@@ -21,7 +21,7 @@ from ..show.picture.make import shown_figure
 from ..show.writers import as_bytes
 from ..util.text import file_name, harmless
 from .linear_system import LinearSystem
-from .transfer import about, first_line, frequencies_shown, rows_of, sentence, unsaid
+from .transfer import ROUNDING, about, first_line, frequencies_shown, rows_of, sentence, unsaid
 
 #: A phase that is so near to a tick, in steps, needs no further one.
 _NEAR = 0.1
@@ -40,6 +40,12 @@ def charts_of(system: LinearSystem) -> tuple[tuple[Chart, Chart], ...]:
         for i, unit in enumerate(units):
             groups.setdefault(unit, []).append((o, i))
     x = _across(hertz)
+    # What is no more than rounding beside the others is nothing.
+    largest = np.nanmax(np.where(np.isfinite(response), np.abs(response), 0.0), axis=0)
+    for pairs in groups.values():
+        least = ROUNDING * max(float(largest[pair]) for pair in pairs)
+        for o, i in pairs:
+            response[:, o, i] *= largest[o, i] > least
     made = []
     for k, (unit, pairs) in enumerate(groups.items()):
         label = _labels(system, pairs)

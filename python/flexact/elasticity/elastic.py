@@ -71,6 +71,7 @@ from .solution import (
     choice,
     kept,
     loose_motion,
+    notch_unit,
     policy_of,
     releases_given,
 )
@@ -224,16 +225,13 @@ class Elastic(Frozen):
             1: "the deck's own elements",
         }
         many = beams.get(self.beams, f"{self.beams} beams a sheet")
-        own = self.data.units
-        released = ", ".join(
-            f"{e}:{k}"
-            + (
-                f" with {own.shown(stiffness, 'N m/rad'):g} {own.symbol('N m/rad')}"
-                if stiffness
-                else ""
-            )
-            for (e, k), stiffness in self.release.items()
-        )
+        index, own = self.data.element_index, self.data.units
+
+        def notch(e: int, k: int, stiffness: float) -> str:
+            said = own.said(stiffness, notch_unit(self.data, index[e], k - 1), 6)
+            return f"{e}:{k} with {said}" if stiffness else f"{e}:{k}"
+
+        released = ", ".join(notch(*pair, stiffness) for pair, stiffness in self.release.items())
         made = f"held {self.held}, drive {self.drive}, {many}"
         return f"{made}, released {released}" if released else made
 

@@ -267,11 +267,12 @@ class Strengths(Frozen):
             strength, fatigue = data.properties.strength[found].T
         is_fatigue = ~np.isnan(fatigue) & (against != "strength")
         allowed = np.where(is_fatigue, fatigue, strength if against != "fatigue" else np.nan)
-        missing = found[np.isnan(allowed)].tolist()
+        # Neither zero nor less is one.
+        missing = found[~(allowed > 0.0)].tolist()
         if missing:
             what = "fatigue strength" if against == "fatigue" else "strength"
             raise ElasticError(_missing(points, missing, what))
-        breaking = np.where(np.isnan(strength), fatigue, strength)
+        breaking = np.where(strength > 0.0, strength, fatigue)
         others = np.flatnonzero(~bears & elastic).tolist()
         left_out = f"the stress in {_named(points, others)} is not known" if others else ""
         return cls(found.astype(np.int32), allowed, is_fatigue, breaking, left_out)

@@ -34,7 +34,7 @@ from ..core.elements import (
 )
 from ..model.data import ModelData, Properties
 from ..util.matrices import complement, span
-from ..util.quantities import NOTCH, Quantity, without_units
+from ..util.quantities import NOTCH, Quantity, measured
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from ..util.units import Units
@@ -84,21 +84,32 @@ def releases_given(points: Points, given: object, units: Units | None = None) ->
     for pair, stiffness in pairs:
         if not isinstance(pair, (tuple, list)) or len(pair) not in (2, 3):
             raise TypeError(_WANTED + in_short(pair))
-        is_text = isinstance(stiffness, str)
-        stiffness = without_units(stiffness, NOTCH)
-        number = stiffness if isinstance(stiffness, (int, float, np.number)) else math.nan
-        if isinstance(stiffness, bool) or not (math.isfinite(number) and number >= 0.0):
+        # Of which kind a text is to be hangs on the deformation.
+        number = measured(stiffness, NOTCH) if isinstance(stiffness, str) else stiffness
+        if not isinstance(number, (int, float, np.number)) or isinstance(number, bool):
+            number = math.nan
+        if not (math.isfinite(number) and number >= 0.0):
             own = [points.data.units.symbol(each) for each in ("N m/rad", "N/m")]
             raise ElasticError(
                 f"the stiffness of a release must be a number from 0 in {own[0]} (of an elongation "
                 f"in {own[1]}), not {in_short(stiffness)}"
             )
         for element, k in points.deformations(*pair):
-            role = int(role_table()[points.data.arrays.element_kind[element], k])
-            unit = "N/m" if role == Role.ELONGATION else "N m/rad"
-            value = float(number) if is_text else taken.si(float(number), unit)
+            unit = notch_unit(points.data, element, k)
+            is_text = isinstance(stiffness, str)
+            value = taken.read(stiffness, unit) if is_text else taken.si(float(number), unit)
             made[int(points.data.arrays.element_number[element]), k + 1] = value
     return made
+
+
+def notch_unit(data: ModelData, element: int, k: int) -> str:
+    """SI unit of the stiffness of a notch in deformation k, from 0, of an element, by its index."""
+    role = role_table()[data.arrays.element_kind[element], k]
+    return "N/m" if role in _LENGTHS else "N m/rad"
+
+
+#: What is stretched or shifted, and not turned or bent.
+_LENGTHS = (Role.ELONGATION, Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z)
 
 
 def _with_stiffness(given: object) -> tuple[object, object]:

@@ -390,7 +390,7 @@ def _motion(at: Solution, points: Points, point: object, name: str) -> tuple[Flo
     if not at.is_held(coordinate):
         raise ElasticError(
             f"{points.words(coordinate)} is not held, so that its motion is none of the inputs: "
-            f'a force on it is ({point!r}, "{name}")'
+            f"a force on it is ({point!r}, {name!r})"
         )
     return np.array(misalignment(points, point, name, 1.0, None, True, METRES).shift(data)), is_turn
 

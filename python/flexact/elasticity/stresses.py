@@ -240,7 +240,8 @@ class Sections(Frozen):
         made = np.array([at_p, at_q, np.maximum(inside, np.maximum(at_p, at_q))])
         if (k := self.necks.hinge).size:
             # In the neck is what the half beside it carries there.
-            piece = np.where(self.necks.end == 0, first, last)[self.necks.half]
+            half = self.necks.half
+            piece = np.where(self.necks.end == 0, first[half], last[half])
             ends = np.arange(k.size)
             of_neck = self._at_ends(_of_necks(carried, piece, self.necks), k)
             normal[k] = of_neck[0][self.necks.end, ends]

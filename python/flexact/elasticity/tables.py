@@ -558,7 +558,7 @@ class PointTable(PlaceTable):
             if not np.isfinite(sizes).any():
                 continue
             bars = [(Bar(0, size, 0.0),) for size in sizes]
-            rows = tuple(map(Row, (listed(each.direction) for each in own), bars))
+            rows = tuple(map(Row, (axis_words(each.direction) for each in own), bars))
             note = "Arrows: held" if math.inf in sizes else ""
             scale, title = log_scale(sizes, own[0].unit, 0.25), f"Principal stiffness of {kind}"
             made.append(BarChart(kind, title, scale, (Group("", rows),), note))

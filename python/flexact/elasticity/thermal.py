@@ -21,7 +21,7 @@ import numpy as np
 from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind, Role, role_table
-from ..model.data import ModelData
+from ..model.data import LARGEST_EXPANSION, ModelData
 from ..show.charts import told
 from ..util.quantities import without_units
 from ..util.records import Frozen
@@ -44,8 +44,6 @@ _STILL = 1.0e-6
 _FAR = 1.0e3
 #: Motions and places below this part of what warmth makes of the model's size are not told.
 _TOLD = 1.0e-4
-#: No solid expands by more for a kelvin [1/K].
-_LARGEST = 1.0e-2
 #: How many bodies and parts are told of.
 _MOST = 6
 
@@ -185,7 +183,7 @@ def warmth_of(
 
     def coefficient(value: object) -> float:
         made = number_given(without_units(value, "1/K"), "a coefficient of expansion [1/K]")
-        if abs(made) > _LARGEST:
+        if abs(made) > LARGEST_EXPANSION:
             raise ElasticError(
                 f"no material has a coefficient of expansion of {made:g} /K: for {made:g} um/m/K "
                 f"write {made:g}e-6, or '{made:g} ppm/K'"

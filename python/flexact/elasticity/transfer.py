@@ -17,6 +17,8 @@ from ..util.loading import VERSION
 from ..util.text import file_name, harmless, table, wrapped
 from .linear_system import FORCE, VELOCITY, LinearSystem, Signal
 
+#: Gains of one unit that are below this part of the largest one are rounding.
+ROUNDING = 1e-13
 #: Columns of text where nobody says how many there are.
 WIDTH = 80
 #: Poles and zeros that are told.
@@ -66,10 +68,16 @@ def _acts(signal: Signal) -> str:
     return f"{kind if signal.kind == FORCE else ''}{signal.label}"
 
 
-def sentence(pair: LinearSystem) -> str:
-    """What one output does with one input: at rest, and at the first resonance."""
+def sentence(pair: LinearSystem, least: float = 0.0) -> str:
+    """What one output does with one input: at rest, and at the first resonance.
+
+    Args:
+        pair: The two.
+        least: A gain at rest that is smaller is rounding.
+    """
     (acts,), (sees,) = pair.inputs, pair.outputs
     gain, unit = float(pair.static_gain[0, 0]), pair.gain_units[0][0]
+    gain = 0.0 if abs(gain) < least else gain
     at_rest = f"{gain:.4g} {unit}".removesuffix(" 1") + " at rest"
     if not math.isfinite(gain):
         at_rest = "at rest it moves without limit"
@@ -88,13 +96,21 @@ def sentence(pair: LinearSystem) -> str:
 def describe(system: LinearSystem, width: int = WIDTH) -> str:
     """Static gains, poles and zeros for people, in rows of a width."""
     made = [harmless(file_name(system.name))] if system.name else []
-    for _, _, pair in _pairs(system):
-        made += [wrapped(harmless(sentence(pair)), width), ""]
-        made += [table(rows_of(pair), width), ""]
+    for o, i, pair in _pairs(system):
+        made += [wrapped(harmless(sentence(pair, _least(system)[o, i])), width), ""]
+        rows = rows_of(pair)
+        made += [table(rows, width), ""] if len(rows) > 1 else []
         told = unsaid(pair)
         made += [wrapped(told, width), ""] if told else []
     made.append(wrapped(about(system), width))
     return "\n".join(made)
+
+
+def _least(system: LinearSystem) -> FloatArray:
+    """(outputs, inputs) below which a gain at rest is rounding beside others of its unit."""
+    size = np.abs(np.where(np.isfinite(system.static_gain), system.static_gain, 0.0))
+    units = np.array(system.gain_units)
+    return np.asarray(ROUNDING * np.array([[size[units == u].max() for u in row] for row in units]))
 
 
 def rows_of(pair: LinearSystem) -> list[tuple[str, ...]]:
@@ -166,8 +182,9 @@ def about(system: LinearSystem) -> str:
     made += f"{many} of the {system.modes} modes of the mesh, the others by what they do statically"
     hertz = first / 3.0
     worst: list[float] = []
+    gain = np.abs(system.static_gain)
     with np.errstate(divide="ignore", invalid="ignore"):
-        bound = system.error_bound(hertz) / np.abs(system.static_gain)
+        bound = np.where(gain < _least(system), 0.0, system.error_bound(hertz) / gain)
     for o, out in enumerate(system.outputs):
         worst += [] if out.kind == VELOCITY else bound[o][np.isfinite(bound[o])].tolist()
     if worst:

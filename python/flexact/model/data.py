@@ -230,14 +230,21 @@ def column_labels(arrays: ModelArrays, label: IndexArray) -> Labels:
 
 #: No sheet or wire is longer [m]; moduli [Pa] and densities [kg/m3] of solids are within these.
 _LONGEST, _MODULI, _DENSITIES = 5.0, (1.0e8, 1.0e12), (100.0, 3.0e4)
-#: No material is stronger than this part of its modulus.
-_STRONGEST = 1.0 / 20.0
+#: No material is stronger than this part of its modulus, and no solid weaker than that [Pa].
+_STRONGEST, _WEAKEST = 1.0 / 20.0, 1.0e5
+#: No solid expands by more for a kelvin [1/K].
+LARGEST_EXPANSION = 1.0e-2
+#: Free fall on Earth [m/s2].
+_FREE_FALL = 9.7, 9.9
 #: What a number in another unit is to be multiplied with, and that unit, by the units of a model.
 _MODULUS_UNITS = {
     "m": ((1e9, "GPa"), (1e6, "MPa (N/mm2)"), (1e-6, "N/m2 times mm2")),
     "mm": ((1e3, "GPa"), (1e-6, "Pa, or of a section in metres")),
 }
-_DENSITY_UNITS = ((1e3, "g/cm3"), (1e9, "kg/mm3"), (1e12, "t/mm3"), (1e-3, "g/m3"))
+_DENSITY_UNITS = {
+    "m": ((1e3, "g/cm3"), (1e9, "kg/mm3"), (1e12, "t/mm3"), (1e-3, "g/m3")),
+    "mm": ((1e3, "g/cm3"), (1e-3, "g/m3, as of an EM in kg/m")),
+}
 
 
 _METRES = {"m": "metres", "mm": "mm"}
@@ -248,7 +255,12 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     # Most models are small, and nothing of their size is made for them.
     if float(np.ptp(data.arrays.node_value[:3], axis=1).max(initial=0.0)) > _LONGEST:
         yield from _long(data, _lengths(data))
-    if data.properties is None or data.given_appearance is None:
+    if data.loads is not None:
+        yield from _falls(data, float(np.linalg.norm(data.loads.gravity)))
+    if data.properties is None:
+        return
+    yield from _unlike_any(data)
+    if data.given_appearance is None:
         return
     looks = data.appearance
     b, h = looks.dimensions.T
@@ -271,7 +283,7 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     yield from _outside(
         *(data, np.where(per_length, mass, 0.0) / known, _DENSITIES),
         *("unlikely-density", "a density of {}"),
-        *("kg/m3", _DENSITY_UNITS),
+        *("kg/m3", _DENSITY_UNITS[units.name]),
         f"densities are in kg/m3, and EM of a beam in {units.symbol('kg/m')}",
     )
     strength = np.nan_to_num(data.properties.strength).max(axis=1)
@@ -292,6 +304,42 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
             *("thick-section", f"{_named(data, found)} {_is(found)} thicker than long"),
             f"its section is {units.said(size, 'm')} thick: sections are in {_METRES[units.name]}",
         )
+
+
+def _falls(data: ModelData, gravity: float) -> Iterator[Diagnostic]:
+    """A free fall that is a thousand times that on Earth, or a thousandth."""
+    low, high = _FREE_FALL
+    for factor, unit in ((1e3, "m/s2"), (1e-3, "mm/s2")):
+        if low < gravity * factor < high:
+            told = data.units.said(gravity, "m/s2")
+            plain = f"accelerations are in {data.units.symbol('m/s2')}"
+            number = f"{data.units.shown(gravity, 'm/s2'):.4g} is a usual number in {unit}"
+            yield warning("unlikely-gravity", f"free fall is {told}", f"{number}: {plain}")
+
+
+def _unlike_any(data: ModelData) -> Iterator[Diagnostic]:
+    """Strengths and coefficients of expansion that no solid has."""
+    assert data.properties is not None
+    units = data.units
+    strength, fatigue = data.properties.strength.T
+    # What is less than zero has a warning already.
+    amiss = np.abs(data.properties.strength - _WEAKEST / 2.0) <= _WEAKEST / 2.0
+    weak = np.asarray(amiss.any(axis=1))
+    if weak.any():
+        least = units.said(float(np.fmin(strength, fatigue)[weak][0]), "Pa")
+        plain = f"strengths are in {units.symbol('Pa')}, and above zero"
+        words = f"{_named(data, weak)} {_has(weak)} a strength of {least}"
+        yield warning("unlikely-strength", words, plain)
+    above = fatigue > strength
+    if above.any():
+        words = f"{_named(data, above)} {_has(above)} a fatigue strength above the strength"
+        yield warning("unlikely-strength", words, "the strength stands first, that of fatigue then")
+    expansion = data.properties.expansion[:, 0]
+    large = np.abs(expansion) > LARGEST_EXPANSION
+    if large.any():
+        most = float(expansion[large][0])
+        words = f"{_named(data, large)} {_has(large)} a coefficient of expansion of {most:g} /K"
+        yield warning("unlikely-expansion", words, "for 12 um/m/K write 12e-6")
 
 
 def _lengths(data: ModelData) -> FloatArray:

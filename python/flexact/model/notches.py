@@ -133,6 +133,7 @@ class NotchContour:
         known = units_of(units)
         kind = one_of(contour, CONTOURS, "the contour of a notch")
         needed, possible = _SIZES[kind]
+        a_kind = f"an {kind}" if kind == "elliptic" else f"a {kind}"
         given = {"thickness": thickness, "breadth": breadth, "height": height}
         given |= {"radius": radius, "length": length}
         sizes: dict[str, float] = {}
@@ -141,10 +142,10 @@ class NotchContour:
             if value is None and wanted:
                 words = " and ".join(("thickness", "breadth", *needed))
                 raise model_error(
-                    "missing-section", f"a {kind} notch needs its {word}", f"give {words}"
+                    "missing-section", f"{a_kind} notch needs its {word}", f"give {words}"
                 )
             if value is not None and not wanted and word not in possible:
-                raise model_error("surplus-size", f"a {kind} notch takes no {word}", "leave it out")
+                raise model_error("surplus-size", f"{a_kind} notch takes no {word}", "leave it out")
             if value is None:
                 continue
             sizes[word] = length_of(known, value, f"the {word} of a notch")

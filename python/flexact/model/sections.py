@@ -15,7 +15,7 @@ from ..util.quantities import Quantity, QuantityError
 from ..util.text import in_short
 from ..util.units import METRES, Units, units_of
 from .arguments import numbers, numbers_of_size, real
-from .data import CrossSection
+from .data import LARGEST_EXPANSION, CrossSection
 from .draft import Shape
 from .names import nearest
 
@@ -89,14 +89,15 @@ class Material:
             except (TypeError, ValueError, OverflowError):
                 number = math.nan
             may_be_zero = what in ("density", "expansion")
-            if not (math.isfinite(number) and (number >= 0.0 or what == "expansion")) or (
-                number == 0.0 and not may_be_zero
-            ):
+            is_right = math.isfinite(number) and (number >= 0.0 or what == "expansion")
+            is_right &= number != 0.0 or may_be_zero
+            is_right &= what != "expansion" or abs(number) <= LARGEST_EXPANSION
+            if isinstance(given, bool) or not is_right:
                 raise model_error(
                     "bad-material",
                     f"{what} of {self._words} cannot be {in_short(given)}",
                     f"give E, G and strengths in {pressure}, the density in kg/m3, the expansion "
-                    "in 1/K",
+                    "in 1/K, such as 12e-6",
                 )
             object.__setattr__(self, what, number)
 

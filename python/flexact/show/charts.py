@@ -255,6 +255,8 @@ class Mark(NamedTuple):
     series: int
     points: tuple[tuple[float, float], ...]
     words: str
+    is_open: bool = False
+    """Whether nothing is drawn above it, and the words stand there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -408,7 +410,7 @@ def mark_side(mark: Mark, across: float, up: float) -> tuple[int, bool]:
         up: Likewise, from 0 at the bottom.
     """
     side = 0 if len(mark.points) > 1 else 1 if across < 0.5 else -1
-    return side, up > _HIGH
+    return side, up > _HIGH and not mark.is_open
 
 
 def apart(wanted: FloatArray, gap: float, low: float, high: float) -> FloatArray:

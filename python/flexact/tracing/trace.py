@@ -130,7 +130,7 @@ def trace(
     held = Held(data)
     size = 1.0 if wished is None else wished / held.size
     if wished is not None and wished > data.size and size > 1.0 and not beyond:
-        units = data.units
+        units = result.given.units
         whole = f"the whole model, {units.said(data.size, 'm', 3)}"
         raise TraceError(larger_in_words("the length", units.said(wished, "m", 6), whole, "20mm"))
     most = size / steps

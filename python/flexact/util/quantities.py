@@ -52,7 +52,8 @@ _KINDS = {
     "N m": _Kind("a moment", "0.5Nm or 20Nmm", {"Nm": 0, "mNm": -3, "Nmm": -3, "kNm": 3}),
     "N/m": _Kind("a stiffness", "5N/mm or 5000", {"N/m": 0, "N/mm": 3, "kN/m": 3, "N/um": 6}),
     "N m/rad": _Kind(
-        *("a stiffness", "3.5Nm/rad or 3.5"), {"Nm/rad": 0, "mNm/rad": -3, "Nmm/rad": -3}
+        *("a stiffness of a rotation", "3.5Nm/rad or 3.5"),
+        {"Nm/rad": 0, "mNm/rad": -3, "Nmm/rad": -3},
     ),
     "m/s2": _Kind("an acceleration", "9.81m/s2 or 9.81", {"m/s2": 0, "mm/s2": -3}),
     "1/K": _Kind("an expansion", "11e-6 or 11um/m/K", {"1/K": 0, "ppm/K": -6, "um/m/K": -6}),
@@ -121,10 +122,16 @@ def measured(given: object, unit: str) -> float:
     value, said = _read(given, unit)
     if not said:
         raise QuantityError(
-            f"a text says its unit, such as {_KINDS[unit].example.split(' or ')[0].split(',')[0]}: "
-            f"{in_short(given)} does not; give a number, or its unit"
+            f"a text says its unit, such as {_with_unit(unit)}: {in_short(given)} does not; give a "
+            "number, or its unit"
         )
     return value
+
+
+def _with_unit(unit: str) -> str:
+    """The first example of a kind that says its unit."""
+    examples = re.split(r", | or ", _KINDS[unit].example)
+    return next(each for each in examples if _NUMBER.fullmatch(each)[2])  # type: ignore[index]
 
 
 def without_units(given: object, unit: str) -> Any:

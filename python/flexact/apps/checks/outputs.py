@@ -191,13 +191,21 @@ _RULES: dict[str, tuple[str, str]] = {
         "A density is that of no solid.",
         "Give densities in kg/m3, and EM of a beam in kg/m.",
     ),
-    "unlikely-strength": (
-        "A part is said to be stronger than any material.",
-        "Give strengths in the units of moduli: Pa, with UNITS mm MPa.",
+    "unlikely-expansion": (
+        "A coefficient of expansion is that of no solid.",
+        "Give it in 1/K, such as 12e-6.",
+    ),
+    "unlikely-gravity": (
+        "Free fall is a thousand times that on Earth, or a thousandth.",
+        "Give it in m/s2, or in mm/s2 where the deck is in mm.",
     ),
     "unlikely-modulus": (
         "A modulus of elasticity is that of no solid.",
         "Give E in Pa, and EA in N.",
+    ),
+    "unlikely-strength": (
+        "A strength is that of no solid, or below that of fatigue.",
+        "Give strengths in Pa, or in MPa where the deck is in mm.",
     ),
     "unused-node": (
         "A fixed point that no element uses is left out.",

@@ -306,20 +306,20 @@ _FREE_FALL = 9.80665
 
 
 def gravity(text: str) -> tuple[Quantity, ...]:
-    """A direction of free fall, such as -z, or its three components, as an option's type."""
+    """A direction of free fall, such as -z, or its components, as an option's type."""
     found = re.fullmatch(r"([+-]?)([xyz])", text.strip())
     if found is not None:
         size = f"{'-' if found[1] == '-' else ''}{_FREE_FALL}m/s2"
         return tuple(size if axis == found[2] else 0.0 for axis in "xyz")
     parts = text.split(",")
     try:
-        if len(parts) != 3:
+        if len(parts) not in (2, 3):
             raise ValueError
         return tuple(as_typed(part, "m/s2") for part in parts)
     except (QuantityError, ValueError):
         raise argparse.ArgumentTypeError(
-            "a direction in which everything falls is wanted, such as -z, or three accelerations, "
-            f"such as 0,0,-9.81m/s2, not {text!r}"
+            "a direction in which everything falls is wanted, such as -z, or accelerations along "
+            f"x, y, z, such as 0,0,-9.81m/s2, not {text!r}"
         ) from None
 
 
@@ -342,6 +342,11 @@ def opened(deck: DeckFile, bar: Bar, chosen: argparse.Namespace) -> ModelData:
         model = replace(model, units=units_of(units))
     if falls := getattr(chosen, "gravity", None):
         acceleration = [model.units.read(part, "m/s2") for part in falls]
+        if model.planar and any(acceleration[2:]):
+            raise BatchError("the model is planar: write --gravity=-y, or --gravity=0,-9.81m/s2")
+        if not model.planar and len(acceleration) < 3:
+            raise BatchError("the model is spatial: write --gravity=-z, or --gravity=0,0,-9.81m/s2")
+        acceleration = [*acceleration, 0.0][:3]
         nothing = np.zeros((model.arrays.node_number.size, 3))
         loads = model.loads or Loads(nothing, nothing, np.zeros(3))
         model = replace(model, loads=replace(loads, gravity=np.array(acceleration)))

@@ -7,9 +7,13 @@ import argparse
 import re
 from pathlib import Path
 
-from ...costs.request import DRIVE, HELD, RequestError, release_of
+import numpy as np
+
+from ...core.elements import Class
+from ...costs.request import DRIVE, HELD, ReleaseRequest, RequestError, release_of
 from ...deck.rendering import ModelError
 from ...elasticity import ElasticError, elastic
+from ...elasticity.points import Coordinate
 from ...elasticity.state_space import StateSpace
 from ...elasticity.system_files import TRANSFERS
 from ...elasticity.transfer import WIDTH, csv_text, describe
@@ -33,11 +37,6 @@ _PLACE = re.compile(r"(?s)(.+):\s*(\w+)\s*(\+?)=(.+)")
 def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
     """Find the transfer of the deck, say and write it."""
     deck = one_deck(chosen)
-    if not chosen.sources or not chosen.sinks:
-        raise BatchError(
-            "from what to what? such as --from stage:y --to stage:y; base motion is "
-            "--from 'base:y motion'"
-        )
     to_stdout = STDOUT in chosen.output
     if to_stdout and chosen.json:
         raise BatchError("--json and -o - both go to standard output: choose one")
@@ -86,15 +85,23 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         ElasticError: something is not there, or has no answer.
     """
     try:
-        release: dict[tuple[object, ...], float | str] = {}
+        release: ReleaseRequest = {}
         for text in chosen.release:
-            for which, notch in release_of(text).items():
-                release[which] = f"{notch!r} N m/rad" if notch else 0.0
+            release.update(release_of(text))
         beams = int(chosen.beams) if chosen.beams.isdigit() else chosen.beams
         found = elastic(model, chosen.held, chosen.drive, release, beams)
     except (RequestError, TypeError) as error:
         raise BatchError(str(error)) from None
-    asked = chosen.sources, chosen.sinks, chosen.damping, chosen.modes
+    drives = np.argwhere(model.data.arrays.coordinate_class.T == Class.INDEPENDENT).tolist()
+    every = [Coordinate(*each) for each in drives]
+    own = [f"{found.points.number(each.node)}:{found.points.name(each)}" for each in every]
+    sources, sinks = chosen.sources or own, chosen.sinks or own
+    if not sources or not sinks or (own in (sources, sinks) and len(own) > 1):
+        raise BatchError(
+            "from what to what? such as --from stage:y --to stage:y; base motion is "
+            "--from 'base:y motion'"
+        )
+    asked = sources, sinks, chosen.damping, chosen.modes
     if chosen.stroke is None:
         return found.state_space(*asked)
     place = _PLACE.fullmatch(chosen.stroke)
@@ -153,7 +160,8 @@ VERB = Verb(
             action="append",
             default=[],
             metavar="POINT:C",
-            help="a force or moment there, such as stage:y; a pair of opposite ones "
+            help="a force or moment there, such as stage:y (by default where the only declared "
+            "coordinate is); a pair of opposite ones "
             "stage:y-base:y; the motion of what is fixed 'base:y motion', of all of it "
             "'ground:y motion'; may be repeated",
         ),

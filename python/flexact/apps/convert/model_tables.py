@@ -242,6 +242,12 @@ def _section(data: ModelData, i: int, kind: ElementKind, remarks: Remarks) -> En
         remarks.leave_out("cross-sections other than whole rectangles and circles")
     if given is None:
         return entry
+    for name, words in (
+        ("strength", "strengths"),
+        ("expansion", "coefficients of expansion"),
+        ("fillet", "radii of fillets"),
+    ):
+        remarks.leave_out(words, int(not np.isnan(getattr(given, name)[i, 0])))
     stiff, heavy = (
         tuple(row[~np.isnan(row)].tolist()) for row in (given.stiffness[i], given.mass[i])
     )

@@ -281,7 +281,7 @@ def _add_panel(
             told.append(peak)
             if subject.stress is not None:
                 value = drawing.data.units.shown(value, UNITS[subject.stress.quantity])
-            _add_label(frame, room, peak, peak - foot, f"{value:+.3g}")
+            _add_label(frame, room, peak, peak - foot, signed(value))
         for place, words in subject.space.labels if subject.space is not None else ():
             there = axes.transData.transform(canvas.view.project(place)[:2])
             _add_label(frame, room, np.asarray(there), np.array((0.3, 1.0)), words)
@@ -355,8 +355,14 @@ def _add_legend(
     axes.set_ylim(0.0, 1.0)
     values = ((0.0, -1.0, "left"), (0.5, 0.0, "center"), (1.0, 1.0, "right"))
     for place, value, side in values if stress.largest > 0.0 else values[1:2]:
-        words = f"{units.shown(value * stress.largest, unit):+.3g}" if value else "0"
+        words = signed(units.shown(value * stress.largest, unit)) if value else "0"
         frame.text(sides[0] + place * width, top + 2.15 * line, words, "legend", ha=side)
+
+
+def signed(value: float) -> str:
+    """Three digits and a sign, such as "+0.333" or "-1000"."""
+    short = f"{value:+.3g}"
+    return f"{value:+.0f}" if "e" in short and 1.0 <= abs(value) < 1e5 else short
 
 
 def _add_label(frame: _Frame, room: Room, place: FloatArray, away: FloatArray, words: str) -> None:
