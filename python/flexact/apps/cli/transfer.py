@@ -13,7 +13,7 @@ from ...core.elements import Class
 from ...costs.request import DRIVE, HELD, ReleaseRequest, RequestError, release_of
 from ...deck.rendering import ModelError
 from ...elasticity import ElasticError, elastic
-from ...elasticity.points import Coordinate
+from ...elasticity.points import Coordinate, Points
 from ...elasticity.state_space import StateSpace
 from ...elasticity.system_files import TRANSFERS
 from ...elasticity.transfer import WIDTH, csv_text, describe
@@ -93,8 +93,7 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
     except (RequestError, TypeError) as error:
         raise BatchError(str(error)) from None
     drives = np.argwhere(model.data.arrays.coordinate_class.T == Class.INDEPENDENT).tolist()
-    every = [Coordinate(*each) for each in drives]
-    own = [f"{found.points.number(each.node)}:{found.points.name(each)}" for each in every]
+    own = [_words(found.points, Coordinate(*each)) for each in drives]
     sources, sinks = chosen.sources or own, chosen.sinks or own
     if not sources or not sinks or (own in (sources, sinks) and len(own) > 1):
         raise BatchError(
@@ -118,6 +117,16 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         raise BatchError(str(error)) from None
     (state,) = found.along(node, name, [there], from_rest=bool(by))
     return state.state_space(*asked)
+
+
+def _words(points: Points, coordinate: Coordinate) -> str:
+    """A coordinate as it is asked for, by the body that its node stands for where it has a name."""
+    parts, node = points.parts, coordinate.node
+    body = parts.body_at.get(node)
+    name = ""
+    if body is not None and parts.first_points[body] == node and parts.of_body(body).is_named:
+        name = parts.of_body(body).name
+    return f"{name or points.number(node)}:{points.name(coordinate)}"
 
 
 def ratios(text: str) -> float | list[float]:
