@@ -16,7 +16,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
          stiffness_cases
 
 # Tests that compare words with files.
-WORDED := wording advice_wording broken_decks appearance docs docs_sessions element_table gallery keywords
+WORDED := wording advice_wording broken_decks appearance builder_sections docs docs_sessions element_table gallery keywords
 
 .PHONY: demo test test-all check core-test lint wording gallery vscode attack attack-steps fuzz crossing bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
 

@@ -46,6 +46,7 @@ With stiffness and mass
     PointTable, StrokeTable: stiffness in any frame at a point, and along a stroke
     Warmed: a state in which something is warm: drift, thermal centre
     Limits: how far a stroke may go
+    Scatter: what the workshop's scatter does, of `elastic(...).scatter(...)`
     StateSpace: A, B, C, D, poles and frequency response of a state, for a controller
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
@@ -133,6 +134,7 @@ if _typing.TYPE_CHECKING:
     from .show.notebook.output import Results, viewer
     from .sweeps.crossings import Crossing, Crossings
     from .sweeps.parameters import grid
+    from .sweeps.scatter_result import Scatter
     from .sweeps.sweep import sweep
     from .sweeps.table import Table
     from .sweeps.tolerances import Tolerances, tolerances
@@ -148,6 +150,7 @@ _HOMES = {
     "analysis.exact": ("ExactBases",),
     "analysis.result": (
         "Motion",
+        "Scatter",
         "SelfStress",
     ),
     "analysis.verdict": (
@@ -230,6 +233,7 @@ _HOMES = {
         "Crossings",
     ),
     "sweeps.parameters": ("grid",),
+    "sweeps.scatter_result": ("Scatter",),
     "sweeps.sweep": ("sweep",),
     "sweeps.table": ("Table",),
     "sweeps.tolerances": (
@@ -283,6 +287,7 @@ __all__ = [
     "Proof",
     "ReinforcedSheet",
     "Results",
+    "Scatter",
     "SelfStress",
     "Severity",
     "Shape",

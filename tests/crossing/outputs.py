@@ -25,11 +25,13 @@ from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.scene import Shown, Stage
 from flexact.apps.watch.worker import answer_of
 from flexact.costs.cost import COSTS
+from flexact.elasticity.system_files import TRANSFERS
 from flexact.elasticity.tables import TABLES as POINT_TABLES
 from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
 from flexact.show.writers import PAGES, PICTURES, STILLS, TABLES
+from flexact.sweeps.scatter_result import SCATTERS
 from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.
@@ -100,9 +102,16 @@ def _commands() -> Iterator[str]:
     yield "cost DECK --json"
     for suffix in COSTS.suffixes:
         yield f"cost DECK -o OUT/cost{suffix} --beams 1 --release none"
+    scatter = "cost DECK --scatter 20um,0.1mrad --samples 6 --beams 1 -j 1"
+    yield f"{scatter} --json"
+    for suffix in (*SCATTERS.suffixes, *TABLES):
+        yield f"{scatter} -o OUT/scatter{suffix}"
     for suffix in POINT_TABLES.suffixes:
         yield f"table DECK -o OUT/table{suffix} --beams 1"
     yield "table DECK --json --beams 1 --warm 10 --expansion 12e-6 --units mm"
+    yield "transfer DECK --beams 1 --modes 3 --json"
+    for suffix in TRANSFERS.suffixes:
+        yield f"transfer DECK --beams 1 --modes 3 -o OUT/transfer{suffix}"
     yield "declare DECK -o OUT/declared.dat"
     yield "regress DECK DECK2 --against OUT --store"
     for suffix in PICTURES:

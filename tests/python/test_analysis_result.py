@@ -66,7 +66,7 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
     assert "\n" not in text
     read = json.loads(text)
     assert list(read) == [
-        *("format", "deck", "flexact", "verdict", "under_constrained", "over_constrained"),
+        *("format", "deck", "flexact", "units", "verdict", "under_constrained", "over_constrained"),
         *("margin", "margins", "accuracy", "usual_accuracy", "degrees_of_freedom", "counts"),
         *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
         *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),

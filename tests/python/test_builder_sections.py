@@ -3,14 +3,18 @@
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
+from wording import AsStored
 from wrong_use import code_of
 
 from flexact import Material, Model, ModelError
 from flexact.model.draft import Shape
 from flexact.model.sections import MATERIALS, constants_of
+
+ROOT = Path(__file__).resolve().parents[2]
 
 RECT, CIRC = 1, 2
 
@@ -134,10 +138,14 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
     assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
     assert set(draft.stiffness) == {0, 1}, "the body has none"
     # Of a body it says how it expands.
-    model.made_of("hinge body", "steel")
-    draft = model._change()
-    assert set(draft.stiffness) == {0, 1}
-    assert draft.expansion[2] == (pytest.approx(12e-6, rel=0.1),)
+    model.made_of("hinge body", "aluminium")
+    assert [draft.expansion[k][0] for k in (0, 1, 2)] == [8.6e-6, 12e-6, 23e-6]
+    with pytest.raises(ModelError) as error:
+        model.made_of("hinge body", "PA12")
+    assert code_of(error) == "no-expansion"
+    with pytest.raises(ModelError) as error:
+        model.made_of("hinge body", thickness=0.01)
+    assert code_of(error) == "no-section"
 
 
 def test_common_materials_are_isotropic_within_reason() -> None:
@@ -148,6 +156,30 @@ def test_common_materials_are_isotropic_within_reason() -> None:
         assert 0.25 < material.E / (2 * material.G) - 1 < (0.36 if material.E > 1e10 else 0.41), (
             name
         )
+
+
+def test_the_page_shows_the_known_materials(as_stored: AsStored) -> None:
+    rows = [
+        "| material | E, G [GPa] | density [kg/m3] | strength, fatigue [MPa] | expansion [1e-6/K] |"
+    ]
+    rows.append("|---|---|---|---|---|")
+
+    def told(value: float | None, factor: float) -> str:
+        return "not known" if value is None else f"{value / factor:.4g}"
+
+    for each in MATERIALS.values():
+        both = f"{told(each.strength, 1e6)}, {told(each.fatigue, 1e6)}"
+        rows.append(
+            f'| "{each.name}" | {told(each.E, 1e9)}, {told(each.G, 1e9)} | {each.density:g} '
+            f"| {both} | {told(each.expansion, 1e-6)} |"
+        )
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    start = "<!-- materials: make wording -->\n"
+    before, _, rest = page.partition(start)
+    behind = rest.partition("<!-- end of materials -->")[2]
+    table = "\n".join(rows)
+    filled = f"{before}{start}{table}\n<!-- end of materials -->{behind}"
+    as_stored(filled, ROOT / "docs" / "python.md")
 
 
 def test_shear_as_a_public_program_writes_it() -> None:

@@ -26,6 +26,7 @@ _PARTS = {"element", "elements", "part", "body", "target", "release", "freedom"}
 #: Those of such a name that take something else.
 _OTHERS = {
     *(("cost", "points"), ("Tolerances.quantiles", "at"), ("Elastic.notes_of", "at")),
+    ("Scatter.quantiles", "at"),
     *(("Analysis.advice", "body"), ("Model.beam", "release")),
 }
 
@@ -91,6 +92,10 @@ def warm(**given: Any) -> flexact.Warmed:
     return elastic().warmed(1.0, expansion=1e-5, **given)
 
 
+def scattered(**given: Any) -> str:
+    return str(elastic().scatter("20um", samples=3, workers=1, **given).to_csv())
+
+
 def state() -> flexact.State:
     if "state" not in STATES:
         (STATES["state"],) = elastic().along(TOP.position, "x", 1e-3)
@@ -144,6 +149,8 @@ Asked = tuple[dict[str, Any], Callable[[Any], Any]]
 ARGUMENTS: dict[tuple[str, str], Asked] = {
     ("Elastic.along", "node"): (FORMS, lambda n: elastic().along(n, "x", 1e-3)),
     ("Elastic.limits", "point"): (FORMS, lambda n: elastic().limits(n, "x", 0.01).high),
+    ("Elastic.scatter", "at"): (FORMS, lambda n: scattered(at=n)),
+    ("Elastic.scatter", "stroke"): (FORMS, lambda n: scattered(stroke=(n, "x", 0.0, "1 mm"))),
     ("Elastic.critical_misalignment", "node"): (
         FEET,
         lambda n: elastic().critical_misalignment(n, "ry"),

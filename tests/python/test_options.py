@@ -25,6 +25,7 @@ _VALUES = {
     **{"RATIO": ("1%", "2%"), "POINT:C=VALUE": ("1:x=1mm", "1:x=2mm")},
     **{"PART": ("-1%", "-2%"), "NAME": ("a", "b"), "POINTS": ("1", "2")},
     **{"X,Y,Z": ("0,0,1mm", "0,0,2mm"), "KELVIN": ("10", "20"), "ALPHA": ("1e-5", "2e-5")},
+    **{"SD,SD,thickness=SD": ("20um", "30um")},
     **{
         "DIRECTION": ("x", "y"),
         "GX,GY,GZ": ("0,0,1", "0,0,2"),

@@ -24,6 +24,8 @@ from .designs import Number, in_words
 _MOST, _MOST_DIVIDED = 600, 60
 #: That it buckles at so many times its loads is not told.
 _FAR = 1.0e3
+#: A direction is told without components below this part of it.
+_ALONG = 0.02
 #: Forces below this part of the largest pull or push of a wire are none, as motions are.
 _NOTHING = 1.0e-3
 
@@ -153,7 +155,7 @@ def at_rest_in_words(result: Result) -> str:
     told = []
     way = np.array(rest.sag)
     far = float(np.linalg.norm(way))
-    way = np.where(np.abs(way) > _NOTHING * far, way, 0.0)
+    way = np.where(np.abs(way) > _ALONG * far, way, 0.0)
     if rest.what:
         told.append(f"{rest.what} moves by {_said(far, 'm')} along {direction_words(way)}")
     if rest.stress is not None:

@@ -19,11 +19,13 @@ from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elastic import RawMatrices
 from ..core.elements import Class, Dual, NodeKind
+from ..core.progress import Progress
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from ..model.model import Model
 from ..model.reading import read
 from ..model.variation import with_classes
+from ..util.loading import feature
 from ..util.quantities import Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.rotations import vector_of_euler
@@ -550,6 +552,83 @@ class Elastic(Frozen):
         there = supported(at_rest(rigid, held), self.points, driven)
         far = math.pi / 2.0 if path.is_turn else self.data.size
         return limits_of(path, Asked(share, support, tuple(there), far)).shown(self.units)
+
+    def scatter(
+        self,
+        position: Quantity | None = None,
+        angle: Quantity | None = None,
+        thickness: Quantity | None = None,
+        *,
+        samples: int = 1000,
+        seed: int = 0,
+        limits: Mapping[str, Quantity] | None = None,
+        stroke: str | Sequence[object] | None = None,
+        at: object = None,
+        against: str | None = None,
+        beyond: bool = False,
+        workers: int | None = None,
+        resume: str | os.PathLike[str] | None = None,
+        progress: Progress | None = None,
+        name: str | None = None,
+    ) -> Any:
+        """What the workshop's scatter does to stress, frequencies, errors and force.
+
+        Each clamp is off along and about each direction in which it holds, and each sheet, wire,
+        beam and bar is thicker or thinner, all normal and independent. Each sample is sought in one
+        way from the state as designed, on one mesh (8 beams a sheet, or as many as the model has),
+        and shifted by what finer meshes, if the model has them, make of the design; frequencies are
+        linear about it. The first 100 samples are computed on the whole path from
+        rest, on all meshes of the model, as well, and the difference is told. Without the deck's
+        loads.
+
+        Args:
+            position: Standard deviation of the three positions of each clamp [m, or the model's
+                unit of length], or a text such as "20um".
+            angle: Of its three turns [rad], about its own point.
+            thickness: Of the thickness of each part, of a wire its diameter.
+            samples: How many. Again as many, and 16 for each input at least, go into the
+                total indices.
+            seed: The same seed makes the same samples, whatever the number of workers.
+            limits: What a good sample keeps, by quantity: "stress", "force", and errors "x" to
+                "rz" at most in size, "frequency" and "parasitic" at least, "strength" a part of it,
+                such as {"strength": 0.5, "frequency": 9}. By default half of the strength, where it
+                is given.
+            stroke: As for `flexact.cost`: both ends count beside the state at rest; force and
+                errors are those at the farther end.
+            at: The point whose errors are told; by default the driven one, as for `flexact.cost`.
+            against: As for `limits`.
+            beyond: Whether scatter and stroke may be larger than the model.
+            workers: So many processes at most; by default one a processor.
+            resume: A file that keeps what is done until all is, so that a run that was killed
+                goes on where it was.
+            progress: Called with what is being done, and how much of it is done, from 0 to 1.
+            name: What the result is called; by default the model's name.
+
+        Returns:
+            A `flexact.Scatter`.
+
+        Raises:
+            UnknownError, ModelError: a point or coordinate is not there.
+            ElasticError: nothing has a stiffness, a section or strength that is needed is not
+                known, or something else is wrong with what is asked for.
+            RequestError: the stroke is not understood.
+            StrokeError: the stroke was not reached as designed.
+            JournalError: what is to be resumed is of another run.
+        """
+        return feature("scatter")(
+            *(self, position, angle, thickness),
+            samples=samples,
+            seed=seed,
+            limits=limits,
+            stroke=stroke,
+            at=at,
+            against=against,
+            beyond=beyond,
+            workers=workers,
+            resume=resume,
+            progress=progress,
+            name=name,
+        )
 
     def strengths(self, against: str | None = None) -> Strengths:
         """What the stress in the elastic parts is compared with, in SI units.

@@ -372,8 +372,8 @@ def assembled(solver: Solver, off: Sequence[Imperfection], held: Held) -> Soluti
         misfit += each.value * each.misfit
     way = solver.nothing._replace(target=target, misfit=solver.mesh.misfit(misfit))
     if len(off) == 1:
-        return _reached(start, way, 0.0, off[0].value, off[0].words, off[0].unit)
-    return _reached(start, way, 0.0, 1.0, "part of what is off", "")
+        return reached(start, way, 0.0, off[0].value, off[0].words, off[0].unit)
+    return reached(start, way, 0.0, 1.0, "part of what is off", "")
 
 
 def loaded(start: Solution, factor: float) -> Solution:
@@ -384,7 +384,7 @@ def loaded(start: Solution, factor: float) -> Solution:
     """
     force, gravity = start.solver.loads(factor)
     way = start.way._replace(force=force, gravity=gravity)
-    return _reached(start, way, 0.0, factor, "the loads, as a factor", "")
+    return reached(start, way, 0.0, factor, "the loads, as a factor", "")
 
 
 def driven(
@@ -407,13 +407,13 @@ def driven(
         way = start.way._replace(target=with_drive(solver, start.way.target, drive, values[k]))
         held_here = Solution(solver, here.raw, before, held)
         what, unit = points.words(drive), points.unit(drive)
-        here = _reached(held_here, way, last, values[k], what, unit)
+        here = reached(held_here, way, last, values[k], what, unit)
         last = values[k]
         found[k] = here if locked else freed(here, start.held, drive)
     return tuple(found[k] for k in range(len(values)))
 
 
-def _reached(
+def reached(
     start: Solution, way: Waypoint, begin: float, end: float, what: str, unit: str
 ) -> Solution:
     """The equilibrium at the end of a way, on which something goes from one value to another.

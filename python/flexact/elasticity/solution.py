@@ -399,7 +399,11 @@ class Solution:
     @property
     def lowest_square(self) -> float:
         """The square of the first angular frequency alone [rad^2/s^2]."""
-        return float(elastic.frequencies(*self._asked, 1).values[0])
+        return float(self.lowest(1).values[0])
+
+    def lowest(self, count: int) -> RawModes:
+        """Squares of so many of the lowest angular frequencies, with their modes."""
+        return elastic.frequencies(*self._asked, count)
 
     def compliance(self, point: Point, coordinates: list[Coordinate]) -> Compliance:
         """What a point does under unit loads along and about all of its coordinates."""

@@ -12,7 +12,7 @@ notches is larger by a factor of bending (`flexact.model.notches`), which counts
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -193,17 +193,22 @@ class Sections(Frozen):
         )
         is_known &= (size > 0.0).all(axis=0)
         size = np.where(is_known, size, 1.0)
-        ratio, shape = np.unique(size.max(axis=0) / size.min(axis=0), return_inverse=True)
         return cls(
             data,
             np.asarray(is_known),
             np.asarray(is_round),
             size,
             _factors(data, size.min(axis=0), is_hinge),
-            edge_of(ratio),
-            shape.astype(np.int32),
+            *_edges(size),
             _necks(data, np.flatnonzero(is_known & is_hinge)),
         )
+
+    def resized(self, size: FloatArray) -> Sections:
+        """The same with other sizes (2, elements) [m]."""
+        is_hinge = member_table()[self.data.arrays.element_kind] == Member.HINGE
+        edge, shape = _edges(size)
+        factor = _factors(self.data, size.min(axis=0), is_hinge)
+        return replace(self, size=size, factor=factor, edge=edge, shape=shape)
 
     def require(self, element: int) -> None:
         """Raise where the section of an element, by its index, is not known.
@@ -268,6 +273,12 @@ class Sections(Frozen):
             )
             largest[:, twisted] = (stress**2 + 3.0 * shear**2).max(axis=2)
         return np.where(is_known, normal, 0.0), np.where(is_known, np.sqrt(largest), 0.0)
+
+
+def _edges(size: FloatArray) -> tuple[Edge, IntArray]:
+    """The boundaries of sections (2, elements), and (elements,) which each has."""
+    ratio, shape = np.unique(size.max(axis=0) / size.min(axis=0), return_inverse=True)
+    return edge_of(ratio), shape.astype(np.int32)
 
 
 def _of_necks(carried: Carried, piece: IntArray, necks: Necks) -> Carried:

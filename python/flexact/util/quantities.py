@@ -58,6 +58,7 @@ _KINDS = {
     "m/s2": _Kind("an acceleration", "9.81m/s2 or 9.81", {"m/s2": 0, "mm/s2": -3}),
     "1/K": _Kind("an expansion", "11e-6 or 11um/m/K", {"1/K": 0, "ppm/K": -6, "um/m/K": -6}),
     "K/m": _Kind("a gradient of temperature", "5K/m or 0.005K/mm", {"K/m": 0, "K/mm": 3}),
+    "Hz": _Kind("a frequency", "9Hz or 9", {"Hz": 0, "kHz": 3}),
     "K": _Kind("a temperature difference", "10 or 10K", {"K": 0, "mK": -3}),
 }
 #: Of a notch, which bends or, of an elongation, stretches.

@@ -52,8 +52,9 @@ _RULES: dict[str, tuple[str, str]] = {
     ),
     "bad-size": (
         "A size of a cross-section is not positive, so that the option is left out.",
-        "Give every size of the cross-section in m, above zero.",
+        "Give every size of the cross-section in the units of the deck, above zero.",
     ),
+    "bad-units": ("The units of a deck are none.", "Write UNITS m, or UNITS mm."),
     "beside-rigid-link": (
         "An element lies beside a rigid link and joins what that joins already.",
         "Take one of the two away, or join the element to other nodes.",

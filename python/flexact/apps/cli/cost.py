@@ -7,6 +7,7 @@ import argparse
 import re
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ...costs.compute import compute
 from ...costs.cost import COSTS, Cost
@@ -22,6 +23,7 @@ from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
 from .decks import UNITS, opened, report_problems, take
 from .parser import Argument, Verb, argument
+from .scatter import ARGUMENTS, scatter_asked
 from .targets import number, one_deck
 from .terminal import Bar, ExitCode, Outcome, complain, give, put, say, text_width
 
@@ -59,8 +61,10 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
         support=chosen.support,
         against=chosen.against,
     )
+    scatter = scatter_asked(chosen)
     try:
-        request()
+        if scatter is None:
+            request()
     except RequestError as error:
         *others, last = error.messages
         for each in others:
@@ -73,7 +77,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     for target in files:
         plan_file(deck, target)
         with unwinding():
-            COSTS.require(target)
+            COSTS.require(target) if scatter is None else scatter.require(target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -86,7 +90,11 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                         look()
                         bar.show_work(what, done)
 
-                    made = compute(model, request(units=model.units), deck.name, show, Cost)
+                    made: Any
+                    if scatter is not None:
+                        made = scatter(model, deck.name, show)
+                    else:
+                        made = compute(model, request(units=model.units), deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
                         made.save(target)
@@ -107,11 +115,12 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             if chosen.json:
                 give(made.to_json())
             else:
-                say(f"{describe(made, text_width(WIDTH))}\n")
+                words = describe if scatter is None else scatter.describe
+                say(f"{words(made, text_width(WIDTH))}\n")
         for target in files:
             text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
             complain(text) if chosen.json or to_stdout else say(text)
-        if made.stroke is not None and made.stroke.why:
+        if scatter is None and made.stroke is not None and made.stroke.why:
             complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
             return Outcome(deck.name, ExitCode.DECK_ERROR, "costed in part", "stroke beyond reach")
         return Outcome(deck.name, ExitCode.ANALYSED, "costed")
@@ -139,6 +148,10 @@ VERB = Verb(
         (
             "Which errors lower the first frequency by 1 %",
             "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
+        ),
+        (
+            "What the workshop's scatter does to stress, frequencies and errors",
+            "flexact cost input_decks/flexures/notch_guide.dat --scatter 20um,0.1mrad",
         ),
         (
             "Two kinds of files at once",
@@ -198,6 +211,7 @@ VERB = Verb(
             choices=AGAINST,
             help="which strength counts (that of fatigue where it is given)",
         ),
+        *ARGUMENTS,
         argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates"),
         argument("--held", choices=HELD, default=HELD[0], help="held deformations"),
         argument(

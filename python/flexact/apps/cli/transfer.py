@@ -7,9 +7,13 @@ import argparse
 import re
 from pathlib import Path
 
+import numpy as np
+
+from ...core.elements import Class
 from ...costs.request import DRIVE, HELD, ReleaseRequest, RequestError, release_of
 from ...deck.rendering import ModelError
 from ...elasticity import ElasticError, elastic
+from ...elasticity.points import Coordinate, Points
 from ...elasticity.state_space import StateSpace
 from ...elasticity.system_files import TRANSFERS
 from ...elasticity.transfer import WIDTH, csv_text, describe
@@ -33,11 +37,6 @@ _PLACE = re.compile(r"(?s)(.+):\s*(\w+)\s*(\+?)=(.+)")
 def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
     """Find the transfer of the deck, say and write it."""
     deck = one_deck(chosen)
-    if not chosen.sources or not chosen.sinks:
-        raise BatchError(
-            "from what to what? such as --from stage:y --to stage:y; base motion is "
-            "--from 'base:y motion'"
-        )
     to_stdout = STDOUT in chosen.output
     if to_stdout and chosen.json:
         raise BatchError("--json and -o - both go to standard output: choose one")
@@ -93,7 +92,15 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         found = elastic(model, chosen.held, chosen.drive, release, beams)
     except (RequestError, TypeError) as error:
         raise BatchError(str(error)) from None
-    asked = chosen.sources, chosen.sinks, chosen.damping, chosen.modes
+    drives = np.argwhere(model.data.arrays.coordinate_class.T == Class.INDEPENDENT).tolist()
+    own = [_words(found.points, Coordinate(*each)) for each in drives]
+    sources, sinks = chosen.sources or own, chosen.sinks or own
+    if not sources or not sinks or (own in (sources, sinks) and len(own) > 1):
+        raise BatchError(
+            "from what to what? such as --from stage:y --to stage:y; base motion is "
+            "--from 'base:y motion'"
+        )
+    asked = sources, sinks, chosen.damping, chosen.modes
     if chosen.stroke is None:
         return found.state_space(*asked)
     place = _PLACE.fullmatch(chosen.stroke)
@@ -110,6 +117,16 @@ def _transfer(model: Model, chosen: argparse.Namespace) -> StateSpace:
         raise BatchError(str(error)) from None
     (state,) = found.along(node, name, [there], from_rest=bool(by))
     return state.state_space(*asked)
+
+
+def _words(points: Points, coordinate: Coordinate) -> str:
+    """A coordinate as it is asked for, by the body that its node stands for where it has a name."""
+    parts, node = points.parts, coordinate.node
+    body = parts.body_at.get(node)
+    name = ""
+    if body is not None and parts.first_points[body] == node and parts.of_body(body).is_named:
+        name = parts.of_body(body).name
+    return f"{name or points.number(node)}:{points.name(coordinate)}"
 
 
 def ratios(text: str) -> float | list[float]:
@@ -152,7 +169,8 @@ VERB = Verb(
             action="append",
             default=[],
             metavar="POINT:C",
-            help="a force or moment there, such as stage:y; a pair of opposite ones "
+            help="a force or moment there, such as stage:y (by default where the only declared "
+            "coordinate is); a pair of opposite ones "
             "stage:y-base:y; the motion of what is fixed 'base:y motion', of all of it "
             "'ground:y motion'; may be repeated",
         ),
