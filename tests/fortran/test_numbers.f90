@@ -14,6 +14,7 @@ program test_numbers
    call last_bits()
    call back_from_seventeen_digits()
    call numbers_of_few_digits()
+   call shifted_numbers()
    call tally%finish()
 
 contains
@@ -104,6 +105,29 @@ contains
       call read_real(word, 0, got, got_status, is_short)
       call tally%check(transfer(got, 0_int64) == transfer(value, 0_int64) .and. got_status == status, 'real '//word)
    end subroutine expect_real
+
+   !> A number times a power of ten is the decimal with its point moved, to the last bit.
+   subroutine shifted_numbers()
+      call expect_shifted('0.3', -3, 0.0003_wp)
+      call expect_shifted('25', -3, 0.025_wp)
+      call expect_shifted('1.2345678901234567', -3, 0.0012345678901234567_wp)
+      call expect_shifted('43.30127018922193', -3, 0.04330127018922193_wp)
+      call expect_shifted('-4.5e2', 6, -4.5e8_wp)
+      call expect_shifted('1.7d-320', 3, 1.7e-317_wp)
+      call expect_shifted('123456789012345678901234567890', -6, 123456789012345678901234.567890_wp)
+   end subroutine shifted_numbers
+
+   subroutine expect_shifted(word, power, value)
+      character(len=*), intent(in) :: word
+      integer, intent(in) :: power
+      real(wp), intent(in) :: value
+      real(wp) :: got
+      integer :: got_status
+      logical :: is_short
+
+      call read_real(word, power, got, got_status, is_short)
+      call tally%check(transfer(got, 0_int64) == transfer(value, 0_int64) .and. got_status == number_fine, 'shifted '//word)
+   end subroutine expect_shifted
 
    !> Zeros at either end are no digits; what is too small for a number is lost.
    subroutine numbers_of_few_digits()

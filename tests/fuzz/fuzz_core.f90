@@ -49,7 +49,7 @@ contains
    !> As flexact.core.calls.read_deck sets the room aside.
    subroutine take_deck(text)
       integer(c_signed_char), intent(in) :: text(:)
-      integer(c_int) :: sizes(7), diag_count(4), diag_number(8, 100)
+      integer(c_int) :: sizes(8), diag_count(4), diag_number(8, 100)
       integer(c_signed_char), allocatable :: diag_text(:, :, :)
       integer(c_int), allocatable :: nodes(:, :), elements(:, :), element_name(:, :), node_name(:, :), look(:, :)
       real(c_double), allocatable :: places(:, :), vectors(:, :), of_element(:, :, :), of_node(:, :, :)
@@ -60,13 +60,13 @@ contains
       ne = min(count(text == 10) + 1, n/10 + 1)
       nn = min(4*ne, n/2 + 4)
       allocate (nodes(5, nn), elements(12, ne), places(4, nn), vectors(3, ne))
-      allocate (element_name(2, ne), node_name(2, nn), look(ne, 2), of_element(6, ne, 6), of_node(6, nn, 3))
+      allocate (element_name(2, ne), node_name(2, nn), look(ne, 2), of_element(6, ne, 9), of_node(6, nn, 3))
       allocate (diag_text(240, 4, 100))
       call read_deck(n, text, nn, ne, nn, ne, nodes, places, elements, vectors, element_name, node_name, &
                      look(:, 1), look(:, 2), of_element(:2, :, 1), of_element(:3, :, 2), of_element(:3, :, 3), &
-                     of_element(1, :, 4), of_element(:, :, 5), of_element(:5, :, 6), of_node(:, :, 1), &
-                     of_node(:3, :, 2), of_node(:3, :, 3), sizes(1), sizes(2), sizes(3), sizes(4), sizes(5), &
-                     sizes(6), sizes(7), gravity, diag_count, diag_number, diag_text)
+                     of_element(1, :, 4), of_element(:, :, 5), of_element(:5, :, 6), of_element(:2, :, 7), of_element(:1, :, 8), &
+                     of_element(:1, :, 9), of_node(:, :, 1), of_node(:3, :, 2), of_node(:3, :, 3), sizes(1), sizes(2), &
+                     sizes(3), sizes(4), sizes(5), sizes(6), sizes(7), sizes(8), gravity, diag_count, diag_number, diag_text)
       if (diag_count(1) > 0) return
       nn = sizes(1)
       ne = sizes(2)
