@@ -255,7 +255,7 @@ def test_a_run_that_was_stopped_goes_on(tmp_path: Path) -> None:
     assert not journal.exists()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="nobody is killed there")
+@pytest.mark.posix
 def test_a_run_that_was_killed_goes_on(tmp_path: Path) -> None:
     journal = tmp_path / "run.journal"
     code = (

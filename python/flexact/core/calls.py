@@ -104,7 +104,7 @@ ERRORS = tuple(names_of("errors"))
 _FACTS = tuple(names_of("facts"))
 _VARIANT_FACTS = tuple(names_of("variant facts"))
 #: Values with what changes them, at most, of each variant.
-_MOST_PAIRS = 6
+MOST_PAIRS = 6
 _PROOFS = dict(zip((None, True, False), names_of("proofs").values(), strict=True))
 
 
@@ -374,7 +374,7 @@ def analyse_model(
     label = np.empty((2, size), np.int32, order="F")
     first = np.empty(size + 1, np.int32)
     scale, scaled_value = np.empty(size), np.empty(size)
-    pair_vector = np.empty((size, _MOST_PAIRS), order="F")
+    pair_vector = np.empty((size, MOST_PAIRS), order="F")
     # Where the address space is limited, what is set aside counts as used.
     most = min((m + n) ** 2, _MOST_ENTRIES, _PART_OF_VECTORS * memory / 12.0)
     room = max(1, int(most))
@@ -572,7 +572,7 @@ def analyse_variants(
     named = dict(zip(_VARIANT_FACTS, facts, strict=True))
     # What is not known is negative.
     known = {name: np.where(fact >= 0.0, fact, math.nan) for name, fact in named.items()}
-    is_there = np.arange(_MOST_PAIRS) < named["pairs"][:, None]
+    is_there = np.arange(MOST_PAIRS) < named["pairs"][:, None]
     return RawVariants(
         named["decided"] == 1,
         named["rows"].astype(np.int32),
