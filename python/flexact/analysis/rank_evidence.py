@@ -123,7 +123,7 @@ class Evidence:
         if not most:
             return ()
         each = np.arange(most, dtype=np.int32)
-        stress, motion = _settled(raw.pair_value, raw.pair_stress, raw.pair_motion)
+        stress, motion = settled(raw.pair_value, raw.pair_stress, raw.pair_motion)
         found = calls.find_sensitivities(
             outcome.data.packed,
             raw.row_scale[:, None] * stress[:, :most],
@@ -159,7 +159,7 @@ class Evidence:
         return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
 
 
-def _settled(
+def settled(
     value: FloatArray, stress: FloatArray, motion: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Pairs of vectors (rows, k) and (columns, k), of equal values in a basis of its own.
