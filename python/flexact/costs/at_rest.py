@@ -12,11 +12,12 @@ from ..analysis.naming import Named, plain, together_in_words
 from ..analysis.places import direction_words, node_words, part_words
 from ..analysis.result import Result
 from ..core.elements import Class, NodeKind
-from ..elasticity import ElasticError, Estimate, State, StrokeError, elastic
+from ..elasticity import Estimate, State, StrokeError, elastic
 from ..elasticity.stresses import carried_by
 from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
+from ..util.matrices import first_largest
 from ..util.records import Frozen
 from .designs import Number, in_words
 
@@ -77,14 +78,14 @@ def at_rest(result: Result) -> AtRest | None:
         return None
     loads = " and ".join(["its weight"] * weight + ["its loads"] * forces)
     try:
-        if model.undeformed().loose and result.with_internal_declared is None:
-            free = str(model.undeformed().loose[0])
-            return AtRest(loads, f"nothing resists the motion {free}")
+        loose = model.undeformed().loose
+        if loose and result.with_internal_declared is None:
+            return AtRest(loads, f"nothing resists the motion {loose[0]}")
         return _found(result, model.equilibrium(), loads)
     except StrokeError as error:
         part = f"{100.0 * error.reached:.2g} %"
         return AtRest(loads, f"beyond {part} of that it buckles, snaps or is held by nothing")
-    except (ElasticError, FlexactError):
+    except FlexactError:
         return None
 
 
@@ -96,10 +97,7 @@ def _found(result: Result, state: State, loads: str) -> AtRest:
     moved = np.where(arrays.node_kind <= NodeKind.POSITION, way[:3] - arrays.node_value[:3], 0.0)
     free = (arrays.coordinate_class != Class.FIXED).any(axis=0)
     size = np.where(free, np.linalg.norm(moved, axis=0), 0.0)
-    # Of places that move as far the first of the deck.
-    most = (
-        int(np.argmax(np.round(size / max(size.max(initial=0.0), 1e-300), 6))) if size.size else 0
-    )
+    most = first_largest(size)
     body = parts.body_at.get(most) if size.any() else None
     what = ""
     if size.any():
@@ -109,7 +107,7 @@ def _found(result: Result, state: State, loads: str) -> AtRest:
     stress, part, share = None, "", None
     if known.size:
         peaks = state.best(lambda at: at.peaks.von_mises[2, known])
-        first = int(np.argmax(np.round(peaks / max(peaks.max(), 1e-300), 6)))
+        first = first_largest(peaks)
         stress, part = float(peaks[first]), part_words(parts.of_element(int(known[first])))
         if data.properties is not None:
             strength = float(data.properties.strength[known[first], 0])
@@ -118,7 +116,7 @@ def _found(result: Result, state: State, loads: str) -> AtRest:
     positive = [float(values[values > 0.0].min(initial=np.inf)) for values in every]
     pulled, pushed, slack = _wires(result, state)
     return AtRest(
-        *(loads, "", what, tuple(moved[:, most].tolist()) if size.size else (0.0, 0.0, 0.0)),
+        *(loads, "", what, tuple(moved[:, most].tolist())),
         *(stress, part, share, float(Estimate.of(*positive))),
         *(state.is_stable, pulled, pushed, slack),
     )

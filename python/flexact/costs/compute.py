@@ -23,13 +23,14 @@ from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table, role_table
 from ..deck.rendering import model_error
 from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
-from ..elasticity.limits import Strengths, nearest
+from ..elasticity.limits import Strengths
 from ..elasticity.solution import notch_unit
 from ..model.data import ModelData
 from ..model.deformations import AT_P, AT_Q
 from ..model.model import Model
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
+from ..util.matrices import first_largest
 from ..util.quantities import Quantity
 from .designs import (
     FREQUENCY,
@@ -172,7 +173,7 @@ def stressed(strengths: Strengths, state: State) -> tuple[Number, Number]:
     """The stress of von Mises of the part that is nearest to its strength, and its safety."""
     which, allowed = strengths.which, strengths.allowed
     found = over_levels(lambda one: one.finest.peaks.von_mises[2, which], state)
-    k = nearest(found.value / allowed)
+    k = first_largest(found.value / allowed)
     stress, off = found.at(k)
     if stress == 0.0:
         return Number(0.0), Number(math.inf)

@@ -20,6 +20,7 @@ from ..elasticity.tolerance import MISMATCH
 from ..model.model import Model
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
+from ..util.matrices import first_largest
 from ..util.records import cached_property
 from ..util.text import TIE, harmless
 from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
@@ -249,7 +250,7 @@ class _QuickCost:
         values = values.reshape(-1)
         if not values.any():
             return ""
-        most = int(np.argmax(np.round(values / values.max(), 6)))
+        most = first_largest(values)
         what = part_words(parts.of_element((known or which)[most]))
         return f"{what} with {in_words(Number(float(f'{values[most]:.3g}')), unit)}"
 

@@ -19,6 +19,7 @@ import numpy as np
 from ..analysis.places import part_words, parts_words, place_words
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.elements import Member, NodeKind, member_table
+from ..util.matrices import first_largest
 from ..util.records import Frozen, cached_property
 from ..util.roots import sign_change
 from ..util.text import in_short
@@ -304,11 +305,6 @@ def _missing(points: Points, missing: Sequence[int], what: str) -> str:
     )
 
 
-def nearest(usage: FloatArray) -> int:
-    """Of which the usage is largest; of equal ones, which rounding leaves, the first."""
-    return int(np.argmax(np.round(usage / max(float(usage.max()), 1.0e-300), 6)))
-
-
 def place_of_stress(points: Points, element: int, stress: FloatArray) -> str:
     """Where the stress of an element, by its index, is largest: "in sheet 1 at its clamp".
 
@@ -317,7 +313,7 @@ def place_of_stress(points: Points, element: int, stress: FloatArray) -> str:
         element: Its index.
         stress: (3,) of von Mises, at p, at q and anywhere.
     """
-    part, end = points.parts.of_element(element), nearest(stress[:2])
+    part, end = points.parts.of_element(element), first_largest(stress[:2])
     node = int(points.data.arrays.element_node[2 * end, element]) - 1
     place = f"in {part_words(part)}"
     if stress[end] < (1.0 - 1.0e-6) * stress[2] or node not in part.ends:
@@ -539,7 +535,7 @@ class _Way:
         path, strengths = self.path, self.path.strengths
         stress = path.stress(self.sense * place)
         allowed = strengths.breaking if breaking else strengths.allowed
-        k = nearest(stress[2, strengths.which] / allowed)
+        k = first_largest(stress[2, strengths.which] / allowed)
         element = int(strengths.which[k])
         where = place_of_stress(path.points, element, stress[:, element])
         is_fatigue = strengths.is_fatigue[k] and allowed[k] == strengths.allowed[k]
@@ -596,7 +592,7 @@ def limits_of(path: Path, asked: Asked) -> Limits:
     rows, parts = [], []
     for value in values.tolist():
         usage = strengths.usage(path.stress(value)[2])
-        k = nearest(usage)
+        k = first_largest(usage)
         parts.append(path.points.parts.of_element(int(strengths.which[k])).name)
         stress = usage[k] * strengths.allowed[k]
         rows.append((stress, usage[k], *path.supports(value, asked.supported)))

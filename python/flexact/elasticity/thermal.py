@@ -23,6 +23,7 @@ from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind, Role, role_table
 from ..model.data import LARGEST_EXPANSION, ModelData
 from ..show.charts import typed
+from ..util.matrices import first_largest
 from ..util.quantities import without_units
 from ..util.records import Frozen
 from ..util.rotations import matrix_of, turned
@@ -362,11 +363,6 @@ def drifts_of(state: Warmed) -> tuple[Drift, ...]:
     return tuple(drift_of(state, points.number(node)) for node in nodes)
 
 
-def _first_largest(values: FloatArray) -> int:
-    """The first of those that are as large as the largest but for rounding."""
-    return int(np.argmax(values >= (1.0 - _STILL) * values.max()))
-
-
 def found_in(state: Warmed) -> dict[str, Any]:
     """What warmth does, as the JSON has it; numbers are in the units of the model.
 
@@ -376,7 +372,7 @@ def found_in(state: Warmed) -> dict[str, Any]:
     arrays, parts = model.data.arrays, model.points.parts
     stretches = role_table()[arrays.element_kind][:, 0] == Role.ELONGATION
     force = np.where(stretches, state.best(lambda at: at.stress[0]), 0.0)
-    worst = _first_largest(np.abs(force))
+    worst = first_largest(np.abs(force))
     peaks: list[tuple[float, str]] = []
     known = state.finest.solver.sections.is_known
     for part in parts.all:
@@ -385,7 +381,7 @@ def found_in(state: Warmed) -> dict[str, Any]:
             peaks.append((float(Estimate.of(*every)), part.name))
     stress = None
     if peaks:
-        value, name = peaks[_first_largest(np.array([value for value, _ in peaks]))]
+        value, name = peaks[first_largest(np.array([value for value, _ in peaks]))]
         stress = {"part": name, "value": units.shown(value, "Pa")}
     hertz = None
     if model.has_mass:

@@ -42,3 +42,11 @@ def null_space(matrix: FloatArray, least: float) -> FloatArray:
         return np.eye(count)
     _, values, right = np.linalg.svd(matrix)
     return np.asarray(right[int(np.count_nonzero(values > least)) :].T)
+
+
+def first_largest(values: FloatArray) -> int:
+    """Where the largest of some values is, none below zero; of equal ones the first.
+
+    Equal are those that differ by rounding, in the seventh digit.
+    """
+    return int(np.argmax(np.round(values / max(float(values.max()), 1.0e-300), 6)))

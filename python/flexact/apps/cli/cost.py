@@ -13,19 +13,16 @@ from ...costs.compute import compute
 from ...costs.cost import COSTS, Cost
 from ...costs.request import DRIVE, HELD, POINTS, Request, RequestError
 from ...costs.words import WIDTH, describe
-from ...deck.rendering import ModelError, ProblemsError
 from ...elasticity.limits import AGAINST
-from ...show.writers import as_bytes
 from ...util.decks import DeckFile
-from ...util.errors import BatchError, FlexactError
+from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
 from .decks import UNITS, opened, report_problems, take
 from .parser import Argument, Verb, argument
 from .scatter import ARGUMENTS, scatter_asked
-from .targets import number, one_deck
-from .terminal import Bar, ExitCode, Outcome, complain, give, put, say, text_width
+from .targets import asked_in_a_line, give_answer, number, one_deck, outputs_of
+from .terminal import Bar, ExitCode, Outcome, complain, text_width
 
 #: What argparse takes for a value although it begins with a minus, such as -5% or -50um.
 _NEGATIVE = re.compile(r"-\.?\d.*")
@@ -70,56 +67,34 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
         for each in others:
             complain(f"flexact: error: {harmless(each)}")
         raise BatchError(last) from None
-    to_stdout = STDOUT in chosen.output
-    if to_stdout and chosen.json:
-        raise BatchError("--json and -o - both go to standard output: choose one")
-    files = [target for target in chosen.output if target != STDOUT]
-    for target in files:
-        plan_file(deck, target)
-        with unwinding():
-            COSTS.require(target) if scatter is None else scatter.require(target)
+    require = COSTS.require if scatter is None else scatter.require
+    files = outputs_of(deck, chosen, require)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
             model = opened(deck, bar, chosen)
             report_problems(model)
-            try:
-                with unwinding() as look:
+            with asked_in_a_line(), unwinding() as look:
 
-                    def show(what: str, done: float) -> None:
-                        look()
-                        bar.show_work(what, done)
+                def show(what: str, done: float) -> None:
+                    look()
+                    bar.show_work(what, done)
 
-                    made: Any
-                    if scatter is not None:
-                        made = scatter(model, deck.name, show)
-                    else:
-                        made = compute(model, request(units=model.units), deck.name, show, Cost)
-                    for target in files:
-                        bar.show_work("writing", 1.0)
-                        made.save(target)
-            except BatchError:
-                raise
-            except ModelError as error:
-                # What was asked for and is not there, in a line.
-                told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
-                raise BatchError("\n".join(told)) from None
-            except ProblemsError:
-                # Of a deck with errors all of them.
-                raise
-            except FlexactError as error:
-                raise BatchError(str(error)) from error
-        if to_stdout:
-            put(as_bytes(made.to_csv()))
-        else:
-            if chosen.json:
-                give(made.to_json())
-            else:
-                words = describe if scatter is None else scatter.describe
-                say(f"{words(made, text_width(WIDTH))}\n")
-        for target in files:
-            text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
-            complain(text) if chosen.json or to_stdout else say(text)
+                made: Any
+                if scatter is not None:
+                    made = scatter(model, deck.name, show)
+                else:
+                    made = compute(model, request(units=model.units), deck.name, show, Cost)
+                for target in files:
+                    bar.show_work("writing", 1.0)
+                    made.save(target)
+        words = describe if scatter is None else scatter.describe
+        give_answer(
+            *(deck, chosen, files),
+            table=made.to_csv,
+            data=made.to_json,
+            words=lambda: f"{words(made, text_width(WIDTH))}\n",
+        )
         if scatter is None and made.stroke is not None and made.stroke.why:
             complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
             return Outcome(deck.name, ExitCode.DECK_ERROR, "costed in part", "stroke beyond reach")

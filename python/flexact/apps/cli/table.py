@@ -13,21 +13,25 @@ import numpy as np
 
 from ...costs.request import DRIVE, HELD, POINTS, RequestError, stroke_of
 from ...costs.resolve import Places
-from ...deck.rendering import ModelError, ProblemsError
 from ...elasticity import Elastic
 from ...elasticity.mesh import beams_given
 from ...elasticity.tables import TABLES, PointTable, StrokeTable
-from ...show.writers import as_bytes
 from ...util.decks import DeckFile
-from ...util.errors import BatchError, FlexactError
+from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, plan_file
-from ...util.quantities import Quantity, QuantityError, as_typed, without_units
-from ...util.text import harmless
+from ...util.quantities import Quantity, QuantityError, as_typed
 from .decks import UNITS, opened, report_problems, take
 from .parser import Group, Verb, argument
-from .targets import DECK, number, number_or_name, one_deck
-from .terminal import Bar, ExitCode, Outcome, complain, give, put, say
+from .targets import (
+    DECK,
+    asked_in_a_line,
+    give_answer,
+    number,
+    number_or_name,
+    one_deck,
+    outputs_of,
+)
+from .terminal import Bar, ExitCode, Outcome
 
 #: What argparse takes for a value although it begins with a minus, such as -10.
 _NEGATIVE = re.compile(r"-\.?\d.*")
@@ -56,16 +60,10 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
     for name in ("expansion", "gradient", "ground"):
         if getattr(chosen, name) is not None and chosen.warm is None:
             raise BatchError(f"--{name} is for what is warm: give --warm, too")
-    to_stdout = STDOUT in chosen.output
-    if to_stdout and chosen.json:
-        raise BatchError("--json and -o - both go to standard output: choose one")
-    files = [target for target in chosen.output if target != STDOUT]
-    for target in files:
-        plan_file(deck, target)
-        with unwinding():
-            TABLES.require(target)
+    files = outputs_of(deck, chosen, TABLES.require)
     try:
-        stroke = None if chosen.stroke is None else stroke_of(chosen.stroke)
+        if chosen.stroke is not None:
+            stroke_of(chosen.stroke)
         beams = beams_given(int(chosen.beams) if chosen.beams.isdigit() else chosen.beams)
     except (RequestError, TypeError, ValueError) as error:
         raise BatchError(str(error)) from None
@@ -75,70 +73,49 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
             data = opened(deck, bar, chosen)
             report_problems(data)
             bar.show("computing")
-            try:
-                with unwinding():
-                    elastic, warm = Elastic(data, chosen.held, chosen.drive, {}, beams), None
-                    at = chosen.at
-                    if at is None:
-                        at = Places(data, elastic.points.parts).point(None).node
-                    if chosen.warm is not None:
-                        given = {
-                            "by": chosen.warm[0],
-                            "gradient": chosen.gradient,
-                            "ground": chosen.ground,
-                            "expansion": chosen.expansion and chosen.expansion[0],
-                        }
-                        warm = elastic.warmed(**given)
-                        elastic = warm.model
-                    made: PointTable | StrokeTable
-                    if stroke is None:
-                        state = warm or elastic.undeformed()
-                        made = state.table(at, chosen.frame, chosen.place)
-                    else:
-                        point, name, _, _, from_rest = stroke
-                        unit = "rad" if name.startswith("r") else "m"
-                        # What says no unit is in those of the model, which the deck has said.
-                        start, dots, stop = chosen.stroke.rpartition("=")[2].partition("..")
-                        if not dots:
-                            stop = start.strip().removeprefix("+-")
-                            start = f"-{stop.strip()}"
-                        symbol = data.units.symbol(unit)
-                        first, last = without_units(
-                            [as_typed(each, unit) for each in (start, stop)], symbol
-                        )
-                        values = np.linspace(first, last, chosen.points or POINTS)
-                        values = data.units.shown(values, unit)
-                        of = point if chosen.at is None else at
-                        made = elastic.stroke_table(
-                            *(point, name, values.tolist()),
-                            of=of,
-                            frame=chosen.frame,
-                            at=chosen.place,
-                            from_rest=from_rest,
-                            beyond=chosen.beyond,
-                        )
-                    for target in files:
-                        made.save(target)
-            except BatchError:
-                raise
-            except ModelError as error:
-                # What was asked for and is not there, in a line.
-                told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
-                raise BatchError("\n".join(told)) from None
-            except ProblemsError:
-                raise
-            except FlexactError as error:
-                raise BatchError(str(error)) from error
-        if to_stdout:
-            put(as_bytes(made.to_csv()))
-        elif chosen.json:
-            both = made.to_dict() | ({"warmed": warm.to_dict()} if warm else {})
-            give(json.dumps(both, allow_nan=False))
-        else:
-            say("\n\n".join([*([warm.describe()] if warm else []), made.describe()]))
-        for target in files:
-            text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
-            complain(text) if chosen.json or to_stdout else say(text)
+            with asked_in_a_line(), unwinding():
+                elastic, warm = Elastic(data, chosen.held, chosen.drive, {}, beams), None
+                at = chosen.at
+                if at is None:
+                    at = Places(data, elastic.points.parts).point(None).node
+                if chosen.warm is not None:
+                    given = {
+                        "by": chosen.warm[0],
+                        "gradient": chosen.gradient,
+                        "ground": chosen.ground,
+                        "expansion": chosen.expansion and chosen.expansion[0],
+                    }
+                    warm = elastic.warmed(**given)
+                    elastic = warm.model
+                made: PointTable | StrokeTable
+                if chosen.stroke is None:
+                    state = warm or elastic.undeformed()
+                    made = state.table(at, chosen.frame, chosen.place)
+                else:
+                    # What says no unit is in those of the model, which the deck has said.
+                    point, name, first, last, from_rest = stroke_of(chosen.stroke, data.units)
+                    values = np.linspace(first, last, chosen.points or POINTS)
+                    values = data.units.shown(values, "rad" if name.startswith("r") else "m")
+                    of = point if chosen.at is None else at
+                    made = elastic.stroke_table(
+                        *(point, name, values.tolist()),
+                        of=of,
+                        frame=chosen.frame,
+                        at=chosen.place,
+                        from_rest=from_rest,
+                        beyond=chosen.beyond,
+                    )
+                for target in files:
+                    made.save(target)
+        both = warm.to_dict() if warm else None
+        give_answer(
+            *(deck, chosen, files),
+            table=made.to_csv,
+            data=lambda: json.dumps(
+                made.to_dict() | ({"warmed": both} if both else {}), allow_nan=False
+            ),
+            words=lambda: "\n\n".join([*([warm.describe()] if warm else []), made.describe()]),
+        )
         return Outcome(deck.name, ExitCode.ANALYSED, "tabulated")
 
     return take([deck], step, as_json=chosen.json)

@@ -6,13 +6,15 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from ...show.writers import PAGES, PICTURES, PLAYING, TABLES
+from ...deck.rendering import ModelError, ProblemsError
+from ...show.writers import PAGES, PICTURES, PLAYING, TABLES, as_bytes
 from ...util.decks import SUFFIX, DeckFile, find_decks
-from ...util.errors import BatchError
+from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import (
@@ -23,8 +25,9 @@ from ...util.outputs import (
     require_replaceable,
     write_together,
 )
+from ...util.text import harmless
 from .parser import Argument, Group, argument
-from .terminal import put
+from .terminal import complain, give, put, say
 
 #: Suffixes of decks besides that of the deck that was read.
 DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
@@ -235,3 +238,65 @@ def one_deck(chosen: argparse.Namespace) -> DeckFile:
     if len(decks) > 1:
         raise BatchError(f"{chosen.deck} holds {len(decks)} decks; this takes one at a time")
     return decks[0]
+
+
+def outputs_of(
+    deck: DeckFile, chosen: argparse.Namespace, require: Callable[[Path], object]
+) -> list[Path]:
+    """The files that -o names, each of which may be written; - is none of them.
+
+    Args:
+        deck: The deck, which is not overwritten.
+        chosen: The options of a verb that has --json and any number of -o.
+        require: Raises for a file of no known kind.
+
+    Raises:
+        BatchError: --json and - are both given.
+        OutputError: A file cannot be written.
+    """
+    if STDOUT in chosen.output and chosen.json:
+        raise BatchError("--json and -o - both go to standard output: choose one")
+    files = [target for target in chosen.output if target != STDOUT]
+    for target in files:
+        plan_file(deck, target)
+        with unwinding():
+            require(target)
+    return files
+
+
+@contextmanager
+def asked_in_a_line() -> Iterator[None]:
+    """Say in a line what was asked for and is not there; of a deck with errors all of them."""
+    try:
+        yield
+    except BatchError:
+        raise
+    except ModelError as error:
+        told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
+        raise BatchError("\n".join(told)) from None
+    except ProblemsError:
+        raise
+    except FlexactError as error:
+        raise BatchError(str(error)) from error
+
+
+def give_answer(
+    deck: DeckFile,
+    chosen: argparse.Namespace,
+    files: Sequence[Path],
+    *,
+    table: Callable[[], str],
+    data: Callable[[], str],
+    words: Callable[[], str],
+) -> None:
+    """Give what was made on standard output as was asked for, and say which files were written."""
+    is_data = chosen.json or STDOUT in chosen.output
+    if chosen.json:
+        give(data())
+    elif is_data:
+        put(as_bytes(table()))
+    else:
+        say(words())
+    for target in files:
+        text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
+        complain(text) if is_data else say(text)

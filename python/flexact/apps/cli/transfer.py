@@ -11,24 +11,20 @@ import numpy as np
 
 from ...core.elements import Class
 from ...costs.request import DRIVE, HELD, ReleaseRequest, RequestError, release_of
-from ...deck.rendering import ModelError
-from ...elasticity import ElasticError, elastic
+from ...elasticity import elastic
 from ...elasticity.points import Coordinate, Points
 from ...elasticity.state_space import StateSpace
 from ...elasticity.system_files import TRANSFERS
 from ...elasticity.transfer import WIDTH, csv_text, describe
 from ...model.model import Model
-from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, plan_file
 from ...util.quantities import QuantityError, as_typed
-from ...util.text import harmless
 from .decks import UNITS, opened, report_problems, take
 from .parser import Verb, argument
-from .targets import number, one_deck
-from .terminal import Bar, ExitCode, Outcome, complain, give, put, say, text_width
+from .targets import asked_in_a_line, give_answer, number, one_deck, outputs_of
+from .terminal import Bar, ExitCode, Outcome, text_width
 
 #: Where a state is driven to: the point, the coordinate, whether from the deck's place, and where.
 _PLACE = re.compile(r"(?s)(.+):\s*(\w+)\s*(\+?)=(.+)")
@@ -37,41 +33,24 @@ _PLACE = re.compile(r"(?s)(.+):\s*(\w+)\s*(\+?)=(.+)")
 def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
     """Find the transfer of the deck, say and write it."""
     deck = one_deck(chosen)
-    to_stdout = STDOUT in chosen.output
-    if to_stdout and chosen.json:
-        raise BatchError("--json and -o - both go to standard output: choose one")
-    files = [target for target in chosen.output if target != STDOUT]
-    for target in files:
-        plan_file(deck, target)
-        with unwinding():
-            TRANSFERS.require(target)
+    files = outputs_of(deck, chosen, TRANSFERS.require)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
             model = opened(deck, bar, chosen)
             report_problems(model)
-            try:
-                with unwinding():
-                    bar.show_work("finding all modes", 0.0)
-                    made = _transfer(Model.from_data(model), chosen)
-                    for target in files:
-                        bar.show_work("writing", 1.0)
-                        made.save(target)
-            except ModelError as error:
-                # What was asked for and is not there, in a line.
-                told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
-                raise BatchError("\n".join(told)) from None
-            except ElasticError as error:
-                raise BatchError(str(error)) from error
-        if to_stdout:
-            put(as_bytes(csv_text(made)))
-        elif chosen.json:
-            give(made.to_json())
-        else:
-            say(f"{describe(made, text_width(WIDTH))}\n")
-        for target in files:
-            text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
-            complain(text) if chosen.json or to_stdout else say(text)
+            with asked_in_a_line(), unwinding():
+                bar.show_work("finding all modes", 0.0)
+                made = _transfer(Model.from_data(model), chosen)
+                for target in files:
+                    bar.show_work("writing", 1.0)
+                    made.save(target)
+        give_answer(
+            *(deck, chosen, files),
+            table=lambda: csv_text(made),
+            data=made.to_json,
+            words=lambda: f"{describe(made, text_width(WIDTH))}\n",
+        )
         return Outcome(deck.name, ExitCode.ANALYSED, "transferred")
 
     return take([deck], step, as_json=chosen.json)

@@ -59,7 +59,7 @@ _UNITS = {
     "margin": "m",
     "margin_angle": "rad",
 }
-_TEXTS = ("verdict", "certainty", "element_names")
+_TEXTS = ("verdict", "certainty", "units", "element_names")
 #: ParaView looks through the names of components one by one.
 MOST_COMPONENTS = 2_000
 
@@ -107,11 +107,11 @@ def component_names(data: Mapping[str, AnyArray]) -> dict[str, list[str]]:
     """What ParaView is to call the components of field data: texts as they read, units, names."""
     texts = {name: bytes(data[name].tobytes()).decode() for name in _TEXTS}
     names = texts["element_names"].split("\n")[:-1]
+    units = dict(line.split(": ") for line in texts["units"].split("\n"))
     return {
         "verdict": [texts["verdict"]],
         "certainty": [texts["certainty"]],
-        "margin": ["mm" if "points: mm" in bytes(data["units"].tobytes()).decode() else "m"],
-        "margin_angle": ["rad"],
+        **{name: [units[name]] for name in ("margin", "margin_angle")},
         "element_number": names if data["element_number"].size <= MOST_COMPONENTS else [],
     }
 
