@@ -130,9 +130,9 @@ VERB = Verb(
     run=convert_file,
     description=(
         "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
-        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which. What comes by - "
-        "from stdin is tables if it begins with a brace, else a deck; to stdout goes a deck, or "
-        "of a deck its tables as JSON."
+        "tables of flexures (.csv, .xlsx), and meshes of lines (.vtu, .vtk, .msh, ...); the "
+        "suffixes say which. What comes by - from stdin is tables if it begins with a brace, else "
+        "a deck; to stdout goes a deck, or of a deck its tables as JSON."
     ),
     examples=(
         (

@@ -17,6 +17,8 @@ from ...model.model import Model
 from ...model.reading import read, read_text
 from ...util.decks import SUFFIX
 from ...util.errors import BatchError, reason_of
+from .flexure_table import SUFFIXES as FLEXURE_SUFFIXES
+from .flexure_table import bytes_of_flexures, model_of_flexures
 from .mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh, read_mesh, suffixes
 from .table_input import TablesError, Text
 from .tables import model_of, tables_of
@@ -279,7 +281,7 @@ _PIECE = 2**20
 
 
 #: What a file holds.
-DECK, TABLES, MESH = "deck", "tables", "mesh"
+DECK, TABLES, MESH, FLEXURES = "deck", "tables", "mesh", "flexures"
 
 
 def format_of(path: Path) -> str:
@@ -293,6 +295,8 @@ def format_of(path: Path) -> str:
         return DECK
     if suffix in (*JSON, *YAML):
         return TABLES
+    if suffix in FLEXURE_SUFFIXES:
+        return FLEXURES
     try:
         if suffix in suffixes():
             return MESH
@@ -300,7 +304,7 @@ def format_of(path: Path) -> str:
         raise BatchError(f"{path}: {error}") from error
     raise BatchError(
         f"the suffix of {path} says no format: decks are .dat, tables .json or .yaml, "
-        "meshes .vtu, .vtk, .msh and others that meshio knows"
+        "tables of flexures .csv or .xlsx, meshes .vtu, .vtk, .msh and others that meshio knows"
     )
 
 
@@ -334,7 +338,7 @@ def read_any(
             raw = file.read(found.st_size + _PIECE)
     except OSError as error:
         raise BatchError(f"{path}: the file cannot be read: {reason_of(error)}") from error
-    return _of_tables(raw, path, flexible)
+    return model_of_flexures(raw, path) if form is FLEXURES else _of_tables(raw, path, flexible)
 
 
 def read_content(raw: bytes, name: str, *, flexible: str = "independent") -> Model:
@@ -380,6 +384,8 @@ def bytes_of(model: Model, path: Path) -> tuple[bytes, tuple[Diagnostic, ...]]:
         remarks: list[Diagnostic] = []
         made = text_of(tables_of(model, remarks), path.suffix.lower())
         return made.encode("utf-8"), tuple(remarks)
+    if form is FLEXURES:
+        return bytes_of_flexures(model, path.suffix.lower())
     mesh, noted = mesh_of(model)
     content, lost = mesh_bytes(mesh, path.suffix.lower())
     for name in lost:
