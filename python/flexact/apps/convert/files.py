@@ -305,7 +305,7 @@ def format_of(path: Path) -> str:
 
 
 def read_any(
-    path: Path, *, flexible: str = "independent", kind: str = "beam", fixed: Iterable[int] = ()
+    path: Path, *, flexible: str | None = None, kind: str = "beam", fixed: Iterable[int] = ()
 ) -> Model:
     """The model in a file; what it does not hold stands in `Model.diagnostics`.
 
@@ -337,7 +337,7 @@ def read_any(
     return _of_tables(raw, path, flexible)
 
 
-def read_content(raw: bytes, name: str, *, flexible: str = "independent") -> Model:
+def read_content(raw: bytes, name: str, *, flexible: str | None = None) -> Model:
     """The model in a text without a suffix: JSON tables if it begins with a brace, else a deck.
 
     Args:
@@ -358,7 +358,7 @@ def form_of_content(raw: bytes) -> str:
     return TABLES if raw.lstrip()[:1] == b"{" else DECK
 
 
-def _of_tables(raw: bytes, path: Path, flexible: str) -> Model:
+def _of_tables(raw: bytes, path: Path, flexible: str | None) -> Model:
     tables, text = read_tables(raw, str(path), path.suffix.lower())
     return model_of(tables, flexible=flexible, name=path.stem, text=text)
 

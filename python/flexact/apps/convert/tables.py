@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
+from ...core.elements import AXES, Class, Member, NodeKind, Vector
 from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Severity
 from ...model.data import ModelData
@@ -32,14 +32,20 @@ from ...model.draft import Draft
 from ...model.draft_arrays import data_of as data_of_draft
 from ...model.model import Model
 from ...model.names import one_line
+from ...model.parts.parts import declared
 from ...model.transform import NO_VECTOR
 from ...util.errors import require_kind
+from .by_section import kind_given, kind_in_words, name_by_rows, taken_by_section
 from .model_tables import tables_with_remarks
 from .table_input import (
+    BY_SECTION,
+    FLEXIBLE,
+    INDEPENDENT,
     LETTERS,
     LOADS,
     NODES_A_POINT,
     PRESCRIBED,
+    RELEASED,
     TRANSFER,
     Entry,
     Found,
@@ -81,16 +87,18 @@ def _hinged(tables: Tables) -> dict[int, int]:
     return made
 
 
+#: What flexible deformations are that are not released, where all are alike.
+_CLASSES = {INDEPENDENT: Class.INDEPENDENT, RELEASED: Class.DEPENDENT}
 #: What the local y axis of a beam points to where nothing is said.
 _ORIEN = (0.0, 1.0, 0.0)
 
 
-def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
+def data_of(tables: Tables, flexible: str, found: Found) -> ModelData:
     """The model of checked tables; what cannot be made is noted in `found`.
 
     Args:
         tables: The tables.
-        flexible: What flexible deformations are that are not released.
+        flexible: What deformations in flex are, one of `FLEXIBLE`.
         found: Where problems are noted.
     """
     making = _Making(tables, flexible, found)
@@ -102,26 +110,41 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     asked = making.transfer()
     found.require_none()
     data = data_of_draft(making.draft, tables.name)
-    return replace(data, besides=(*data.besides, *making.remarks.diagnostics(), *asked))
+    told: tuple[Diagnostic, ...] = ()
+    if making.taken is not None:
+        if len(making.of_beam) > len(tables.ends):
+            making.name_parts(data)
+            data = data_of_draft(making.draft, tables.name)
+        # What is divided, here or in the script, counts as one.
+        data, told = declared(data), making.taken.remarks
+    return replace(data, besides=(*data.besides, *told, *making.remarks.diagnostics(), *asked))
 
 
 class _Making:
     """A draft that grows from tables."""
 
-    def __init__(self, tables: Tables, flexible: Class, found: Found) -> None:
+    def __init__(self, tables: Tables, flexible: str, found: Found) -> None:
         self.tables = tables
-        self.flexible = flexible
+        #: What is released by section; None where `flex` and `rls` say it.
+        self.taken = taken_by_section(tables) if flexible == BY_SECTION else None
+        self.flexible = _CLASSES.get(flexible, Class.DEPENDENT)
         self.found = found
+        #: The element of the tables that each beam is of.
+        self.of_beam: list[int] = []
         self.draft = Draft(tables.planar)
         #: Numbers of the position and the orientation of each point; some share one.
         self.position = _numbers(tables, "same_pos", 1, _hinged(tables), found)
         self.orientation = _numbers(tables, "same_orien", 2, {}, found)
-        self.remarks = Remarks(left_out=tables.left_out)
+        self.remarks = Remarks(left_out=tables.left_out, renamed=tables.renamed)
         self.used: set[int] = set()
-        #: Elements with warping by the points at which they end.
+        #: Flexible elements with warping by the points at which they end, and where rigid ones do.
         self.warping_at: dict[int, list[int]] = {}
+        self.stiff_at: set[int] = set()
         for element, ends in enumerate(tables.ends, start=1):
-            if tables.entry_of(element).get("warping"):
+            entry = tables.entry_of(element)
+            if entry.get("warping") and not entry.get("flex"):
+                self.stiff_at.update(ends)
+            elif entry.get("warping"):
                 for point in ends:
                     self.warping_at.setdefault(point, []).append(element)
         self.next_node = NODES_A_POINT * len(tables.places) + 1
@@ -140,7 +163,7 @@ class _Making:
         """The beams of an element, or the one element that it is."""
         entry, (p, q) = self.tables.entry_of(element), self.tables.ends[element - 1]
         where = f"eprops[{self.tables.set_of.get(element, 0)}]"
-        kind = kind_of(entry.get("type", "plbeam" if self.tables.planar else "beam").upper())
+        kind = kind_given(self.tables, entry)
         if self.tables.planar and NodeKind.POSITION in kind.slots:
             self.found.error(f"{where}.type", "nodes with x and y have planar elements alone")
         count = entry.get("nbeams", 1)
@@ -148,11 +171,22 @@ class _Making:
             self.found.error(f"{where}.nbeams", "a beam alone is divided")
             count = 1
         vector = self._vector(kind, entry, where)
+        flex = entry.get("flex", ())
+        if self.taken is not None:
+            flex = self.taken.released.get(element, ())
         for i, slots in enumerate(self._slots(kind, p, q, count)):
-            released = self.tables.released.get(element, ()) if i == count - 1 else ()
-            classes = self._classes(kind, entry.get("flex", ()), released, element)
+            is_last = i == count - 1 and self.taken is None
+            released = self.tables.released.get(element, ()) if is_last else ()
+            classes = self._classes(kind, flex, released, element)
             number = self.draft.append_element(kind.number, slots, vector, classes)
+            self.of_beam.append(element)
             self._give(number - 1, kind, entry, element, (i, count))
+
+    def name_parts(self, data: ModelData) -> None:
+        """Call parts by the elements of the script: the beams of a divided one shift numbers."""
+        released = {} if self.taken is None else self.taken.released
+        kinds = [kind_in_words(released.get(each, ())) for each in self.of_beam]
+        name_by_rows(self.draft, data.chains, self.of_beam, kinds)
 
     def _vector(self, kind: ElementKind, entry: Entry, where: str) -> tuple[float, float, float]:
         x, y, z = entry.get("orien", _ORIEN if kind.member == Member.BEAM else NO_VECTOR)
@@ -250,8 +284,9 @@ class _Making:
         return sum(map(self._holds_warping, ends)) if self._meets(element) is None else 0
 
     def _holds_warping(self, point: int) -> bool:
+        """A clamp does, and a rigid element that warps: SPACAR Light fixes it at both ends."""
         entry = self.tables.nodes.get(point, {})
-        return bool(entry.get("fix") or entry.get("fix_warp"))
+        return bool(entry.get("fix") or entry.get("fix_warp")) or point in self.stiff_at
 
     def _meets(self, element: int) -> tuple[int, int] | None:
         """Another element with warping at a free end of this one, and where; None without."""
@@ -269,6 +304,8 @@ class _Making:
             said = next((name for name in ("cw", "warping") if entry.get(name)), "")
             warps = warps or bool(said)
             why = ""
+            if not entry.get("flex"):
+                continue
             if said and (self.tables.planar or "emod" not in entry):
                 why = "it has no stiffness in torsion"
             elif said == "warping" and (met := self._meets(element)) is not None:
@@ -391,18 +428,16 @@ class _Making:
         return x, y, z
 
 
-__all__ = ["TablesError", "model_of", "tables_of"]
+__all__ = ["FLEXIBLE", "TablesError", "model_of", "tables_of"]
 
 #: No table has values in each other more deeply.
 _DEEPEST = 10
-#: What flexible deformations that are not released can be.
-FLEXIBLE = {"independent": Class.INDEPENDENT, "released": Class.DEPENDENT}
 
 
 def model_of(
     tables: Mapping[str, Any],
     *,
-    flexible: str = "independent",
+    flexible: str | None = None,
     name: str = "",
     text: Text | None = None,
 ) -> Model:
@@ -410,16 +445,18 @@ def model_of(
 
     A node is a position and an orientation. An element is a beam, or `nbeams` of them in a row.
     `fix` and its like fix coordinates, `displ_x` and `rot_x` and their like make them independent,
-    whatever their values. Of a beam the deformations in `rls(i).def` are released, of one that is
-    divided those of its last beam; the others in `flex` are what `flexible` says, and the rest are
-    held.
+    whatever their values. What is not flexible is held.
 
     Args:
         tables: `nodes`, `elements`, and perhaps `nprops`, `eprops`, `rls` and `opt`; lists or
             arrays, as of a JSON that MATLAB's jsonencode has made. Of `nprops`, `eprops` and
             `rls` each entry is an object; of few, an object by number will do.
-        flexible: "independent", degrees of freedom, as SPACAR Light has them; or "released", as a
-            designer asks whether the mechanism is exactly constrained.
+        flexible: What deformations in `flex` are. "by-section", as a designer asks whether the
+            mechanism is exactly constrained: released; where `flex` says all, those of the sheet,
+            the wire or the body that the section makes (`taken_by_section`), and what is divided
+            counts as one. "independent": degrees of freedom, as SPACAR Light has them, but for
+            those in `rls(i).def`, which are released, of a divided beam those of its last one.
+            "released": all of them are. By default what the tables say, else by section.
         name: What the model is called, where the tables do not say it.
         text: What the tables were read from, for the lines of problems.
 
@@ -429,13 +466,13 @@ def model_of(
         ValueError: `flexible` is neither.
     """
     require_kind(tables, Mapping, "tables are a mapping")
-    if flexible not in FLEXIBLE:
+    if flexible is not None and flexible not in FLEXIBLE:
         raise ValueError(f"flexible is one of {', '.join(FLEXIBLE)}, not {flexible!r}")
     found = Found(text, name)
     checked = tables_given({key: _plain(value) for key, value in tables.items()}, found)
     found.require_none()
     checked.name = checked.name or name
-    return Model.from_data(data_of(checked, FLEXIBLE[flexible], found))
+    return Model.from_data(data_of(checked, flexible or checked.flexible or BY_SECTION, found))
 
 
 def _plain(value: Any, depth: int = 0) -> Any:
