@@ -323,6 +323,15 @@ def read_any(
         return read(path)
     if form is MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
+    return _of_tables(bytes_in(path), path, flexible)
+
+
+def bytes_in(path: Path) -> bytes:
+    """The content of a file of tables.
+
+    Raises:
+        BatchError: it cannot be read.
+    """
     try:
         # A pipe or a device may keep whoever reads it for ever.
         found = path.stat()
@@ -334,7 +343,7 @@ def read_any(
             raw = file.read(found.st_size + _PIECE)
     except OSError as error:
         raise BatchError(f"{path}: the file cannot be read: {reason_of(error)}") from error
-    return _of_tables(raw, path, flexible)
+    return raw
 
 
 def read_content(raw: bytes, name: str, *, flexible: str | None = None) -> Model:

@@ -211,7 +211,7 @@ NODES_A_POINT = 3
 Check = Callable[[Any], Any]
 #: Of a motion: what is added in the course of loading, and what it begins with.
 _STARTS = ("", "_initial")
-PRESCRIBED = "values of prescribed motions"
+PRESCRIBED, SIMULATED = "values of prescribed motions", "what is for a simulation"
 #: Fields that only Flexact knows.
 OWN_FIELDS = frozenset(("fix_rx", "fix_ry", "fix_rz", "name", "same_pos", "same_orien", "type"))
 
@@ -640,7 +640,7 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
         if name not in OPTIONS:
             found.error(f"opt.{name}", f"there is no such option{_meant(name, OPTIONS)}")
         elif name not in ("gravity", "rls", "transfer"):
-            made.left_out[f"what is for a simulation: opt.{name}"] += 1
+            made.left_out[f"{SIMULATED}: opt.{name}"] += 1
         elif is_unset(value):
             continue
         elif name == "transfer":

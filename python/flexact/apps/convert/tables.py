@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 import shlex
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise, product
@@ -46,6 +47,7 @@ from .table_input import (
     NODES_A_POINT,
     PRESCRIBED,
     RELEASED,
+    SIMULATED,
     TRANSFER,
     Entry,
     Found,
@@ -75,6 +77,44 @@ def _numbers(
             found.error(where, f"node {other} stands elsewhere")
         made[point] = made.get(other, NODES_A_POINT * (point - 1) + offset)
     return made
+
+
+def numbers_of_points(tables: Tables, found: Found | None = None) -> tuple[dict[int, int], ...]:
+    """Numbers of the position and of the orientation of each point; some share one.
+
+    Args:
+        tables: The tables.
+        found: Where problems are noted.
+    """
+    noted = Found(None, tables.name) if found is None else found
+    return (
+        _numbers(tables, "same_pos", 1, _hinged(tables), noted),
+        _numbers(tables, "same_orien", 2, {}, noted),
+    )
+
+
+#: An end of a state space: a point, such as "force" or "veloc", and an axis.
+End = tuple[int, str, str]
+_ENDS = ("transfer_in", "transfer_out")
+
+
+def ends_of_transfer(tables: Tables) -> tuple[list[End], list[End]]:
+    """Where a state space begins, and where it ends."""
+    sources, sinks = (
+        [
+            (point, *each.split("_"))
+            for point, entry in tables.nodes.items()
+            for each in entry.get(name, ())
+        ]
+        for name in _ENDS
+    )
+    return sources, sinks
+
+
+def end_in_words(position: Mapping[int, int], end: End) -> str:
+    """Such as "4:x velocity"."""
+    point, stem, axis = end
+    return f"{position.get(point, 0)}:{axis}{' velocity' * (stem == 'veloc')}"
 
 
 def _hinged(tables: Tables) -> dict[int, int]:
@@ -132,10 +172,8 @@ class _Making:
         #: The element of the tables that each beam is of.
         self.of_beam: list[int] = []
         self.draft = Draft(tables.planar)
-        #: Numbers of the position and the orientation of each point; some share one.
-        self.position = _numbers(tables, "same_pos", 1, _hinged(tables), found)
-        self.orientation = _numbers(tables, "same_orien", 2, {}, found)
-        self.remarks = Remarks(left_out=tables.left_out, renamed=tables.renamed)
+        self.position, self.orientation = numbers_of_points(tables, found)
+        self.remarks = Remarks(Counter(tables.left_out), renamed=Counter(tables.renamed))
         self.used: set[int] = set()
         #: Flexible elements with warping by the points at which they end, and where rigid ones do.
         self.warping_at: dict[int, list[int]] = {}
@@ -347,24 +385,22 @@ class _Making:
 
     def transfer(self) -> tuple[Diagnostic, ...]:
         """How the state space is found that opt.transfer asks for; ends alone are left out."""
-        ends: dict[str, list[str]] = {"transfer_in": [], "transfer_out": []}
-        for point, entry in self.tables.nodes.items():
-            for name, said in ends.items():
-                for stem, axis in (each.split("_") for each in entry.get(name, ())):
-                    if self._is_given(point, entry, name, self.position.get(point, 0)):
-                        rate = " velocity" * (stem == "veloc")
-                        said.append(f"{self.position[point]}:{axis}{rate}")
-        sources, sinks = ends.values()
+        sources, sinks = ends_of_transfer(self.tables)
+        for name, ends in zip(_ENDS, (sources, sinks), strict=True):
+            for point, _, _ in ends:
+                number = self.position.get(point, 0)
+                self._is_given(point, self.tables.nodes[point], name, number)
+        said = [[end_in_words(self.position, each) for each in ends] for ends in (sources, sinks)]
         damping = self.tables.transfer
         if damping is None or not (sources and sinks):
             self.remarks.leave_out("opt.transfer without ends", int(damping is not None))
-            for name, said in ends.items():
-                self.remarks.leave_out(f"what is for a simulation: nprops.{name}", len(said))
+            for name, ends in zip(_ENDS, (sources, sinks), strict=True):
+                self.remarks.leave_out(f"{SIMULATED}: nprops.{name}", len(ends))
             return ()
         words = " ".join(
             f"--{option} {shlex.quote(end)}"
-            for option, said in (("from", sources), ("to", sinks))
-            for end in said
+            for option, ends in zip(("from", "to"), said, strict=True)
+            for end in ends
         )
         return (
             Diagnostic(
@@ -372,7 +408,7 @@ class _Making:
                 TRANSFER,
                 f"opt.transfer: flexact transfer DECK {words} --damping {damping:g} --held rigid "
                 f"--beams 1; in Python flexact.elastic(DECK, held='rigid', beams=1).state_space("
-                f"{sources}, {sinks}, damping={damping:g})",
+                f"{said[0]}, {said[1]}, damping={damping:g})",
             ),
         )
 
@@ -465,14 +501,25 @@ def model_of(
         TypeError: they are no mapping.
         ValueError: `flexible` is neither.
     """
-    require_kind(tables, Mapping, "tables are a mapping")
     if flexible is not None and flexible not in FLEXIBLE:
         raise ValueError(f"flexible is one of {', '.join(FLEXIBLE)}, not {flexible!r}")
     found = Found(text, name)
+    checked = checked_tables(tables, name, found)
+    return Model.from_data(data_of(checked, flexible or checked.flexible or BY_SECTION, found))
+
+
+def checked_tables(tables: Mapping[str, Any], name: str, found: Found) -> Tables:
+    """Tables in one form.
+
+    Raises:
+        TablesError: anything is wrong with them.
+        TypeError: they are no mapping.
+    """
+    require_kind(tables, Mapping, "tables are a mapping")
     checked = tables_given({key: _plain(value) for key, value in tables.items()}, found)
     found.require_none()
     checked.name = checked.name or name
-    return Model.from_data(data_of(checked, flexible or checked.flexible or BY_SECTION, found))
+    return checked
 
 
 def _plain(value: Any, depth: int = 0) -> Any:
