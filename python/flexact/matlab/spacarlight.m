@@ -77,6 +77,13 @@ end
 % MATLAB counts in round brackets.
 said = regexprep(said, '(nodes|elements|nprops|eprops|rls)\[(\d+)\]', '$1($2)');
 if status ~= 0
+    why = regexp(said, 'flexact: error: (.*)$', 'tokens', 'once');
+    if ~isempty(why) && ~is_silent
+        fprintf('%s', said(1:strfind(said, 'flexact: error: ') - 1));
+    end
+    if ~isempty(why)
+        said = why{1};
+    end
     error('spacarlight:flexact', '%s', strtrim(said));
 end
 if ~is_silent
@@ -440,6 +447,8 @@ function list = as_list(found)
 % A cell with each of what jsondecode has made an array, a cell, or a single structure.
 if iscell(found)
     list = found(:).';
+elseif ischar(found)
+    list = {found};
 else
     list = num2cell(found(:).');
 end
@@ -480,19 +489,27 @@ end
 function made = system_of(found)
 % A system of the Control System Toolbox, or of Octave's control package, where it is there.
 made = found;
-outputs = size(found.D, 1);
+% What is a single row or column, or has no states, has lost its shape.
+inputs = numel(as_list(found.InputName));
+outputs = numel(as_list(found.OutputName));
 order = size(found.A, 1);
-made.B = reshape(found.B, order, []);
+if order == 0
+    found.A = [];
+    found.B = [];
+    found.C = [];
+end
+made.A = reshape(found.A, order, order);
+made.B = reshape(found.B, order, inputs);
 made.C = reshape(found.C, outputs, order);
+made.D = reshape(found.D, outputs, inputs);
 names = {'InputName', 'OutputName'};
 for k = 1:2
-    if ischar(made.(names{k}))
-        made.(names{k}) = {made.(names{k})};
-    end
+    made.(names{k}) = as_list(found.(names{k}));
 end
 if exist('ss', 'file')
+    found = made;
     try
-        made = ss(made.A, made.B, made.C, found.D);
+        made = ss(made.A, made.B, made.C, made.D);
         made.InputName = found.InputName;
         made.OutputName = found.OutputName;
     catch

@@ -11,6 +11,7 @@ import statistics
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from ...analysis.places import listed
 from ...core.elements import Member, NodeKind, kind_of
 from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Severity
@@ -25,6 +26,8 @@ from .table_input import BY_SECTION, Entry, Tables, shape_of
 FLAT = 5.0
 #: What is so many times as stiff in bending as the median of the sets does not bend.
 STIFF = 1000.0
+#: From so many times on it may be a body, too, which is said.
+_DOUBTFUL = 30.0
 #: Rounding of a quotient of two decimals, with room.
 _SLACK = 1e-9
 _TORSION, _TURN = (2,), (1,)
@@ -32,6 +35,7 @@ _HINGES = ("HINGE", "PLHINGE")
 #: Bending about local y, which bends the size along local z, and about local z.
 _BENDS_Z, _BENDS_Y = (3, 4), (5, 6)
 _PLANAR_BENDS = (2, 3)
+_NAMES = {1: "elongation 1", 2: "torsion 2"}
 _WORDS = {
     "sheet": "a sheet: out-of-plane bending and torsion are released",
     "wire": "a wire: bending in both planes and torsion are released",
@@ -83,7 +87,7 @@ def taken_by_section(tables: Tables) -> Taken:
             ratio = bending[number] / median if number in bending else 1.0
             modes, words, is_sure = _all_of(kind, entry, ratio)
         elif modes:
-            words = f"flex says {_listed(modes)}: these are released"
+            words = f"flex says {_listed(modes)}: {_of_some(kind, entry, modes)}"
         elif kind.keyword in _HINGES:
             modes, words = _TURN, "a hinge without flex turns about its axis"
         if words:
@@ -128,6 +132,7 @@ def _is_planar(kind: ElementKind) -> bool:
 
 def _all_of(kind: ElementKind, entry: Entry, ratio: float) -> tuple[tuple[int, ...], str, bool]:
     """What is released of elements of which `flex` says all; in words; and whether that is sure."""
+    modes: tuple[int, ...]
     shape = shape_of(entry)
     if shape is None:
         modes = _PLANAR_BENDS if _is_planar(kind) else (*_TORSION, *_BENDS_Z)
@@ -143,10 +148,27 @@ def _all_of(kind: ElementKind, entry: Entry, ratio: float) -> tuple[tuple[int, .
         return _PLANAR_BENDS, f"{what} is a sheet: bending is released", True
     low, high = sorted((shape.y, shape.z))
     if is_round or high < FLAT * low * (1.0 - _SLACK):
-        return (*_TORSION, *_BENDS_Z, *_BENDS_Y), f"{what} is {_WORDS['wire']}", True
-    # The thickness, not the width, is what bends.
-    bends = _BENDS_Z if shape.z < shape.y else _BENDS_Y
-    return (*_TORSION, *bends), f"{what} is {_WORDS['sheet']}", True
+        modes, kind_of_flexure = (*_TORSION, *_BENDS_Z, *_BENDS_Y), "wire"
+    else:
+        # The thickness, not the width, is what bends.
+        modes = (*_TORSION, *(_BENDS_Z if shape.z < shape.y else _BENDS_Y))
+        kind_of_flexure = "sheet"
+    words = f"{what} is {_WORDS[kind_of_flexure]}"
+    if ratio >= _DOUBTFUL:
+        words += f"; {ratio:.0f} times as stiff in bending as the others: without flex it is a body"
+    return modes, words, True
+
+
+def _of_some(kind: ElementKind, entry: Entry, modes: tuple[int, ...]) -> str:
+    """That some deformations are released, and what its section would release besides."""
+    words = "these are released"
+    if kind.member != Member.BEAM or shape_of(entry) is None or not 1 < len(modes) < 5:
+        return words
+    more = set(_all_of(kind, entry, 1.0)[0]) - set(modes)
+    if not more:
+        return words
+    names = listed([_NAMES.get(mode, f"bending {mode}") for mode in sorted(more)])
+    return f"{words}; a flexure of this section releases {names}, too"
 
 
 def _remark(place: str, elements: Sequence[int], words: str, is_sure: bool) -> Diagnostic:

@@ -194,7 +194,11 @@ class _Making:
             number = self.position[point]
             self.draft.node_kind[number] = kind
             self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
-            if name := one_line(self.tables.nodes.get(point, {}).get("name", "")):
+            name = one_line(self.tables.nodes.get(point, {}).get("name", ""))
+            if not name and self.taken is not None:
+                # The deck has other numbers than the script.
+                name = f"node {point}"
+            if name:
                 self.draft.node_names.setdefault(number, name)
 
     def add_element(self, element: int) -> None:
