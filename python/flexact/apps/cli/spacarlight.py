@@ -70,7 +70,7 @@ def run_script(chosen: argparse.Namespace) -> ExitCode:
         files.pop(None, None)
         write_together(files)
     if chosen.page is not None:
-        say(f"The drawing in motion: {harmless(str(chosen.page.absolute()))}")
+        say(f"The drawing in motion: {harmless(str(chosen.page))}")
         if not chosen.no_browser:
             opens(chosen.page.absolute().as_uri())
     if chosen.output is None:
@@ -126,11 +126,11 @@ VERB = Verb(
             "-o",
             "--output",
             type=file,
-            metavar="RESULTS",
+            metavar="FILE",
             help="results along the load steps, as JSON",
         ),
         argument("--page", type=file, metavar="PAGE", help="the page of the verdict, NAME.html"),
-        argument("--deck", type=file, metavar="DECK", help="the deck that the verdict is of"),
+        argument("--deck", type=file, metavar="FILE", help="the deck that the verdict is of"),
         NO_BROWSER,
     ),
 )

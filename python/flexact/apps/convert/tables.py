@@ -196,8 +196,8 @@ class _Making:
             self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
             name = one_line(self.tables.nodes.get(point, {}).get("name", ""))
             if not name and self.taken is not None:
-                # The deck has other numbers than the script.
-                name = f"node {point}"
+                # Nodes of the deck have other numbers than those of the script.
+                name = f"point {point}"
             if name:
                 self.draft.node_names.setdefault(number, name)
 
