@@ -480,20 +480,23 @@ def _flexible(value: Any) -> str:
 def _as_today(
     given: Mapping[str, Any], names: Mapping[str, str], made: Tables, found: Found, place: str
 ) -> Mapping[str, Any]:
-    """The entries under the names of today; those that say nothing may be there twice."""
+    """The entries under the names of today; what says nothing may be there twice."""
     renamed: dict[str, Any] = {}
+    called: dict[str, str] = {}
     for key, value in given.items():
         now = names.get(key, key)
         old = value.lower() if key == "type" and isinstance(value, str) else ""
         if names is OLD_ELEMENT_FIELDS and old in OLD_TYPES:
             now, value = "cshape", OLD_TYPES[old]
+        if now in renamed and (is_unset(value) or not is_unset(renamed[now])):
+            if not is_unset(value):
+                older = key if key != now else called[now]
+                where = f"{place}.{older}" if place else older
+                found.error(where, f"this is {now} by an older name, and both are there: keep one")
+            continue
+        renamed[now], called[now] = value, key
         if now != key and not is_unset(value):
             made.renamed[f"{key} for {now}"] += 1
-        if now in renamed and not is_unset(renamed[now]) and not is_unset(value):
-            where = f"{place}.{key}" if place else key
-            found.error(where, f"this is {now} by an older name, which is there, too: keep one")
-        elif now not in renamed or not is_unset(value):
-            renamed[now] = value
     return renamed
 
 

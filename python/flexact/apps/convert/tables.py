@@ -127,6 +127,8 @@ def _hinged(tables: Tables) -> dict[int, int]:
     return made
 
 
+#: Sine of the largest angle between what lies along each other, by rounding.
+_ALONG = 1e-9
 #: What flexible deformations are that are not released, where all are alike.
 _CLASSES = {INDEPENDENT: Class.INDEPENDENT, RELEASED: Class.DEPENDENT}
 #: What the local y axis of a beam points to where nothing is said.
@@ -212,10 +214,11 @@ class _Making:
         if count > 1 and kind.member != Member.BEAM:
             self.found.error(f"{where}.nbeams", "a beam alone is divided")
             count = 1
-        vector = self._vector(kind, entry, where)
         flex = entry.get("flex", ())
         if self.taken is not None:
             flex = self.taken.released.get(element, ())
+        is_rigid = not (entry.get("flex") or flex or self.tables.released.get(element))
+        vector = self._vector(kind, element, where, is_rigid)
         for i, slots in enumerate(self._slots(kind, p, q, count)):
             is_last = i == count - 1 and self.taken is None
             released = self.tables.released.get(element, ()) if is_last else ()
@@ -230,13 +233,30 @@ class _Making:
         kinds = [kind_in_words(released.get(each, ())) for each in self.of_beam]
         name_by_rows(self.draft, data.chains, self.of_beam, kinds)
 
-    def _vector(self, kind: ElementKind, entry: Entry, where: str) -> tuple[float, float, float]:
+    def _vector(
+        self, kind: ElementKind, element: int, where: str, is_rigid: bool
+    ) -> tuple[float, float, float]:
+        entry = self.tables.entry_of(element)
         x, y, z = entry.get("orien", _ORIEN if kind.member == Member.BEAM else NO_VECTOR)
         if kind.vector == Vector.NONE:
             return NO_VECTOR
         if kind.vector == Vector.REQUIRED and not any((x, y, z)):
             self.found.error(where, f"a {entry['type']} needs its axis: give orien")
+        if kind.member == Member.BEAM and self._is_along(element, (x, y, z)):
+            if is_rigid:
+                # It has no width; any axes will do.
+                self.remarks.leave_out("orien along a rigid element", int("orien" in entry))
+                return NO_VECTOR
+            said = "it" if "orien" in entry else "(0, 1, 0), the default,"
+            words = f"{said} lies along element {element}: give a vector along its width"
+            self.found.error(f"{where}.orien", words)
         return x, y, z
+
+    def _is_along(self, element: int, vector: tuple[float, float, float]) -> bool:
+        """Whether a vector lies along an element, which then has no axes."""
+        p, q = (np.array(self.tables.places[point - 1]) for point in self.tables.ends[element - 1])
+        across = np.linalg.norm(np.cross(q - p, vector)) if q.size == 3 else 1.0
+        return bool(across <= _ALONG * np.linalg.norm(q - p) * np.linalg.norm(vector))
 
     def _slots(
         self, kind: ElementKind, p: int, q: int, count: int
