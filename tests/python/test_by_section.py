@@ -288,6 +288,10 @@ def test_a_width_along_its_element_is_told_with_its_place() -> None:
         for element in (1, 3):
             words = f"eprops[1].orien: {what} lies along element {element}: give a vector"
             assert words in str(error.value)
+    short = copy.deepcopy(GUIDE)
+    short["nodes"][1] = short["nodes"][0]
+    with pytest.raises(TablesError, match=r"elements\[1\]: its nodes are at one place: it has no"):
+        model_of(short)
     rigid = copy.deepcopy(GUIDE)
     rigid["eprops"][1]["orien"] = [1, 0, 0]
     assert counts(rigid) == (1, 1)

@@ -306,7 +306,8 @@ def test_what_a_model_does_not_hold_is_told_once_each() -> None:
         ("left-out", "what is for a simulation: opt.filename (1)"),
     ]
     codes = [item.message for item in model_of(WALKTHROUGH).diagnostics]
-    assert "values of prescribed motions (1)" in codes
+    where = "nprops[2].displ_x, nprops[2].displ_initial_x"
+    assert f"values of prescribed motions: {where} (2)" in codes
 
 
 def test_a_state_space_that_is_asked_for_is_told_as_a_command() -> None:

@@ -81,8 +81,11 @@ if status ~= 0
     if ~isempty(why) && ~is_silent
         fprintf('%s', said(1:strfind(said, 'flexact: error: ') - 1));
     end
+    places = regexp(said, '^error\[[^\]]+\]: ([^\n\r]+)', 'tokens', 'lineanchors');
     if ~isempty(why)
         said = why{1};
+    elseif ~isempty(places)
+        said = strjoin([places{:}], sprintf('\n'));
     end
     error('spacarlight:flexact', '%s', strtrim(said));
 end

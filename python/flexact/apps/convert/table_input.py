@@ -420,6 +420,7 @@ class Tables:
         gravity: Acceleration of free fall [m/s^2].
         transfer: Modal damping of the state space that is asked for; None without one.
         left_out: What is said that a model does not hold.
+        lost: What of it the verdict depends on.
         renamed: What is called otherwise today.
         name: What the model is called.
         flexible: What deformations in flex are, one of `FLEXIBLE`; empty where nothing is said.
@@ -435,6 +436,7 @@ class Tables:
     gravity: tuple[float, ...] = (0.0, 0.0, 0.0)
     transfer: float | None = None
     left_out: Counter[str] = field(default_factory=Counter)
+    lost: Counter[str] = field(default_factory=Counter)
     renamed: Counter[str] = field(default_factory=Counter)
     name: str = ""
     flexible: str = ""
@@ -642,6 +644,8 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     for name, value in (options or {}).items():
         if name not in OPTIONS:
             found.error(f"opt.{name}", f"there is no such option{_meant(name, OPTIONS)}")
+        elif name == "customkin" and not is_unset(value):
+            made.lost["opt.customkin: statements for the kinematics"] += 1
         elif name not in ("gravity", "rls", "transfer"):
             made.left_out[f"{SIMULATED}: opt.{name}"] += 1
         elif is_unset(value):

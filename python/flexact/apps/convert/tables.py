@@ -162,6 +162,15 @@ def data_of(tables: Tables, flexible: str, found: Found) -> ModelData:
     return replace(data, besides=(*data.besides, *told, *making.remarks.diagnostics(), *asked))
 
 
+def _is_along(vector: tuple[float, ...], p: tuple[float, ...], q: tuple[float, ...]) -> bool:
+    """Whether a vector lies along the line from p to q, in space, and so gives it no axes."""
+    if len(p) < 3:
+        return False
+    way = np.subtract(q, p)
+    across = np.linalg.norm(np.cross(way, vector))
+    return bool(across <= _ALONG * np.linalg.norm(way) * np.linalg.norm(vector))
+
+
 class _Making:
     """A draft that grows from tables."""
 
@@ -175,7 +184,9 @@ class _Making:
         self.of_beam: list[int] = []
         self.draft = Draft(tables.planar)
         self.position, self.orientation = numbers_of_points(tables, found)
-        self.remarks = Remarks(Counter(tables.left_out), renamed=Counter(tables.renamed))
+        self.remarks = Remarks(
+            *map(Counter, (tables.left_out, tables.lost)), renamed=Counter(tables.renamed)
+        )
         self.used: set[int] = set()
         #: Flexible elements with warping by the points at which they end, and where rigid ones do.
         self.warping_at: dict[int, list[int]] = {}
@@ -242,7 +253,10 @@ class _Making:
             return NO_VECTOR
         if kind.vector == Vector.REQUIRED and not any((x, y, z)):
             self.found.error(where, f"a {entry['type']} needs its axis: give orien")
-        if kind.member == Member.BEAM and self._is_along(element, (x, y, z)):
+        p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
+        if kind.member == Member.BEAM and p == q:
+            self.found.error(f"elements[{element}]", "its nodes are at one place: it has no length")
+        elif kind.member == Member.BEAM and _is_along((x, y, z), p, q):
             if is_rigid:
                 # It has no width; any axes will do.
                 self.remarks.leave_out("orien along a rigid element", int("orien" in entry))
@@ -251,12 +265,6 @@ class _Making:
             words = f"{said} lies along element {element}: give a vector along its width"
             self.found.error(f"{where}.orien", words)
         return x, y, z
-
-    def _is_along(self, element: int, vector: tuple[float, float, float]) -> bool:
-        """Whether a vector lies along an element, which then has no axes."""
-        p, q = (np.array(self.tables.places[point - 1]) for point in self.tables.ends[element - 1])
-        across = np.linalg.norm(np.cross(q - p, vector)) if q.size == 3 else 1.0
-        return bool(across <= _ALONG * np.linalg.norm(q - p) * np.linalg.norm(vector))
 
     def _slots(
         self, kind: ElementKind, p: int, q: int, count: int
@@ -386,10 +394,12 @@ class _Making:
             for point, entry in self.tables.nodes.items()
             if point <= len(self.tables.places)
         }
+        told: list[str] = []
         for point, (entry, own) in points.items():
             stated = self._fixed(entry, own)
-            self.remarks.leave_out(PRESCRIBED, int(self._prescribe(point, entry, own, stated)))
+            told += self._prescribe(point, entry, own, stated)
             self.draft.coordinate_class.update(stated)
+        self.remarks.leave_out(f"{PRESCRIBED}: {', '.join(told)}", len(told))
         for point, (entry, own) in points.items():
             for name, number in zip(("mass", "mominertia"), own, strict=True):
                 if self._is_given(point, entry, name, number):
@@ -451,9 +461,9 @@ class _Making:
 
     def _prescribe(
         self, point: int, entry: Entry, own: tuple[int, int], stated: dict[tuple[int, int], Class]
-    ) -> bool:
-        """Make independent what moves as it is told; whether a value was told."""
-        told = False
+    ) -> list[str]:
+        """Make independent what moves as it is told; the places of values that were told."""
+        told = []
         for number, stem in zip(own, ("displ", "rot"), strict=True):
             axes = self._axes(number)
             names: dict[str, tuple[int, ...]] = {}
@@ -462,7 +472,7 @@ class _Making:
                 names[start] = axes
             for name in (each for each in names if each in entry):
                 where = f"nprops[{point}].{name}"
-                told = told or bool(np.any(entry[name]))
+                told += [where] if np.any(entry[name]) else []
                 for place in ((number, axis) for axis in names[name]):
                     if place[1] not in axes:
                         self.found.error(where, "no element gives the node this coordinate")
