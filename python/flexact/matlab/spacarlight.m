@@ -49,11 +49,15 @@ if isfield(opt, 'filename') && ischar(opt.filename) && ~isempty(opt.filename)
     name = opt.filename;
 end
 wants_results = nargout > 0 && ~is_on(opt, 'showinputonly');
+if wants_results && ~exist('jsondecode') %#ok<EXIST>
+    error('spacarlight:tooOld', 'Results need jsondecode: MATLAB R2016b or Octave 7, or later.');
+end
 
 work = tempname();
 mkdir(work);
 tidy = onCleanup(@() remove(work));
-[folder, stem] = fileparts(name);
+[folder, stem, ending] = fileparts(name);
+stem = [stem ending];
 input = fullfile(work, [stem '.json']);
 output = fullfile(work, 'results.json');
 write(input, json_of_tables(tables));
@@ -110,6 +114,9 @@ elseif numel(given) > 6
 end
 if numel(given) == 1 && (isstruct(given{1}) || isobject(given{1}))
     tables = given{1};
+    if isobject(tables)
+        tables = as_struct(tables);
+    end
     older = {'coordinates', 'connect'};
     newer = {'nodes', 'elements'};
     for k = 1:2
@@ -136,8 +143,17 @@ elseif numel(given) >= 4
         tables.opt = rest{1};
     end
 end
-if ~isempty(tables) && (~isfield(tables, 'opt') || isempty(tables.opt))
+if isempty(tables)
+    return
+end
+if ~isfield(tables, 'opt') || isempty(tables.opt)
     tables.opt = struct();
+end
+names = fieldnames(tables);
+for k = 1:numel(names)
+    if isobject(tables.(names{k}))
+        tables.(names{k}) = as_struct(tables.(names{k}));
+    end
 end
 end
 
@@ -547,9 +563,10 @@ for level = 1:numel(stack)
     if strcmp(path, own) || exist(path, 'file') ~= 2
         continue
     end
-    lines = regexp(fileread(path), '\r?\n', 'split');
+    % Without texts, in which a percent sign is no comment.
+    lines = regexp(regexprep(fileread(path), '''[^''\r\n]*''', ''), '\r?\n', 'split');
     for k = 1:numel(names)
-        reads = regexp(lines, ['^[^%#]*\.' names{k} '\>'], 'once');
+        reads = regexp(lines, ['^[^%]*\.' names{k} '\>'], 'once');
         line = find(~cellfun(@isempty, reads), 1);
         if ~isempty(line)
             error('spacarlight:notReturned', '%s, line %d, reads .%s: %s.', path, line, ...

@@ -81,6 +81,8 @@ def run_script(chosen: argparse.Namespace) -> ExitCode:
     except FlexactError as error:
         complain(f"flexact: error: no results: {harmless(str(error))}")
         return ExitCode.DECK_ERROR
+    for note in results.get("notes", ()):
+        say(wrapped(f"Of the results: {note}.", text_width(), "  "))
     for missing, why in results["missing"].items():
         complain(f"flexact: not among the results: {missing}: {harmless(why)}")
     write_together({chosen.output: text_of_results(results).encode()})

@@ -27,7 +27,7 @@ from ...model.model import Model
 from ...util.errors import FlexactError
 from ...util.loading import VERSION, load
 from ...util.rotations import matrix_of_euler, vector_of_euler
-from .table_input import BY_SECTION, INDEPENDENT, LETTERS, Found, Tables, Text
+from .table_input import BY_SECTION, INDEPENDENT, LETTERS, RELEASED, Found, Tables, Text
 from .tables import (
     checked_tables,
     data_of,
@@ -105,7 +105,8 @@ def _numbers_in(value: Any) -> FloatArray:
 def results_of(script: Script, designed: Result) -> dict[str, Any]:
     """What a script reads, in the names of SPACAR Light; lists, numbers and text alone.
 
-    Under "missing" stands, by name, why something is not there. Of load step i, `step[i]` has
+    Under "missing" stands, by name, why something is not there, under "notes" what is to be known
+    of what is. Of load step i, `step[i]` has
     `freq`, `buck`, `stressmax`, `node[j]` with `p`, `r_quat`, `r_axang`, `r_eulzyx`, `Freac`,
     `Mreac`, `CMglob` and `CMloc`, and `element[k].e`, a row a beam.
 
@@ -136,6 +137,12 @@ def results_of(script: Script, designed: Result) -> dict[str, Any]:
         "ndof": independent - simulated.over_constrained + simulated.under_constrained,
         "overconstraints": _pressing(script, designed),
     }
+    rigid = Model.from_data(data_of(script.tables, RELEASED, Found(None, "")))
+    if over := load("flexact.api").analyse(rigid).over_constrained:
+        found.values["notes"] = [
+            f"what is not in flex is rigid and holds {over} times too often: of reactions and "
+            "stresses those of least norm are given"
+        ]
     elastic = Elastic(script.simulated.data, "rigid", "locked", {}, 1)
     elastic.require_stiffness()
     transfer = script.tables.transfer is not None

@@ -185,7 +185,7 @@ class _Making:
         self.draft = Draft(tables.planar)
         self.position, self.orientation = numbers_of_points(tables, found)
         self.remarks = Remarks(
-            *map(Counter, (tables.left_out, tables.lost)), renamed=Counter(tables.renamed)
+            Counter(tables.left_out), Counter(tables.lost), renamed=Counter(tables.renamed)
         )
         self.used: set[int] = set()
         #: Flexible elements with warping by the points at which they end, and where rigid ones do.
