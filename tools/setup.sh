@@ -105,6 +105,11 @@ if [ "$purpose" = test ] && ! { has_command bash && has_command zsh && has_comma
     (install_packages bash zsh fish) || true
 fi
 
+# spacarlight.m is tested in Octave; its tests are skipped without it, or fail in CI.
+if [ "$purpose" = test ] && ! has_command octave-cli; then
+    (install_packages octave) || true
+fi
+
 [ -x .venv/bin/python ] || "$python" -m venv .venv
 requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm threadpoolctl matplotlib pillow"
 [ "$purpose" != docs ] || requirements="$requirements mkdocs>=1.6,<2 mkdocs-material>=9.5 mkdocstrings[python]>=0.26"

@@ -35,7 +35,7 @@ from flexact.sweeps.scatter_result import SCATTERS
 from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.
-WITHOUT_DECK = {"bench", "completion", "help"}
+WITHOUT_DECK = {"bench", "completion", "help", "spacarlight"}
 #: Of suffixes that mean the same the first.
 PAGE, TABLE = PAGES[0], TABLES[0]
 

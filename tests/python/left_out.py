@@ -19,7 +19,7 @@ Report = TypeVar("Report", pytest.CollectReport, pytest.TestReport)
 
 #: Reasons of `pytest.importorskip`, and of skips where a program or a library is missing.
 _NOT_INSTALLED = re.compile(
-    r"could not import|chromium|needs (matplotlib|vtk|ffmpeg|the program)", re.I
+    r"could not import|chromium|needs (matplotlib|vtk|ffmpeg|octave|the program)", re.I
 )
 
 

@@ -140,7 +140,7 @@ def test_the_walkthrough_with_its_releases_is_exactly_constrained() -> None:
     """SPACAR Light simulates nothing else. Rows: 6 for each of 5 beams less 7 releases; columns: 6
     for each of 4 points that are free, less the one displacement."""
     assert not list(SCHEMA.iter_errors(WALKTHROUGH))
-    analysis = flexact.analyse(model_of(WALKTHROUGH))
+    analysis = flexact.analyse(model_of(WALKTHROUGH, flexible="independent"))
     assert (analysis.rows, analysis.columns) == (5 * 6 - 7, 4 * 6 - 1)
     assert analysis.verdict.value == "exactly constrained"
 
@@ -149,13 +149,13 @@ def test_an_open_chain_without_releases_would_be_exact_and_a_loop_is_not() -> No
     """A loop in space that is closed by flexible deformations which count as degrees of freedom has
     six conditions too many: these SPACAR Light releases by itself where nobody says which."""
     assert not list(SCHEMA.iter_errors(CROSS))
-    model = model_of(CROSS)
+    model = model_of(CROSS, flexible="independent")
     assert (model.data.count.rows, model.data.count.columns) == (7 * 6, 6 * 6)
     analysis = flexact.analyse(model)
     assert (analysis.under_constrained, analysis.over_constrained) == (0, 6)
     cut = copy.deepcopy(CROSS)
     cut["nprops"][3] = {}
-    analysis = flexact.analyse(model_of(cut))
+    analysis = flexact.analyse(model_of(cut, flexible="independent"))
     assert (analysis.under_constrained, analysis.over_constrained) == (0, 0)
 
 
@@ -165,10 +165,13 @@ def test_a_loop_of_rigid_elements_cannot_be_released() -> None:
     tables["nodes"].append([0.05, 0.15, 0])
     tables["elements"] += [[2, 5], [5, 3]]
     both = {**tables, "rls": [{"def": [1, 2, 3, 4, 5, 6]}]}
-    assert flexact.analyse(model_of(tables)).over_constrained == 12
-    assert flexact.analyse(model_of(both)).over_constrained == 6
+    over = [
+        flexact.analyse(model_of(each, flexible="independent")).over_constrained
+        for each in (tables, both)
+    ]
+    assert over == [12, 6]
     both["elements"] = both["elements"][:-1]
-    assert flexact.analyse(model_of(both)).over_constrained == 0
+    assert flexact.analyse(model_of(both, flexible="independent")).over_constrained == 0
 
 
 def test_what_is_flexible_may_be_released_instead() -> None:
@@ -179,13 +182,14 @@ def test_what_is_flexible_may_be_released_instead() -> None:
     tables["nprops"] = [{"fix": True}, {"displ_x": 0.01}, {}, {"fix": True}]
     analysis = flexact.analyse(model_of(tables, flexible="released"))
     assert (analysis.under_constrained, analysis.over_constrained) == (0, 1)
-    analysis = flexact.analyse(model_of(tables))
+    analysis = flexact.analyse(model_of(tables, flexible="independent"))
     assert analysis.over_constrained == 18 - 11
 
 
 def test_beams_of_an_element_are_as_in_spacar_light() -> None:
     """Nodes 3 (i - 1) + 1 and + 2; those between behind all; releases in the last beam."""
-    model = model_of(changed(rls={"def": [2]}, eprops={**BEAM["eprops"][0], "nbeams": 3}))
+    tables = changed(rls={"def": [2]}, eprops={**BEAM["eprops"][0], "nbeams": 3})
+    model = model_of(tables, flexible="independent")
     assert model.element_nodes.tolist() == [[0, 1, 4, 5], [4, 5, 6, 7], [6, 7, 2, 3]]
     assert model.node_numbers.tolist() == [1, 2, 4, 5, 7, 8, 10, 11]
     y = model.positions[[4, 6], 1]
@@ -266,21 +270,44 @@ def test_warping_that_means_nothing_here_is_told_with_its_place() -> None:
     assert "warping: nprops[1].fix_warp: no element warps (1)" in notes
 
 
+def test_a_rigid_element_that_warps_holds_the_warping_of_its_neighbours() -> None:
+    """SPACAR Light 1.38 fixes both warping nodes of a rigid BEAMW; two flexible ones that meet
+    depend on each other."""
+    model = model_of(CROSS, flexible="independent")
+    assert not [item for item in model.diagnostics if "warping" in item.message]
+    held = changed(
+        nprops=[{"fix": True}, {}, {}, {"fix": True}],
+        **{name: CROSS[name] for name in ("nodes", "elements")},
+        eprops=[{**CROSS["eprops"][0], "warping": False, "cw": True}, CROSS["eprops"][1]],
+    )
+    with_cw = model_of(held, flexible="independent").data.properties
+    given = model.data.properties
+    assert given is not None and with_cw is not None
+    assert given.stiffness[0, 1] == with_cw.stiffness[0, 1]
+    two = changed(
+        nodes=[*BEAM["nodes"], [0, 0.2, 0]],
+        elements=[[1, 2], [2, 3]],
+        eprops=[{**CROSS["eprops"][0], "elems": [1, 2]}],
+    )
+    notes = [item.message for item in model_of(two).diagnostics]
+    for one, other in ((1, 2), (2, 1)):
+        words = f"eprops[1].warping of element {one}: at node 2 it depends on element {other}"
+        assert f"warping: {words} (1)" in notes
+
+
 def test_what_a_model_does_not_hold_is_told_once_each() -> None:
     notes = [(item.code, item.message) for item in model_of(CROSS).diagnostics]
     assert notes == [
-        ("left-out", "what is for a simulation: opt.filename (1)"),
-        *(
-            ("left-out", f"warping: eprops[{k}].warping of element {e}: {why} (1)")
-            for k, e, why in (
-                (1, 1, "at node 3 it depends on element 2"),
-                (2, 2, "it has no stiffness in torsion"),
-                (1, 3, "at node 2 it depends on element 2"),
-            )
+        (
+            "by-section",
+            "eprops[1], elements 1, 3: 50 by 0.2 mm is a sheet: out-of-plane bending and torsion "
+            "are released",
         ),
+        ("left-out", "what is for a simulation: opt.filename (1)"),
     ]
     codes = [item.message for item in model_of(WALKTHROUGH).diagnostics]
-    assert "values of prescribed motions (1)" in codes
+    where = "nprops[2].displ_x, nprops[2].displ_initial_x"
+    assert f"values of prescribed motions: {where} (2)" in codes
 
 
 def test_a_state_space_that_is_asked_for_is_told_as_a_command() -> None:

@@ -6,7 +6,7 @@ from importlib import metadata
 from pathlib import Path, PurePosixPath
 
 PYTHON = Path(__file__).resolve().parents[2] / "python"
-KINDS = {".py", ".pyi", ".typed", ".js", ".css", ".html"}
+KINDS = {".py", ".pyi", ".typed", ".js", ".css", ".html", ".m"}
 
 
 def test_the_build_installs_every_source_and_nothing_else() -> None:

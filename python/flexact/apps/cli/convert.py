@@ -168,8 +168,9 @@ VERB = Verb(
             "--flexible",
             choices=FLEXIBLE,
             help=(
-                "what deformations in flex of tables are that are not released: degrees of "
-                "freedom, as in SPACAR Light (default), or released, too"
+                "what deformations in flex of tables are: released, where flex says all of them "
+                "those of the sheet or wire that the section makes (by-section, default); degrees "
+                "of freedom, as in SPACAR Light (independent); or all released"
             ),
         ),
     ),

@@ -36,6 +36,7 @@ VERBS = {
     "watch": "the page of a deck or a script in the browser, renewed whenever it is saved",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
+    "spacarlight": "verdict and results of a script for SPACAR Light, for MATLAB and Octave",
     "bench": "how fast this machine is, in half a minute",
     "lsp": "a language server for editors, which start it",
     "completion": "a script by which a shell completes the words of this command",

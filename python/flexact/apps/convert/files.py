@@ -309,7 +309,7 @@ def format_of(path: Path) -> str:
 
 
 def read_any(
-    path: Path, *, flexible: str = "independent", kind: str = "beam", fixed: Iterable[int] = ()
+    path: Path, *, flexible: str | None = None, kind: str = "beam", fixed: Iterable[int] = ()
 ) -> Model:
     """The model in a file; what it does not hold stands in `Model.diagnostics`.
 
@@ -327,6 +327,17 @@ def read_any(
         return read(path)
     if form is MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
+    if form is FLEXURES:
+        return model_of_flexures(bytes_in(path), path)
+    return _of_tables(bytes_in(path), path, flexible)
+
+
+def bytes_in(path: Path) -> bytes:
+    """The content of a file of tables.
+
+    Raises:
+        BatchError: it cannot be read.
+    """
     try:
         # A pipe or a device may keep whoever reads it for ever.
         found = path.stat()
@@ -338,10 +349,10 @@ def read_any(
             raw = file.read(found.st_size + _PIECE)
     except OSError as error:
         raise BatchError(f"{path}: the file cannot be read: {reason_of(error)}") from error
-    return model_of_flexures(raw, path) if form is FLEXURES else _of_tables(raw, path, flexible)
+    return raw
 
 
-def read_content(raw: bytes, name: str, *, flexible: str = "independent") -> Model:
+def read_content(raw: bytes, name: str, *, flexible: str | None = None) -> Model:
     """The model in a text without a suffix: JSON tables if it begins with a brace, else a deck.
 
     Args:
@@ -362,7 +373,7 @@ def form_of_content(raw: bytes) -> str:
     return TABLES if raw.lstrip()[:1] == b"{" else DECK
 
 
-def _of_tables(raw: bytes, path: Path, flexible: str) -> Model:
+def _of_tables(raw: bytes, path: Path, flexible: str | None) -> Model:
     tables, text = read_tables(raw, str(path), path.suffix.lower())
     return model_of(tables, flexible=flexible, name=path.stem, text=text)
 

@@ -185,7 +185,7 @@ def model_of_mesh(
         for unknown in (each for each in names if each not in known):
             # With a colon it is what a format keeps for itself.
             remarks.leave_out(f"data of {word}: {unknown}", int(":" not in unknown))
-    model = model_of(tables, name=name)
+    model = model_of(tables, flexible="independent", name=name)
     found = model.data.besides + remarks.diagnostics()
     return Model.from_data(replace(model.data, besides=found)) if remarks.left_out else model
 

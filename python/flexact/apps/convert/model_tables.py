@@ -14,6 +14,7 @@ from ...deck.tokens import comments_of
 from ...model.data import CrossSection, ModelData
 from ...model.draft import Shape
 from .table_input import (
+    INDEPENDENT,
     LETTERS,
     LOADS,
     NODE_FIELDS,
@@ -281,6 +282,10 @@ def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
         "nprops": _points_said(data, points, ends, kinds, remarks),
         "eprops": sets,
     }
+    if any("flex" in entry or "hinge" in entry.get("type", "") for entry in sets):
+        # By section they would be read as a designer means them, and not as a deck says.
+        made["flexible"] = INDEPENDENT
+        remarks.own["flexible"] = 1
     if any(releases):
         made["opt"] = {"rls": [{"def": modes} for modes in releases]}
     if data.loads is not None and data.loads.gravity.any():

@@ -209,7 +209,9 @@ NODES_A_POINT = 3
 
 #: Gives the value of a field as it is used, or raises ValueError in words.
 Check = Callable[[Any], Any]
-PRESCRIBED = "values of prescribed motions"
+#: Of a motion: what is added in the course of loading, and what it begins with.
+_STARTS = ("", "_initial")
+PRESCRIBED, SIMULATED = "values of prescribed motions", "what is for a simulation"
 #: Fields that only Flexact knows.
 OWN_FIELDS = frozenset(("fix_rx", "fix_ry", "fix_rz", "name", "same_pos", "same_orien", "type"))
 
@@ -252,14 +254,48 @@ ELEMENT_FIELDS: dict[str, Check] = {
 }
 #: Of the releases, element by element.
 RELEASE_FIELDS = {"def": deformations}
+#: Names of versions before 1.0, and of the structure that was given alone, as they are today. In
+#: those versions the rotation rx was about z.
+OLD_TABLES = {
+    **{"coordinates": "nodes", "connect": "elements", "elprops": "eprops"},
+    **{"Nodes": "nodes", "Elements": "elements", "Node_props": "nprops", "Elem_props": "eprops"},
+    **{"Rlse": "rls", "Optional": "opt"},
+}
+OLD_NODE_FIELDS = {
+    **{"fix_all": "fix", "fix_xyz": "fix_pos", "fix_rxyz": "fix_orien", "fix_w": "fix_warp"},
+    **{f"fix_rot_{axis}": f"fix_r{axis}" for axis in LETTERS},
+    **{f"disp{start}_{axis}": f"displ{start}_{axis}" for start in _STARTS for axis in LETTERS},
+    **{
+        f"disp{start}_r{axis}": f"rot{start}_{now}"
+        for start in _STARTS
+        for axis, now in zip(LETTERS, reversed(LETTERS), strict=True)
+    },
+    **{
+        f"{stem}_initial_r{axis}": f"rot_initial_{axis}"
+        for stem in ("displ", "rot")
+        for axis in LETTERS
+    },
+    **{"displ_rot": "rot", "displ_initial_rot": "rot_initial", "inertia": "mominertia"},
+}
+OLD_ELEMENT_FIELDS = {
+    **{"El_Nrs": "elems", "E": "emod", "G": "smod", "rho": "dens", "n_beams": "nbeams"},
+    "enable_warping": "warping",
+}
+#: What `type` of an element said before there was cshape.
+OLD_TYPES = {
+    **{"leafspring": "rect", "rigid": "rect", "rect": "rect"},
+    **{"wire": "circ", "circ": "circ"},
+}
 #: What SPACAR Light calls the loads of a deck: XF, on which a simulation starts, and DELXF.
 LOADS = {"force": "_initial", "increment": ""}
 #: Options; of these releases, gravity and transfer are used, and none of the others is looked at.
 OPTIONS = (
     *("rls", "filename", "gravity", "silent", "calcbuck", "showinputonly", "loadsteps", "mode"),
     *("transfer", "calccompl", "customvis", "customdyn", "customkin", "spavisual", "rigidstress"),
-    "stressperelement",
+    *("stressperelement", "buckload", "buck_load", "simple_mode", "transfer_in", "transfer_out"),
 )
+#: What deformations in flex can be taken for, the first where nothing is said; see `model_of`.
+BY_SECTION, INDEPENDENT, RELEASED = FLEXIBLE = "by-section", "independent", "released"
 
 
 def is_unset(value: Any) -> bool:
@@ -268,6 +304,7 @@ def is_unset(value: Any) -> bool:
 
 
 LEFT_OUT, LOST, OWN_FIELD, TRANSFER = "left-out", "lost", "own-field", "state-space"
+OLD_NAME = "old-name"
 
 
 @dataclass
@@ -278,11 +315,13 @@ class Remarks:
         left_out: What the verdict does not depend on.
         lost: What it depends on.
         own: Fields of tables.
+        renamed: What is called otherwise today.
     """
 
     left_out: Counter[str] = field(default_factory=Counter)
     lost: Counter[str] = field(default_factory=Counter)
     own: Counter[str] = field(default_factory=Counter)
+    renamed: Counter[str] = field(default_factory=Counter)
 
     def leave_out(self, what: str, times: int = 1) -> None:
         """Note something that the other format does not hold."""
@@ -292,13 +331,18 @@ class Remarks:
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """A warning of each thing that is lost, a note of each that is left out."""
         words = "lost, though the verdict depends on it: "
-        own = ", ".join(f"{name} ({times})" for name, times in self.own.items())
         said = [
             *((Severity.WARNING, LOST, f"{words}{what} ({n})") for what, n in self.lost.items()),
             *((Severity.NOTE, LEFT_OUT, f"{what} ({n})") for what, n in self.left_out.items()),
-            (Severity.NOTE, OWN_FIELD, f"fields that SPACAR Light does not know: {own}"),
         ]
-        return tuple(Diagnostic(*each) for each in said[: None if own else -1])
+        for code, about, counted in (
+            (OLD_NAME, "names of older versions", self.renamed),
+            (OWN_FIELD, "fields that SPACAR Light does not know", self.own),
+        ):
+            if counted:
+                names = ", ".join(f"{name} ({times})" for name, times in counted.items())
+                said.append((Severity.NOTE, code, f"{about}: {names}"))
+        return tuple(Diagnostic(*each) for each in said)
 
 
 class TablesError(ProblemsError, ValueError):
@@ -358,7 +402,7 @@ class Found:
             raise TablesError(Problems.of(self._items), self._name, self._source)
 
 
-_TABLES = ("nodes", "elements", "nprops", "eprops", "rls", "opt", "name")
+_TABLES = ("nodes", "elements", "nprops", "eprops", "rls", "opt", "name", "flexible")
 Entry = dict[str, Any]
 
 
@@ -376,7 +420,10 @@ class Tables:
         gravity: Acceleration of free fall [m/s^2].
         transfer: Modal damping of the state space that is asked for; None without one.
         left_out: What is said that a model does not hold.
+        lost: What of it the verdict depends on.
+        renamed: What is called otherwise today.
         name: What the model is called.
+        flexible: What deformations in flex are, one of `FLEXIBLE`; empty where nothing is said.
         faulty: Places of entries with a field that is wrong, of which no more is said.
     """
 
@@ -389,7 +436,10 @@ class Tables:
     gravity: tuple[float, ...] = (0.0, 0.0, 0.0)
     transfer: float | None = None
     left_out: Counter[str] = field(default_factory=Counter)
+    lost: Counter[str] = field(default_factory=Counter)
+    renamed: Counter[str] = field(default_factory=Counter)
     name: str = ""
+    flexible: str = ""
     faulty: set[str] = field(default_factory=set)
 
     def entry_of(self, element: int) -> Entry:
@@ -405,9 +455,12 @@ class Tables:
 def tables_given(given: Mapping[str, Any], found: Found) -> Tables:
     """Tables with everything that is wrong with them noted in `found`."""
     made = Tables()
+    given = _as_today(given, OLD_TABLES, made, found, "")
     for name in given:
         if name not in _TABLES:
             found.error(str(name), f"there is no such table{_meant(name, _TABLES)}")
+    if not is_unset(given.get("flexible")):
+        made.flexible = found.checked("flexible", _flexible, given["flexible"]) or ""
     made.name = given["name"] if isinstance(given.get("name"), str) else ""
     _take_places(made, given.get("nodes"), found)
     _take_ends(made, given.get("elements"), found)
@@ -421,9 +474,41 @@ def tables_given(given: Mapping[str, Any], found: Found) -> Tables:
     return made
 
 
+def _flexible(value: Any) -> str:
+    _require(value in FLEXIBLE, f"one of {', '.join(FLEXIBLE)} is wanted")
+    return str(value)
+
+
+def _as_today(
+    given: Mapping[str, Any], names: Mapping[str, str], made: Tables, found: Found, place: str
+) -> Mapping[str, Any]:
+    """The entries under the names of today; what says nothing may be there twice."""
+    renamed: dict[str, Any] = {}
+    called: dict[str, str] = {}
+    for key, value in given.items():
+        now = names.get(key, key)
+        old = value.lower() if key == "type" and isinstance(value, str) else ""
+        if names is OLD_ELEMENT_FIELDS and old in OLD_TYPES:
+            now, value = "cshape", OLD_TYPES[old]
+        if now in renamed and (is_unset(value) or not is_unset(renamed[now])):
+            if not is_unset(value):
+                older = key if key != now else called[now]
+                where = f"{place}.{older}" if place else older
+                found.error(where, f"this is {now} by an older name, and both are there: keep one")
+            continue
+        renamed[now], called[now] = value, key
+        if now != key and not is_unset(value):
+            made.renamed[f"{key} for {now}"] += 1
+    return renamed
+
+
 def _meant(name: object, known: Sequence[str] | Mapping[str, Any]) -> str:
     near = nearest(name, known)[:1] if isinstance(name, str) else []
     return f"; did you mean {near[0]}?" if near else f": it is one of {', '.join(known)}"
+
+
+#: Names of today by older ones, of entries of a table.
+_OLD_FIELDS = {"nprops": OLD_NODE_FIELDS, "eprops": OLD_ELEMENT_FIELDS}
 
 
 def _rows(given: Any, name: str, found: Found) -> list[Any]:
@@ -477,7 +562,9 @@ def _entries(
     if is_unset(given):
         return []
     if isinstance(given, Mapping):
-        if not given or any(str(key) in fields for key in given):
+        if not given or any(
+            str(key) in fields or key in _OLD_FIELDS.get(name, ()) for key in given
+        ):
             # MATLAB writes a single entry without brackets.
             return [(1, given)]
         made = []
@@ -505,7 +592,7 @@ def _fields(
         if not isinstance(entry, Mapping):
             found.error(place, f"an object with fields is wanted, not {in_short(entry)}")
             continue
-        for key, value in entry.items():
+        for key, value in _as_today(entry, _OLD_FIELDS.get(name, {}), made, found, place).items():
             if key not in fields:
                 found.error(f"{place}.{key}", f"there is no such field{_meant(key, fields)}")
             elif not is_unset(value):
@@ -557,8 +644,10 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     for name, value in (options or {}).items():
         if name not in OPTIONS:
             found.error(f"opt.{name}", f"there is no such option{_meant(name, OPTIONS)}")
+        elif name == "customkin" and not is_unset(value):
+            made.lost["opt.customkin: statements for the kinematics"] += 1
         elif name not in ("gravity", "rls", "transfer"):
-            made.left_out[f"what is for a simulation: opt.{name}"] += 1
+            made.left_out[f"{SIMULATED}: opt.{name}"] += 1
         elif is_unset(value):
             continue
         elif name == "transfer":

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 import shlex
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise, product
@@ -24,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
+from ...core.elements import AXES, Class, Member, NodeKind, Vector
 from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Severity
 from ...model.data import ModelData
@@ -32,14 +33,21 @@ from ...model.draft import Draft
 from ...model.draft_arrays import data_of as data_of_draft
 from ...model.model import Model
 from ...model.names import one_line
+from ...model.parts.parts import declared
 from ...model.transform import NO_VECTOR
 from ...util.errors import require_kind
+from .by_section import kind_given, kind_in_words, name_by_rows, taken_by_section
 from .model_tables import tables_with_remarks
 from .table_input import (
+    BY_SECTION,
+    FLEXIBLE,
+    INDEPENDENT,
     LETTERS,
     LOADS,
     NODES_A_POINT,
     PRESCRIBED,
+    RELEASED,
+    SIMULATED,
     TRANSFER,
     Entry,
     Found,
@@ -71,6 +79,44 @@ def _numbers(
     return made
 
 
+def numbers_of_points(tables: Tables, found: Found | None = None) -> tuple[dict[int, int], ...]:
+    """Numbers of the position and of the orientation of each point; some share one.
+
+    Args:
+        tables: The tables.
+        found: Where problems are noted.
+    """
+    noted = Found(None, tables.name) if found is None else found
+    return (
+        _numbers(tables, "same_pos", 1, _hinged(tables), noted),
+        _numbers(tables, "same_orien", 2, {}, noted),
+    )
+
+
+#: An end of a state space: a point, such as "force" or "veloc", and an axis.
+End = tuple[int, str, str]
+_ENDS = ("transfer_in", "transfer_out")
+
+
+def ends_of_transfer(tables: Tables) -> tuple[list[End], list[End]]:
+    """Where a state space begins, and where it ends."""
+    sources, sinks = (
+        [
+            (point, *each.split("_"))
+            for point, entry in tables.nodes.items()
+            for each in entry.get(name, ())
+        ]
+        for name in _ENDS
+    )
+    return sources, sinks
+
+
+def end_in_words(position: Mapping[int, int], end: End) -> str:
+    """Such as "4:x velocity"."""
+    point, stem, axis = end
+    return f"{position.get(point, 0)}:{axis}{' velocity' * (stem == 'veloc')}"
+
+
 def _hinged(tables: Tables) -> dict[int, int]:
     """Of nodes at one place that a hinge joins the later one, with the earlier one."""
     made = {}
@@ -81,16 +127,20 @@ def _hinged(tables: Tables) -> dict[int, int]:
     return made
 
 
+#: Sine of the largest angle between what lies along each other, by rounding.
+_ALONG = 1e-9
+#: What flexible deformations are that are not released, where all are alike.
+_CLASSES = {INDEPENDENT: Class.INDEPENDENT, RELEASED: Class.DEPENDENT}
 #: What the local y axis of a beam points to where nothing is said.
 _ORIEN = (0.0, 1.0, 0.0)
 
 
-def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
+def data_of(tables: Tables, flexible: str, found: Found) -> ModelData:
     """The model of checked tables; what cannot be made is noted in `found`.
 
     Args:
         tables: The tables.
-        flexible: What flexible deformations are that are not released.
+        flexible: What deformations in flex are, one of `FLEXIBLE`.
         found: Where problems are noted.
     """
     making = _Making(tables, flexible, found)
@@ -102,26 +152,50 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     asked = making.transfer()
     found.require_none()
     data = data_of_draft(making.draft, tables.name)
-    return replace(data, besides=(*data.besides, *making.remarks.diagnostics(), *asked))
+    told: tuple[Diagnostic, ...] = ()
+    if making.taken is not None:
+        if len(making.of_beam) > len(tables.ends):
+            making.name_parts(data)
+            data = data_of_draft(making.draft, tables.name)
+        # What is divided, here or in the script, counts as one.
+        data, told = declared(data), making.taken.remarks
+    return replace(data, besides=(*data.besides, *told, *making.remarks.diagnostics(), *asked))
+
+
+def _is_along(vector: tuple[float, ...], p: tuple[float, ...], q: tuple[float, ...]) -> bool:
+    """Whether a vector lies along the line from p to q, in space, and so gives it no axes."""
+    if len(p) < 3:
+        return False
+    way = np.subtract(q, p)
+    across = np.linalg.norm(np.cross(way, vector))
+    return bool(across <= _ALONG * np.linalg.norm(way) * np.linalg.norm(vector))
 
 
 class _Making:
     """A draft that grows from tables."""
 
-    def __init__(self, tables: Tables, flexible: Class, found: Found) -> None:
+    def __init__(self, tables: Tables, flexible: str, found: Found) -> None:
         self.tables = tables
-        self.flexible = flexible
+        #: What is released by section; None where `flex` and `rls` say it.
+        self.taken = taken_by_section(tables) if flexible == BY_SECTION else None
+        self.flexible = _CLASSES.get(flexible, Class.DEPENDENT)
         self.found = found
+        #: The element of the tables that each beam is of.
+        self.of_beam: list[int] = []
         self.draft = Draft(tables.planar)
-        #: Numbers of the position and the orientation of each point; some share one.
-        self.position = _numbers(tables, "same_pos", 1, _hinged(tables), found)
-        self.orientation = _numbers(tables, "same_orien", 2, {}, found)
-        self.remarks = Remarks(left_out=tables.left_out)
+        self.position, self.orientation = numbers_of_points(tables, found)
+        self.remarks = Remarks(
+            Counter(tables.left_out), Counter(tables.lost), renamed=Counter(tables.renamed)
+        )
         self.used: set[int] = set()
-        #: Elements with warping by the points at which they end.
+        #: Flexible elements with warping by the points at which they end, and where rigid ones do.
         self.warping_at: dict[int, list[int]] = {}
+        self.stiff_at: set[int] = set()
         for element, ends in enumerate(tables.ends, start=1):
-            if tables.entry_of(element).get("warping"):
+            entry = tables.entry_of(element)
+            if entry.get("warping") and not entry.get("flex"):
+                self.stiff_at.update(ends)
+            elif entry.get("warping"):
                 for point in ends:
                     self.warping_at.setdefault(point, []).append(element)
         self.next_node = NODES_A_POINT * len(tables.places) + 1
@@ -133,33 +207,63 @@ class _Making:
             number = self.position[point]
             self.draft.node_kind[number] = kind
             self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
-            if name := one_line(self.tables.nodes.get(point, {}).get("name", "")):
+            name = one_line(self.tables.nodes.get(point, {}).get("name", ""))
+            if not name and self.taken is not None:
+                # Nodes of the deck have other numbers than those of the script.
+                name = f"point {point}"
+            if name:
                 self.draft.node_names.setdefault(number, name)
 
     def add_element(self, element: int) -> None:
         """The beams of an element, or the one element that it is."""
         entry, (p, q) = self.tables.entry_of(element), self.tables.ends[element - 1]
         where = f"eprops[{self.tables.set_of.get(element, 0)}]"
-        kind = kind_of(entry.get("type", "plbeam" if self.tables.planar else "beam").upper())
+        kind = kind_given(self.tables, entry)
         if self.tables.planar and NodeKind.POSITION in kind.slots:
             self.found.error(f"{where}.type", "nodes with x and y have planar elements alone")
         count = entry.get("nbeams", 1)
         if count > 1 and kind.member != Member.BEAM:
             self.found.error(f"{where}.nbeams", "a beam alone is divided")
             count = 1
-        vector = self._vector(kind, entry, where)
+        flex = entry.get("flex", ())
+        if self.taken is not None:
+            flex = self.taken.released.get(element, ())
+        is_rigid = not (entry.get("flex") or flex or self.tables.released.get(element))
+        vector = self._vector(kind, element, where, is_rigid)
         for i, slots in enumerate(self._slots(kind, p, q, count)):
-            released = self.tables.released.get(element, ()) if i == count - 1 else ()
-            classes = self._classes(kind, entry.get("flex", ()), released, element)
+            is_last = i == count - 1 and self.taken is None
+            released = self.tables.released.get(element, ()) if is_last else ()
+            classes = self._classes(kind, flex, released, element)
             number = self.draft.append_element(kind.number, slots, vector, classes)
+            self.of_beam.append(element)
             self._give(number - 1, kind, entry, element, (i, count))
 
-    def _vector(self, kind: ElementKind, entry: Entry, where: str) -> tuple[float, float, float]:
+    def name_parts(self, data: ModelData) -> None:
+        """Call parts by the elements of the script: the beams of a divided one shift numbers."""
+        released = {} if self.taken is None else self.taken.released
+        kinds = [kind_in_words(released.get(each, ())) for each in self.of_beam]
+        name_by_rows(self.draft, data.chains, self.of_beam, kinds)
+
+    def _vector(
+        self, kind: ElementKind, element: int, where: str, is_rigid: bool
+    ) -> tuple[float, float, float]:
+        entry = self.tables.entry_of(element)
         x, y, z = entry.get("orien", _ORIEN if kind.member == Member.BEAM else NO_VECTOR)
         if kind.vector == Vector.NONE:
             return NO_VECTOR
         if kind.vector == Vector.REQUIRED and not any((x, y, z)):
             self.found.error(where, f"a {entry['type']} needs its axis: give orien")
+        p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
+        if kind.member == Member.BEAM and p == q:
+            self.found.error(f"elements[{element}]", "its nodes are at one place: it has no length")
+        elif kind.member == Member.BEAM and _is_along((x, y, z), p, q):
+            if is_rigid:
+                # It has no width; any axes will do.
+                self.remarks.leave_out("orien along a rigid element", int("orien" in entry))
+                return NO_VECTOR
+            said = "it" if "orien" in entry else "(0, 1, 0), the default,"
+            words = f"{said} lies along element {element}: give a vector along its width"
+            self.found.error(f"{where}.orien", words)
         return x, y, z
 
     def _slots(
@@ -250,8 +354,9 @@ class _Making:
         return sum(map(self._holds_warping, ends)) if self._meets(element) is None else 0
 
     def _holds_warping(self, point: int) -> bool:
+        """A clamp does, and a rigid element that warps: SPACAR Light fixes it at both ends."""
         entry = self.tables.nodes.get(point, {})
-        return bool(entry.get("fix") or entry.get("fix_warp"))
+        return bool(entry.get("fix") or entry.get("fix_warp")) or point in self.stiff_at
 
     def _meets(self, element: int) -> tuple[int, int] | None:
         """Another element with warping at a free end of this one, and where; None without."""
@@ -269,6 +374,8 @@ class _Making:
             said = next((name for name in ("cw", "warping") if entry.get(name)), "")
             warps = warps or bool(said)
             why = ""
+            if not entry.get("flex"):
+                continue
             if said and (self.tables.planar or "emod" not in entry):
                 why = "it has no stiffness in torsion"
             elif said == "warping" and (met := self._meets(element)) is not None:
@@ -287,10 +394,12 @@ class _Making:
             for point, entry in self.tables.nodes.items()
             if point <= len(self.tables.places)
         }
+        told: list[str] = []
         for point, (entry, own) in points.items():
             stated = self._fixed(entry, own)
-            self.remarks.leave_out(PRESCRIBED, int(self._prescribe(point, entry, own, stated)))
+            told += self._prescribe(point, entry, own, stated)
             self.draft.coordinate_class.update(stated)
+        self.remarks.leave_out(f"{PRESCRIBED}: {', '.join(told)}", len(told))
         for point, (entry, own) in points.items():
             for name, number in zip(("mass", "mominertia"), own, strict=True):
                 if self._is_given(point, entry, name, number):
@@ -310,24 +419,22 @@ class _Making:
 
     def transfer(self) -> tuple[Diagnostic, ...]:
         """How the state space is found that opt.transfer asks for; ends alone are left out."""
-        ends: dict[str, list[str]] = {"transfer_in": [], "transfer_out": []}
-        for point, entry in self.tables.nodes.items():
-            for name, said in ends.items():
-                for stem, axis in (each.split("_") for each in entry.get(name, ())):
-                    if self._is_given(point, entry, name, self.position.get(point, 0)):
-                        rate = " velocity" * (stem == "veloc")
-                        said.append(f"{self.position[point]}:{axis}{rate}")
-        sources, sinks = ends.values()
+        sources, sinks = ends_of_transfer(self.tables)
+        for name, ends in zip(_ENDS, (sources, sinks), strict=True):
+            for point, _, _ in ends:
+                number = self.position.get(point, 0)
+                self._is_given(point, self.tables.nodes[point], name, number)
+        said = [[end_in_words(self.position, each) for each in ends] for ends in (sources, sinks)]
         damping = self.tables.transfer
         if damping is None or not (sources and sinks):
             self.remarks.leave_out("opt.transfer without ends", int(damping is not None))
-            for name, said in ends.items():
-                self.remarks.leave_out(f"what is for a simulation: nprops.{name}", len(said))
+            for name, ends in zip(_ENDS, (sources, sinks), strict=True):
+                self.remarks.leave_out(f"{SIMULATED}: nprops.{name}", len(ends))
             return ()
         words = " ".join(
             f"--{option} {shlex.quote(end)}"
-            for option, said in (("from", sources), ("to", sinks))
-            for end in said
+            for option, ends in zip(("from", "to"), said, strict=True)
+            for end in ends
         )
         return (
             Diagnostic(
@@ -335,7 +442,7 @@ class _Making:
                 TRANSFER,
                 f"opt.transfer: flexact transfer DECK {words} --damping {damping:g} --held rigid "
                 f"--beams 1; in Python flexact.elastic(DECK, held='rigid', beams=1).state_space("
-                f"{sources}, {sinks}, damping={damping:g})",
+                f"{said[0]}, {said[1]}, damping={damping:g})",
             ),
         )
 
@@ -354,9 +461,9 @@ class _Making:
 
     def _prescribe(
         self, point: int, entry: Entry, own: tuple[int, int], stated: dict[tuple[int, int], Class]
-    ) -> bool:
-        """Make independent what moves as it is told; whether a value was told."""
-        told = False
+    ) -> list[str]:
+        """Make independent what moves as it is told; the places of values that were told."""
+        told = []
         for number, stem in zip(own, ("displ", "rot"), strict=True):
             axes = self._axes(number)
             names: dict[str, tuple[int, ...]] = {}
@@ -365,7 +472,7 @@ class _Making:
                 names[start] = axes
             for name in (each for each in names if each in entry):
                 where = f"nprops[{point}].{name}"
-                told = told or bool(np.any(entry[name]))
+                told += [where] if np.any(entry[name]) else []
                 for place in ((number, axis) for axis in names[name]):
                     if place[1] not in axes:
                         self.found.error(where, "no element gives the node this coordinate")
@@ -391,18 +498,16 @@ class _Making:
         return x, y, z
 
 
-__all__ = ["TablesError", "model_of", "tables_of"]
+__all__ = ["FLEXIBLE", "TablesError", "model_of", "tables_of"]
 
 #: No table has values in each other more deeply.
 _DEEPEST = 10
-#: What flexible deformations that are not released can be.
-FLEXIBLE = {"independent": Class.INDEPENDENT, "released": Class.DEPENDENT}
 
 
 def model_of(
     tables: Mapping[str, Any],
     *,
-    flexible: str = "independent",
+    flexible: str | None = None,
     name: str = "",
     text: Text | None = None,
 ) -> Model:
@@ -410,16 +515,18 @@ def model_of(
 
     A node is a position and an orientation. An element is a beam, or `nbeams` of them in a row.
     `fix` and its like fix coordinates, `displ_x` and `rot_x` and their like make them independent,
-    whatever their values. Of a beam the deformations in `rls(i).def` are released, of one that is
-    divided those of its last beam; the others in `flex` are what `flexible` says, and the rest are
-    held.
+    whatever their values. What is not flexible is held.
 
     Args:
         tables: `nodes`, `elements`, and perhaps `nprops`, `eprops`, `rls` and `opt`; lists or
             arrays, as of a JSON that MATLAB's jsonencode has made. Of `nprops`, `eprops` and
             `rls` each entry is an object; of few, an object by number will do.
-        flexible: "independent", degrees of freedom, as SPACAR Light has them; or "released", as a
-            designer asks whether the mechanism is exactly constrained.
+        flexible: What deformations in `flex` are. "by-section", as a designer asks whether the
+            mechanism is exactly constrained: released; where `flex` says all, those of the sheet,
+            the wire or the body that the section makes (`taken_by_section`), and what is divided
+            counts as one. "independent": degrees of freedom, as SPACAR Light has them, but for
+            those in `rls(i).def`, which are released, of a divided beam those of its last one.
+            "released": all of them are. By default what the tables say, else by section.
         name: What the model is called, where the tables do not say it.
         text: What the tables were read from, for the lines of problems.
 
@@ -428,14 +535,25 @@ def model_of(
         TypeError: they are no mapping.
         ValueError: `flexible` is neither.
     """
-    require_kind(tables, Mapping, "tables are a mapping")
-    if flexible not in FLEXIBLE:
+    if flexible is not None and flexible not in FLEXIBLE:
         raise ValueError(f"flexible is one of {', '.join(FLEXIBLE)}, not {flexible!r}")
     found = Found(text, name)
+    checked = checked_tables(tables, name, found)
+    return Model.from_data(data_of(checked, flexible or checked.flexible or BY_SECTION, found))
+
+
+def checked_tables(tables: Mapping[str, Any], name: str, found: Found) -> Tables:
+    """Tables in one form.
+
+    Raises:
+        TablesError: anything is wrong with them.
+        TypeError: they are no mapping.
+    """
+    require_kind(tables, Mapping, "tables are a mapping")
     checked = tables_given({key: _plain(value) for key, value in tables.items()}, found)
     found.require_none()
     checked.name = checked.name or name
-    return Model.from_data(data_of(checked, FLEXIBLE[flexible], found))
+    return checked
 
 
 def _plain(value: Any, depth: int = 0) -> Any:
