@@ -370,6 +370,9 @@ def _folded(strips: list[Strip], parts: Parts) -> list[Strip]:
         other = strips[j] if end_j == 0 else strips[j].turned()
         if one.width[-1] @ other.width[0] < 0.0:
             other = replace(other, width=-other.width, sign=-other.sign)
+        if one.assumed and other.assumed:
+            least = np.minimum(one.sizes.min(axis=0), other.sizes.min(axis=0))
+            one, other = (replace(x, sizes=np.tile(least, (len(x.rows), 1))) for x in (one, other))
         joined: dict[str, Any] = {
             name: np.concatenate((getattr(one, name), getattr(other, name)))
             for name in ("rows", "against", "width", "local", "sign", "sizes")
@@ -412,6 +415,9 @@ def _is_fold(
         return False
     out, back = one.frame(end_i), other.frame(end_j)
     breadth = one.sizes[-end_i, 1], other.sizes[-end_j, 1]
+    if one.assumed and other.assumed:
+        # Drawn by its own length each: then both as the smaller one.
+        breadth = breadth[0], breadth[0]
     return bool(
         abs(out[:, 2] @ back[:, 2]) > 1.0 - _SAME
         and -(out[:, 0] @ back[:, 0]) > _SHARPEST

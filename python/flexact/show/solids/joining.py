@@ -18,7 +18,8 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...util.groups import groups_of
 from ...util.rotations import frames_along, unit
-from .shapes import Polyhedron, apart, box, hull
+from ..drawing.bodies import polygon_round
+from .shapes import Polyhedron, Prism, apart, box, circle, hull, polygon
 
 #: Overlaps below this part of the size are rounding.
 _TOUCH = 1.0e-9
@@ -201,26 +202,92 @@ def _box_round(points: FloatArray, frame: FloatArray) -> Polyhedron:
 def bridges(one: Polyhedron, other: Polyhedron, least: float) -> Iterator[Polyhedron]:
     """Bars between two convex blocks from a face of the one to a face of the other, short first.
 
-    Each face is on the outer side of the other's plane, so that a bar is beside both blocks.
+    Each end is on the outer side of the other's plane, so that a bar is beside both blocks. On a
+    face that is larger a bar stands upright.
     """
     faces = [[block.points[list(face)] for face in block.faces] for block in (one, other)]
-    middle = [np.array([face.mean(axis=0) for face in each]) for each in faces]
-    found = []
+    found: list[tuple[float, int, FloatArray, FloatArray]] = []
     for i, mine in enumerate(faces[0]):
         for j, theirs in enumerate(faces[1]):
-            up = (theirs - mine[0]) @ one.normals[i]
-            down = (mine - theirs[0]) @ other.normals[j]
-            if min(up.min(), down.min()) < -least or min(up.max(), down.max()) < least:
-                continue
-            way = middle[1][j] - middle[0][i]
-            far = float(np.linalg.norm(way)) or 1.0
-            # Straight ones before those that leave a face aslant.
-            slant = 2.0 - float(way @ one.normals[i] - way @ other.normals[j]) / far
-            found.append((far * (1.0 + slant), i, j))
-    for _, i, j in sorted(found)[:_MOST_TRIED]:
-        made = hull(np.concatenate((faces[0][i], faces[1][j])))
+            n, m = one.normals[i], other.normals[j]
+            feet = [(mine, theirs)]
+            feet += [(mine, foot)] if (foot := _foot(mine, theirs, m)) is not None else []
+            feet += [(foot, theirs)] if (foot := _foot(theirs, mine, n)) is not None else []
+            for start, end in feet:
+                up, down = (end - mine[0]) @ n, (start - theirs[0]) @ m
+                if min(up.min(), down.min()) < -least or min(up.max(), down.max()) < least:
+                    continue
+                way = end.mean(axis=0) - start.mean(axis=0)
+                far = float(np.linalg.norm(way)) or 1.0
+                # Straight ones before those that leave a face aslant.
+                slant = 2.0 - float(way @ n - way @ m) / far
+                found.append((far * (1.0 + slant), len(found), start, end))
+    for _, _, start, end in sorted(found, key=lambda each: each[:2])[:_MOST_TRIED]:
+        made = hull(np.concatenate((start, end)))
         if made is not None:
             yield made
+
+
+def _foot(corners: FloatArray, face: FloatArray, normal: FloatArray) -> FloatArray | None:
+    """Corners dropped on the plane of a face, where they lie within it; else None."""
+    made = corners - ((corners - face[0]) @ normal)[:, None] * normal
+    side = np.cross(normal, np.roll(face, -1, axis=0) - face)
+    inside = np.einsum("kx,nkx->nk", side, made[:, None] - face) > 0.0
+    # A foot that is the edge of a face is none.
+    flat = np.linalg.matrix_rank(made - made.mean(axis=0), tol=1.0e-6 * np.ptp(face, axis=0).max())
+    return made if flat == 2 and inside.all() else None
+
+
+def plate(
+    lumps: list[Lump], owner: Hashable, thick: float, world: World, *, is_round: bool
+) -> tuple[Prism, list[Polyhedron]] | None:
+    """A plate beyond all lumps, on which each of them stands by a foot; None where none fits."""
+    blocks = [lump.block for lump in lumps]
+    points = np.concatenate([block.points for block in blocks])
+    outs = np.array([end.frame[:, 0] for lump in lumps for end in lump.ends])
+    flattest = np.linalg.svd(points - points.mean(axis=0))[2][2]
+    ways = [unit(outs.sum(axis=0)), *(sign * flattest for sign in (1.0, -1.0))]
+    ways = [way for way in ways if way.any()]
+    ways += [sign * axis for axis in np.eye(3)[::-1] for sign in (1.0, -1.0)]
+    # As the flexures come, and of those ways first the flat one.
+    ways.sort(key=lambda way: -round(float(np.sum(outs @ way)), 6))
+    for way in ways:
+        frame = frames_along(way[None])[0][:, [1, 2, 0]]
+        flat = points @ frame[:, :2]
+        base = float(np.max(points @ way)) + 0.5 * thick
+        if is_round:
+            middle = (flat.max(axis=0) + flat.min(axis=0)) / 2
+            contour = circle(2.1 * float(np.linalg.norm(flat - middle, axis=1).max()))
+            origin = frame @ np.array((*middle, base))
+        else:
+            contour = polygon(_widened(flat[polygon_round(flat)], 0.1 * thick))
+            origin = base * way
+        solid = Prism(contour, origin, frame, thick)
+        whole = solid.polyhedron()
+        if world.hits(whole, (), (owner,)) is not None:
+            continue
+        feet: list[Polyhedron] = []
+        for block in blocks:
+            others = [each for each in (*blocks, *feet) if each is not block]
+            for bar in bridges(block, whole, world.touch):
+                if any(apart(bar, each) < -world.touch for each in others):
+                    continue
+                if world.hits(bar, (), (owner,)) is None:
+                    feet.append(bar)
+                    break
+            else:
+                break
+        if len(feet) == len(blocks):
+            return solid, feet
+    return None
+
+
+def _widened(corners: FloatArray, by: float) -> FloatArray:
+    """A convex polygon (n, 2), anticlockwise, with its sides moved outwards."""
+    way = unit(np.roll(corners, -1, axis=0) - corners)
+    out = np.stack((way[:, 1], -way[:, 0]), axis=1)
+    before = np.roll(out, 1, axis=0)
+    return np.asarray(corners + by * (before + out) / (1.0 + np.sum(before * out, axis=1))[:, None])
 
 
 def joined(

@@ -17,7 +17,9 @@ import numpy as np
 
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
+from ...core.elements import Class
 from ...model.data import BodyShape, ModelData
+from ...model.notches import CONTOURS
 from ...model.parts.forms import Form
 from ...model.parts.parts import Carriers, Parts
 from ...util.groups import grouped, groups_of
@@ -27,7 +29,7 @@ from ...util.text import harmless
 from ..drawing import Drawing, Pose, Support, drawing_of
 from ..drawing.members import HINGE, OF_FORMS, SUPPORT, Neck
 from .flexures import Strip, convex_pieces, notch_shape, strips_of, waisted
-from .joining import MARGIN, ROOM, End, Lump, World, joined, merged, overlap, pads_of
+from .joining import MARGIN, ROOM, End, Lump, World, joined, merged, overlap, pads_of, plate
 from .shapes import Contour, Polyhedron, Prism, Shape, apart, box, circle, hull, rings_solid
 
 #: Thickness of bodies: a part of the drawing's size and of the shortest flexure, which it does
@@ -40,6 +42,8 @@ _RADIUS, _NECK, _BREADTH, _OF_LINK = 0.5, 0.15, 1.8, 0.22
 _CUTS = (0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45)
 #: Of models with more flexures it is not looked what runs through what.
 _MOST_LOOKED_AT = 300
+#: In so many orders bodies are made until all have room.
+_MOST_ORDERS = 4
 #: Pads are made smaller by so much where blocks of a body would overlap.
 _SCALES = (1.0, 0.5, 0.25, 0.1)
 #: The part of a notch that bends where it is drawn so.
@@ -64,6 +68,7 @@ class Notch(Frozen):
         breadth: Of the plate [m].
         turns: Orientation nodes of its two sides.
         node: Its position node.
+        round: Whether it is a round neck, whose contour is its section.
     """
 
     name: str
@@ -75,6 +80,7 @@ class Notch(Frozen):
     breadth: float
     turns: tuple[int, int]
     node: int
+    round: bool = False
 
     def frame_at(self, end: int) -> FloatArray:
         """(3, 3) out of its end 0 or 1, and along its section."""
@@ -82,6 +88,9 @@ class Notch(Frozen):
 
     def shape(self) -> Prism:
         """Its solid."""
+        if self.round:
+            start = self.place - self.frame[:, 0] * self.length / 2
+            return Prism(self.contour, start, self.frame[:, [1, 2, 0]], self.length)
         return Prism(
             self.contour, self.place - self.frame[:, 2] * self.breadth / 2, self.frame, self.breadth
         )
@@ -194,6 +203,9 @@ class _Making:
         size = self.drawing.size
         self.thick = max(min(_THICK * size, _OF_FLEXURE * short), _THINNEST * size)
         self.world = World(size, ROOM * self.thick)
+        self.between = set(self.drawing.hinges.nodes[:, 1:].ravel().tolist()) - set(
+            self.drawing.members.nodes[:, [1, 3]].ravel().tolist()
+        )
         self.halves: set[int] = set()
         self.middles: set[int] = set()
         notches = self._notches()
@@ -227,9 +239,7 @@ class _Making:
                 self.world.add(lump.block, owner)
         for owner in ground:
             products += self._clamps(pads[owner])
-        for owner in sorted(others, key=str):
-            made = self._body(owner, ends.get(owner, []))
-            products += [] if made is None else [made]
+        products += self._bodies(sorted(others, key=str), ends, pads)
         named = _distinct_names(products)
         name = harmless(self.data.name) or "mechanism"
         return Solids(name, self.drawing, tuple(named), tuple(dict.fromkeys(self.notes)))
@@ -253,16 +263,12 @@ class _Making:
 
     def _notches(self) -> list[Notch]:
         """Hinges as notches: with their contour where the model has one."""
-        hinges, arrays = self.drawing.hinges, self.data.arrays
-        members = self.drawing.members
-        made, assumed, left = [], [], []
-        alone = self._turning_with_hinges_alone()
+        hinges, members = self.drawing.hinges, self.drawing.members
+        made: list[Notch] = []
+        assumed, rows_of = [], self._series()
         for row in range(len(hinges)):
             node, *turns = hinges.nodes[row].tolist()
             name = self.parts.of_element(int(hinges.index[row])).name
-            if node < 0 or alone & set(turns):
-                left.append(name)
-                continue
             axis = hinges.frame[row, :, 0]
             given = self.data.appearance.dimensions[hinges.index[row]]
             sides = [
@@ -274,29 +280,80 @@ class _Making:
                 for turn in turns
             ]
             found = None
+            if row in rows_of:
+                continue
             if np.all(given > 0.0) and all(len(side) for side in sides):
                 found = self._contour(row, name, node, turns, axis, given, sides)
-            made.append(found or self._knuckle(name, node, turns, axis))
+            made.append(found or self._knuckle(row, name, node, (turns[0], turns[1])))
             if found is None:
                 assumed.append(name)
+        for chain in dict.fromkeys(rows_of.values()):
+            in_row = self._in_row(chain)
+            made += in_row
+            assumed += [each.name for each in in_row]
+            left = [self.parts.of_element(int(hinges.index[row])).name for row in chain]
+            self.notes.append(
+                f"{_listed(left)} stand at one point: "
+                + ("made one behind the other." if in_row else "they are not made.")
+            )
         if assumed:
             self.notes.append(
-                f"{_listed(assumed)}: no sizes are given; made as circular notches of a size that "
-                "fits the drawing."
+                f"{_listed(assumed)}: no sizes are given; made as notches of a size that fits the "
+                "drawing."
             )
-        if left:
-            self.notes.append(
-                f"{_listed(left)}: hinges that stand at one point, with no body between them, "
-                "are not made."
-            )
-        del arrays
         return made
 
-    def _turning_with_hinges_alone(self) -> set[int]:
-        """Orientation nodes that only hinges have."""
-        hinges = set(self.drawing.hinges.nodes[:, 1:].ravel().tolist())
+    def _series(self) -> dict[int, tuple[int, ...]]:
+        """Rows of hinges that stand at one point with no body between them, each with its row."""
+        hinges = self.drawing.hinges
         members = set(self.drawing.members.nodes[:, [1, 3]].ravel().tolist())
-        return {n for n in hinges - members if not self.parts.is_held(n)}
+        pairs = hinges.nodes[:, 1:].tolist()
+        alone = {n for pair in pairs for n in pair if n not in members} - {
+            n for pair in pairs for n in pair if self.parts.is_held(n)
+        }
+        shared = [
+            (i, j)
+            for i, one in enumerate(pairs)
+            for j in range(i)
+            if alone & set(one) & set(pairs[j])
+        ]
+        group = groups_of(len(pairs), shared).tolist()
+        chains = grouped((each, row) for row, each in enumerate(group))
+        nowhere = set(np.flatnonzero(hinges.nodes[:, 0] < 0).tolist())
+        return {
+            row: tuple(rows)
+            for rows in chains.values()
+            for row in rows
+            if len(rows) > 1 or row in nowhere or alone & set(pairs[row])
+        }
+
+    def _in_row(self, chain: tuple[int, ...]) -> list[Notch]:
+        """Two hinges at one point, one behind the other along what they join; of more none."""
+        hinges = self.drawing.hinges
+        if len(chain) != 2 or hinges.nodes[chain[0], 0] < 0:
+            return []
+        (node, a, b), (_, c, d) = hinges.nodes[list(chain)].tolist()
+        middle = ({a, b} & {c, d}).pop()
+        # From the one side over the middle to the other.
+        outer, far = (a if b == middle else b), (c if d == middle else d)
+        one, other = (
+            self._knuckle(row, self.parts.of_element(int(hinges.index[row])).name, node, turns)
+            for row, turns in zip(chain, ((outer, middle), (middle, far)), strict=True)
+        )
+        x = np.cross(one.frame[:, 2], other.frame[:, 2])
+        if not np.linalg.norm(x) > 1.0e-6:
+            return []
+        x = unit(x)
+        towards = self._way(node, (outer, far), one.frame[:, 2] * 0.0)
+        if towards is not None and towards[0] @ x < 0.0:
+            x = -x
+        shift = (one.length / 2 + 0.4 * self.thick) * x
+        made = []
+        for each, sign in ((one, -1.0), (other, 1.0)):
+            z = each.frame[:, 2]
+            frame = np.stack((x, np.cross(z, x), z), axis=1)
+            made.append(replace(each, frame=frame, place=each.place + sign * shift))
+        return made
 
     def _contour(
         self,
@@ -319,25 +376,37 @@ class _Making:
         x = unit(q - p)
         if not length > 0.0 or np.linalg.norm(middle - self.place[node]) > 1.0e-6 * length:
             return None
-        fillet = self.data.properties
-        radius = np.nan if fillet is None else float(fillet.fillet[element, 0])
-        if not radius > 0.0 or abs(float(x @ axis)) > 1.0e-6:
+        z = axis - (axis @ x) * x
+        if np.linalg.norm(z) < 0.999:
             return None
-        z = unit(axis - (axis @ x) * x)
-        half = min(radius, length / 2)
-        depth = radius - np.sqrt(max(radius**2 - half**2, 0.0))
+        z = unit(z)
         t, b = (float(size) for size in given)
-        height = t + 2.0 * depth
-        contour = notch_shape("circular", 2.0 * half, height, t, radius, length)
+        kind, height, long, radius = self.data.appearance.contour[element].tolist()
+        if kind == kind:
+            contour = notch_shape(CONTOURS[int(kind)], long, height, t, radius, length)
+        else:
+            # A deck tells the radius of the root: as of a circular contour.
+            known = self.data.properties
+            radius = np.nan if known is None else float(known.fillet[element, 0])
+            if not radius > 0.0:
+                return None
+            half = min(radius, length / 2)
+            height = t + 2.0 * (radius - np.sqrt(max(radius**2 - half**2, 0.0)))
+            contour = notch_shape("circular", 2.0 * half, height, t, radius, length)
         self.halves.update(int(members.index[side[0]]) for side in sides)
         self.middles.add(node)
         frame = np.stack((x, np.cross(z, x), z), axis=1)
         turned = (turns[0], turns[1])
         return Notch(name, middle, frame, contour, length, height, b, turned, node)
 
-    def _knuckle(self, name: str, node: int, turns: list[int], axis: FloatArray) -> Notch:
-        """An ideal hinge as a notch in line with the shorter of the links at it."""
-        ways, sizes = [], []
+    def _way(
+        self, node: int, turns: tuple[int, int], axis: FloatArray
+    ) -> tuple[FloatArray, float] | None:
+        """(3,) from the one side of a hinge to the other, across its axis; size of that link [m].
+
+        In line with the shorter of the two links; None where neither tells.
+        """
+        found: list[tuple[float, int, FloatArray, float]] = []
         for sign, turn in ((-1.0, turns[0]), (1.0, turns[1])):
             body = self.parts.body_at.get(turn)
             if body is None:
@@ -346,19 +415,31 @@ class _Making:
             arm = sign * (places - self.place[node]).mean(axis=0)
             arm = arm - (arm @ axis) * axis
             if np.linalg.norm(arm) > 1.0e-6 * self.drawing.size:
-                ways.append(arm)
-                sizes.append(float(np.linalg.norm(np.ptp(places, axis=0))))
-        x = frames_along(axis[None])[0][:, 1]
-        if ways:
-            x = unit(ways[int(np.argmin(np.round(np.array(sizes) / self.drawing.size, 6)))])
-        scale = min([self.thick, *(_OF_LINK * size for size in sizes)])
-        radius, t, breadth = _RADIUS * scale, _NECK * scale, _BREADTH * scale
+                size = float(np.linalg.norm(np.ptp(places, axis=0)))
+                found.append((round(size / self.drawing.size, 6), len(found), unit(arm), size))
+        if not found:
+            return None
+        _, _, way, size = min(found, key=lambda each: each[:2])
+        return way, size
+
+    def _knuckle(self, row: int, name: str, node: int, turns: tuple[int, int]) -> Notch:
+        """An ideal hinge as a notch; where it tilts, too, as a round neck."""
+        axis, element = self.drawing.hinges.frame[row, :, 0], self.drawing.hinges.index[row]
+        x, scale = frames_along(axis[None])[0][:, 1], self.thick
+        if (way := self._way(node, turns, axis)) is not None:
+            x, scale = way[0], min(scale, _OF_LINK * way[1])
+        radius, t = _RADIUS * scale, _NECK * scale
+        frame = np.stack((x, np.cross(axis, x), axis), axis=1)
+        place = self.place[node]
+        tilts = self.data.arrays.deformation_class[1:3, element]
+        if np.isin(tilts, (Class.DEPENDENT, Class.INDEPENDENT)).any():
+            return Notch(
+                *(name, place, frame, circle(t), 2 * radius, t, t, turns, node), round=True
+            )
         height = t + 2 * radius
         contour = notch_shape("circular", 2 * radius, height, t, radius, 2 * radius)
-        frame = np.stack((x, np.cross(axis, x), axis), axis=1)
         return Notch(
-            *(name, self.place[node], frame, contour, 2 * radius, height, breadth),
-            *((turns[0], turns[1]), node),
+            *(name, place, frame, contour, 2 * radius, height, _BREADTH * scale, turns, node)
         )
 
     def _tell_assumed(self) -> None:
@@ -425,7 +506,7 @@ class _Making:
         return {
             owner: ends
             for owner, ends in made.items()
-            if len(ends) > 1 or not (isinstance(owner, tuple) and owner[0] == "joint")
+            if len(ends) > 1 or not (isinstance(owner, tuple) and owner[0] != "body")
         }
 
     def _owner(self, node: int, turn: int) -> Hashable:
@@ -440,7 +521,8 @@ class _Making:
             return ("body", self.parts.body_at[node])
         if held:
             return Ground
-        return ("joint", node)
+        between = turn in self.between
+        return ("between", turn) if between else ("joint", node)
 
     def _is_ground(self, body: int) -> bool:
         mine = self.parts.bodies[body]
@@ -538,7 +620,40 @@ class _Making:
         body = self.parts.bodies[owner[1]]
         return not set(body.elements) <= self.halves and not self._is_ground(owner[1])
 
-    def _body(self, owner: Hashable, ends: list[End]) -> Product | None:
+    def _bodies(
+        self,
+        owners: list[Hashable],
+        ends: dict[Hashable, list[End]],
+        pads: dict[Hashable, list[Lump]],
+    ) -> list[Product]:
+        """All bodies and joints; those for which there was no room are tried before the others."""
+        best: tuple[int, list[Product], list[str]] | None = None
+        order = list(owners)
+        for _ in range(_MOST_ORDERS):
+            made: dict[Hashable, Product | None] = {}
+            told: dict[Hashable, str] = {}
+            for owner in order:
+                made[owner], in_way = self._body(owner, ends.get(owner, []))
+                if in_way:
+                    told[owner] = in_way
+            products = [product for owner in owners if (product := made[owner]) is not None]
+            if best is None or len(told) < best[0]:
+                best = len(told), products, list(told.values())
+            first = [owner for owner in order if owner in told]
+            if not told or not self.looks or order[: len(first)] == first:
+                break
+            order = first + [owner for owner in order if owner not in told]
+            for owner in owners:
+                self.world.remove(owner)
+                for lump in pads.get(owner, []):
+                    self.world.add(lump.block, owner)
+        if best is None:
+            return []
+        self.notes += best[2]
+        return best[1]
+
+    def _body(self, owner: Hashable, ends: list[End]) -> tuple[Product | None, str]:
+        """A body or a joint; what is to be said where there is no room for it."""
         assert isinstance(owner, tuple)
         what, number = owner
         members, looks = self.drawing.members, self.data.appearance
@@ -555,6 +670,11 @@ class _Making:
             thick = float(np.nanmax(np.where(np.isnan(asked), 0.0, asked), initial=0.0))
             points = [self.place[n] for n in body.positions if n not in self.middles]
             handle = (body.positions[0], body.orientations[0])
+        elif what == "between":
+            sides = [each for each in self.flexures if isinstance(each, Notch)]
+            names = [each.name for each in sides if number in each.turns]
+            name = f"between {_listed(names)}"
+            handle = next((e.node for e in sides if number in e.turns), -1), number
         else:
             joints = [j for j in Carriers(self.parts).joints if j.position == number]
             name = str(joints[0]) if joints else f"joint {number}"
@@ -567,15 +687,15 @@ class _Making:
             if not any(np.linalg.norm(end.place - point) < 1.5 * self.thick for end in ends)
         ]
         blocks, in_way = self._blocks(owner, ends, near, thick, wish)
+        told = ""
         if in_way is not None:
             other = self.flexures[in_way].name if isinstance(in_way, int) else None
             through = f"runs through {other}" if other else "is in pieces, or runs through another"
-            self.notes.append(f"{name} {through}: no block without that was found.")
+            told = f"{name} {through}: no block without that was found."
         if not blocks:
-            return None
-        return Product(
-            name, "body" if what == "body" else "joint", tuple(blocks), colour, opacity, handle
-        )
+            return None, told
+        kind = "body" if what == "body" else "joint"
+        return Product(name, kind, tuple(blocks), colour, opacity, handle), told
 
     def _blocks(
         self,
@@ -610,6 +730,14 @@ class _Making:
                 lumps = merged(lumps, owner, self.world, is_ground=False, wish=wish)
                 if overlap(lumps, self.world):
                     continue
+                if len(lumps) > 2 or (wish == "disc" and len(lumps) > 1):
+                    found = plate(lumps, owner, thick, self.world, is_round=wish == "disc")
+                    if found is not None:
+                        solid, feet = found
+                        both = [*(lump.block for lump in lumps), *feet]
+                        for each in (*both, solid.polyhedron()):
+                            self.world.add(each, owner)
+                        return [solid, *both], None
                 extra, in_way = joined(lumps, owner, size, self.world)
                 blocks = [*(lump.block for lump in lumps), *extra]
                 if in_way is None:
