@@ -68,6 +68,7 @@ class Strip(Frozen):
         round: Whether it is.
         cut: (2,) by how much it is shorter at both ends [m].
         assumed: Whether the model gives no section.
+        bends: Whether it does; a bar stays straight.
     """
 
     name: str
@@ -83,6 +84,7 @@ class Strip(Frozen):
     round: bool
     cut: FloatArray
     assumed: bool
+    bends: bool
 
     @property
     def kind(self) -> PartKind:
@@ -142,7 +144,8 @@ class Strip(Frozen):
         """(s,) stations of one of its beams, from 0 at its p to 1 at its q."""
         low = self.cut[0] / self.length[0] if k == 0 else 0.0
         high = self.cut[1] / self.length[-1] if k == len(self.rows) - 1 else 0.0
-        at = np.linspace(low, 1.0 - high, max(_SEGMENTS // len(self.rows), 1) + 1)
+        count = max(_SEGMENTS // len(self.rows), 1) if self.bends else 1
+        at = np.linspace(low, 1.0 - high, count + 1)
         return 1.0 - at if self.against[k] else at
 
     def stations(self) -> list[tuple[int, float]]:
@@ -356,6 +359,7 @@ def _strip(drawing: Drawing, part: Part, row_of: dict[int, int], against: dict[i
         bool(members.round[rows].all() and np.allclose(section[:, 0], section[:, 1])),
         np.zeros(2),
         not given.all() or bool(np.any(known == CrossSection.LINE)),
+        bool(members.bends[rows].any()),
     )
 
 
@@ -388,6 +392,7 @@ def _folded(strips: list[Strip], parts: Parts) -> list[Strip]:
                 nodes=np.concatenate((one.nodes, other.nodes[1:])),
                 points=np.concatenate((one.points, other.points[1:])),
                 assumed=one.assumed or other.assumed,
+                bends=one.bends or other.bends,
                 **joined,
             ),
         )

@@ -145,8 +145,9 @@ def glb_bytes(
         for k, pose in enumerate(way):
             if pose != rest:
                 hot[k, pose - (pose > rest)] = 1.0
-        weights = buffer.add(hot.ravel())
-        samplers.append({"input": times, "output": weights, "interpolation": "LINEAR"})
+        if any(product.flexure is not None for product in solids.products):
+            weights = buffer.add(hot.ravel())
+            samplers.append({"input": times, "output": weights, "interpolation": "LINEAR"})
     for product in solids.products:
         node: dict[str, Any] = {"name": product.name, "mesh": len(meshes)}
         material = materials.setdefault(round(product.opacity, 6), len(materials))

@@ -207,21 +207,25 @@ def bridges(one: Polyhedron, other: Polyhedron, least: float) -> Iterator[Polyhe
     """
     faces = [[block.points[list(face)] for face in block.faces] for block in (one, other)]
     found: list[tuple[float, int, FloatArray, FloatArray]] = []
-    for i, mine in enumerate(faces[0]):
-        for j, theirs in enumerate(faces[1]):
-            n, m = one.normals[i], other.normals[j]
-            feet = [(mine, theirs)]
-            feet += [(mine, foot)] if (foot := _foot(mine, theirs, m)) is not None else []
-            feet += [(foot, theirs)] if (foot := _foot(theirs, mine, n)) is not None else []
-            for start, end in feet:
-                up, down = (end - mine[0]) @ n, (start - theirs[0]) @ m
-                if min(up.min(), down.min()) < -least or min(up.max(), down.max()) < least:
-                    continue
-                way = end.mean(axis=0) - start.mean(axis=0)
-                far = float(np.linalg.norm(way)) or 1.0
-                # Straight ones before those that leave a face aslant.
-                slant = 2.0 - float(way @ n - way @ m) / far
-                found.append((far * (1.0 + slant), len(found), start, end))
+    middle = [np.array([face.mean(axis=0) for face in each]) for each in faces]
+    ways = middle[1][None] - middle[0][:, None]
+    facing = np.einsum("ijx,ix->ij", ways, one.normals) > 0.0
+    facing &= np.einsum("ijx,jx->ij", ways, other.normals) < 0.0
+    for i, j in np.argwhere(facing).tolist():
+        mine, theirs = faces[0][i], faces[1][j]
+        n, m = one.normals[i], other.normals[j]
+        feet = [(mine, theirs)]
+        feet += [(mine, foot)] if (foot := _foot(mine, theirs, m)) is not None else []
+        feet += [(foot, theirs)] if (foot := _foot(theirs, mine, n)) is not None else []
+        for start, end in feet:
+            up, down = (end - mine[0]) @ n, (start - theirs[0]) @ m
+            if min(up.min(), down.min()) < -least or min(up.max(), down.max()) < least:
+                continue
+            way = end.mean(axis=0) - start.mean(axis=0)
+            far = float(np.linalg.norm(way)) or 1.0
+            # Straight ones before those that leave a face aslant.
+            slant = 2.0 - float(way @ n - way @ m) / far
+            found.append((far * (1.0 + slant), len(found), start, end))
     for _, _, start, end in sorted(found, key=lambda each: each[:2])[:_MOST_TRIED]:
         made = hull(np.concatenate((start, end)))
         if made is not None:

@@ -21,10 +21,12 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...util.records import Frozen, cached_property
 from ...util.rotations import unit
-from ..drawing.bodies import polygon_round
+from ..drawing.bodies import polygon_round, triangles_round
 
 #: What is nearer to a plane than this part of the extent lies in it.
 _FLAT = 1.0e-10
+#: By which part of the extent points are moved that are to be in no plane.
+_MOVED = 1.0e-6
 #: Turn from corner to corner of a curve where it is made of chords [rad].
 STEP = math.pi / 18
 
@@ -134,11 +136,14 @@ class Polyhedron(Frozen):
     @cached_property
     def normals(self) -> FloatArray:
         """(faces, 3) outward unit vectors, by Newell's sum."""
-        made = []
-        for face in self.faces:
-            corner = self.points[list(face)] - self.points[face[0]]
-            made.append(np.cross(corner, np.roll(corner, -1, axis=0)).sum(axis=0))
-        return np.asarray(unit(np.array(made)))
+        made = np.zeros((len(self.faces), 3))
+        counts = np.array([len(face) for face in self.faces])
+        for count in set(counts.tolist()):
+            rows = np.flatnonzero(counts == count)
+            corner = self.points[np.array([self.faces[row] for row in rows.tolist()])]
+            corner = corner - corner[:, :1]
+            made[rows] = np.cross(corner, np.roll(corner, -1, axis=1)).sum(axis=1)
+        return np.asarray(unit(made))
 
     @cached_property
     def edges(self) -> FloatArray:
@@ -281,21 +286,31 @@ def box(middle: FloatArray, frame: FloatArray, sizes: Sequence[float]) -> Polyhe
     return Prism(rectangle((-x / 2.0, -y / 2.0), (x / 2.0, y / 2.0)), corner, frame, z).polyhedron()
 
 
-#: Of more points no hull is made.
-_MOST_POINTS = 80
+#: Of more points no hull is made; of more than these not all planes through three are tried.
+_MOST_POINTS, _FEW = 400, 20
 
 
 def hull(points: FloatArray) -> Polyhedron | None:
     """The convex hull of points (n, 3); None where they lie in a plane or are very many.
 
-    All planes through three of them that have all others on one side; faces are exact.
+    Its planes are through three of them and have all others on one side, so that faces are exact.
     """
     points = np.unique(np.round(points, 14), axis=0)
-    n = len(points)
-    if not 4 <= n <= _MOST_POINTS:
+    if not 4 <= len(points) <= _MOST_POINTS:
         return None
     extent = float(np.linalg.norm(np.ptp(points, axis=0)))
-    i, j, k = np.array(list(combinations(range(n), 3))).T
+    if len(points) > _FEW:
+        # First those of points that are moved a little, so that no four are in a plane.
+        chance = np.random.default_rng(7).uniform(-1.0, 1.0, points.shape)
+        made = _hull_by(points, triangles_round(points + _MOVED * extent * chance), extent)
+        if made is not None or len(points) > _MOST_POINTS // 5:
+            return made
+    return _hull_by(points, np.array(list(combinations(range(len(points)), 3))), extent)
+
+
+def _hull_by(points: FloatArray, triples: np.ndarray, extent: float) -> Polyhedron | None:
+    """The hull whose planes are among those through triples of points (m, 3); None if they miss."""
+    i, j, k = triples.T
     normal = np.cross(points[j] - points[i], points[k] - points[i])
     size = np.linalg.norm(normal, axis=1)
     there = size > 1.0e-7 * extent**2
@@ -318,6 +333,9 @@ def hull(points: FloatArray) -> Polyhedron | None:
         around = polygon_round((points[mine] - points[mine[0]]) @ across)
         if len(around) > 2:
             faces.append(tuple(mine[around].tolist()))
+    edges = {(a, b) for face in faces for a, b in zip(face, (*face[1:], face[0]), strict=True)}
+    if any((b, a) not in edges for a, b in edges):
+        return None
     used = sorted({corner for face in faces for corner in face})
     place = {old: new for new, old in enumerate(used)}
     return Polyhedron(

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -194,7 +195,7 @@ class _Making:
     """The solids of a model, in the making."""
 
     def __init__(self, data: ModelData, parts: Parts) -> None:
-        self.data, self.parts = data, parts
+        self.data, self.parts, self.carriers = data, parts, Carriers(parts)
         self.drawing = drawing_of(data)
         self.place = self.drawing.reference.position
         self.notes: list[str] = []
@@ -564,6 +565,8 @@ class _Making:
             )
 
     def _collide(self, one: End, other: End) -> bool:
+        if np.linalg.norm(one.place - other.place) <= self.world.touch:
+            return True
         return any(
             apart(a, b) < -self.world.touch
             for a in _pieces(self.flexures[one.flexure], one)
@@ -605,15 +608,33 @@ class _Making:
         """Blocks of ground, by where their first ends are in the model."""
         lumps = pads
         if self.looks:
-            lumps = merged(pads, Ground, self.world, is_ground=True, wish="")
+            near = [
+                (i, j)
+                for i, j in combinations(range(len(pads)), 2)
+                if apart(pads[i].block, pads[j].block) < self.world.room
+            ]
             self.world.remove(Ground)
-            for lump in lumps:
-                self.world.add(lump.block, Ground)
+            groups = grouped(zip(groups_of(len(pads), near).tolist(), pads, strict=True))
+            lumps = [lump for group in groups.values() for lump in self._clamp(group)]
         lumps = sorted(lumps, key=lambda lump: min(end.flexure for end in lump.ends))
         return [
             Product(f"clamp {k}", "clamp", (lump.block,), np.array(SUPPORT), 1.0)
             for k, lump in enumerate(lumps, 1)
         ]
+
+    def _clamp(self, pads: list[Lump]) -> list[Lump]:
+        """The block, or the blocks, of pads that are near to each other."""
+        ends = [end for lump in pads for end in lump.ends]
+        lumps = pads
+        for scale in _SCALES if len(pads) > 1 else ():
+            size = self.thick * scale
+            lumps = pads_of(ends, Ground, MARGIN * size, size, self.world)
+            lumps = merged(lumps, Ground, self.world, is_ground=True, wish="")
+            if not overlap(lumps, self.world):
+                break
+        for lump in lumps:
+            self.world.add(lump.block, Ground)
+        return lumps
 
     def _is_loose(self, owner: tuple[str, int]) -> bool:
         """Whether a body without ends is to be made: no half of a notch, and not the ground."""
@@ -676,7 +697,7 @@ class _Making:
             name = f"between {_listed(names)}"
             handle = next((e.node for e in sides if number in e.turns), -1), number
         else:
-            joints = [j for j in Carriers(self.parts).joints if j.position == number]
+            joints = [j for j in self.carriers.joints if j.position == number]
             name = str(joints[0]) if joints else f"joint {number}"
             orientations = self.parts.orientations_at.get(number, ())
             handle = (number, orientations[0] if len(orientations) == 1 else -1)
@@ -707,7 +728,10 @@ class _Making:
     ) -> tuple[list[Shape], Hashable | None]:
         """The solids of a body, and what they run through where that cannot be helped."""
         if not self.looks:
-            block = hull(np.concatenate([end.pad(0.0, thick).points for end in ends]))
+            contacts = [end.contact(MARGIN * self.thick / 2) for end in ends]
+            block = hull(np.concatenate(contacts))
+            if block is None:
+                block = hull(np.concatenate([end.pad(0.0, thick).points for end in ends]))
             return ([] if block is None else [block]), None
         self.world.remove(owner)
         best: tuple[list[Shape], Hashable | None] = ([], owner)

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ...util.rotations import frames_along
 from .shapes import Curve, Polyhedron, Prism, Shape, ways
 
 #: Metres to millimetres.
@@ -119,8 +118,10 @@ def _face(file: _File, loop: Iterable[tuple[int, bool]], surface: int, outward: 
     return file.add(f"ADVANCED_FACE('',(#{bound}),#{surface},{sense})")
 
 
-def _plane(file: _File, place: FloatArray, normal: FloatArray) -> int:
-    x = frames_along(normal[None])[0][:, 1]
+def _plane(file: _File, place: FloatArray, other: FloatArray, normal: FloatArray) -> int:
+    """A plane through two places."""
+    x = (other - place) - ((other - place) @ normal) * normal
+    x = x / np.sqrt(x @ x)
     return file.add(f"PLANE('',#{file.placement(place, normal, x)})")
 
 
@@ -135,7 +136,9 @@ def _polyhedron(file: _File, solid: Polyhedron) -> list[int]:
                 edge = _line(file, solid.points, vertices, a, b)
                 edges[a, b], edges[b, a] = (edge, True), (edge, False)
             loop.append(edges[a, b])
-        faces.append(_face(file, loop, _plane(file, solid.points[face[0]], normal)))
+        faces.append(
+            _face(file, loop, _plane(file, solid.points[face[0]], solid.points[face[1]], normal))
+        )
     return faces
 
 
@@ -196,14 +199,16 @@ def _prism(file: _File, solid: Prism) -> list[int]:
         if piece.curve == Curve.LINE:
             way = np.array(end) - piece.start
             normal = solid.frame[:, :2] @ (np.array((way[1], -way[0])) / np.hypot(*way))
-            surfaces.append(_plane(file, points[k], normal))
+            surfaces.append(_plane(file, points[k], points[follower], normal))
         elif piece.curve == Curve.CIRCLE:
             outward = piece.left
         loop = ((rings[0][k], True), (up[follower], True), (rings[1][k], False), (up[k], False))
         faces.append(_face(file, loop, surfaces[k], outward))
     down = [(edge, False) for edge in rings[0][::-1]]
-    faces.append(_face(file, down, _plane(file, points[0], -z)))
-    faces.append(_face(file, [(edge, True) for edge in rings[1]], _plane(file, points[n], z)))
+    faces.append(_face(file, down, _plane(file, points[0], points[0] + x, -z)))
+    faces.append(
+        _face(file, [(edge, True) for edge in rings[1]], _plane(file, points[n], points[n] + x, z))
+    )
     return faces
 
 
