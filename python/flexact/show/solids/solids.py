@@ -618,7 +618,7 @@ class _Making:
             lumps = [lump for group in groups.values() for lump in self._clamp(group)]
         lumps = sorted(lumps, key=lambda lump: min(end.flexure for end in lump.ends))
         return [
-            Product(f"clamp {k}", "clamp", (lump.block,), np.array(SUPPORT), 1.0)
+            Product(f"ground clamp {k}", "clamp", (lump.block,), np.array(SUPPORT), 1.0)
             for k, lump in enumerate(lumps, 1)
         ]
 
