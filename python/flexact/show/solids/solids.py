@@ -26,7 +26,7 @@ from ...model.parts.parts import Carriers, Parts
 from ...util.groups import grouped, groups_of
 from ...util.records import Frozen
 from ...util.rotations import frames_along, unit
-from ...util.text import harmless
+from ...util.text import file_name, harmless
 from ..drawing import Drawing, Pose, Support, drawing_of
 from ..drawing.members import HINGE, OF_FORMS, SUPPORT, Neck
 from .flexures import Strip, convex_pieces, notch_shape, strips_of, waisted
@@ -242,7 +242,10 @@ class _Making:
             products += self._clamps(pads[owner])
         products += self._bodies(sorted(others, key=str), ends, pads)
         named = _distinct_names(products)
-        name = harmless(self.data.name) or "mechanism"
+        name = harmless(file_name(self.data.name))
+        if self.data.source is not None:
+            name = name.removesuffix(".dat")
+        name = name or "mechanism"
         return Solids(name, self.drawing, tuple(named), tuple(dict.fromkeys(self.notes)))
 
     # Flexures ---------------------------------------------------------------
