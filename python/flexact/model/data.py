@@ -67,6 +67,8 @@ class Appearance(Frozen):
         body_shape: (elements,) `BodyShape` as which the body of a link is drawn; NONE where
             not given.
         body_thickness: (elements,) of that shape [m]; NaN where not given.
+        contour: (elements, 4) of the notch that a hinge is: which of `notches.CONTOURS`, height,
+            length and radius [m]; NaN where not given. No deck has a word for it.
     """
 
     cross_section: IntArray
@@ -77,15 +79,19 @@ class Appearance(Frozen):
     drawn: BoolArray
     body_shape: IntArray = field(default_factory=lambda: np.zeros(0, np.int32))
     body_thickness: FloatArray = field(default_factory=lambda: np.zeros(0))
+    contour: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
-        """Make the arrays read-only; of no body anything is said where they are left out."""
+        """Make the arrays read-only; where some are left out nothing is said of that."""
         for name, none in (
             ("body_shape", np.int32(BodyShape.NONE)),
             ("body_thickness", np.float64(np.nan)),
         ):
             if not getattr(self, name).size:
                 object.__setattr__(self, name, np.broadcast_to(none, self.drawn.shape))
+        if not self.contour.size:
+            nothing = np.broadcast_to(np.float64(np.nan), (*self.drawn.shape, 4))
+            object.__setattr__(self, "contour", nothing)
         super().__post_init__()
 
     @classmethod

@@ -138,7 +138,7 @@ class Shape(NamedTuple):
 
 
 #: What is said about drawing an element, each if given: shape, colour, edge_colour, opacity, drawn;
-#: body_shape and body_thickness.
+#: body_shape and body_thickness, contour.
 Said = dict[str, Any]
 Numbers = tuple[float, ...]
 Slots = tuple[int, int, int, int]

@@ -24,6 +24,7 @@ _LOOKS: dict[str, tuple[int, ...]] = {
     "edge_colour": (3,),
     "opacity": (),
     "body_thickness": (),
+    "contour": (4,),
 }
 
 

@@ -290,7 +290,9 @@ def add_contour_notch(
     hinge = add_hinge(draft, "notch", near, axis, None, name, independent, None)
     index = len(draft.kinds) - 1
     turning = (left[1],) if draft.planar else (left[1], left[0], left[0])
-    draft.say_looks([index], {"shape": neck})
+    which = CONTOURS.index(contour.contour)
+    cut = (float(which), contour.height, contour.length, contour.radius)
+    draft.say_looks([index], {"shape": neck, "contour": cut})
     stiff = tuple(1.0 / each for each in turning)
     draft.give_properties(index, stiff, strength=make.strength, fillet=(contour.even_radius,))
     # From its end: a body that carries it stands for that point.

@@ -10,8 +10,8 @@ from typing import Any
 from ..analysis.result import Result
 from ..util.errors import BatchError
 from ..util.partial import attempted
-from .drawing.selection import select_motion
-from .mesh.collection import MESHES
+from .drawing.selection import require_there, select_motion
+from .mesh.collection import MESHES, POSED
 from .page import page, with_way_back
 from .picture import check_packages, picture_bytes, still_of
 from .picture.files import fewer_colours
@@ -42,8 +42,20 @@ def _page(analysis: Result, path: Path) -> bytes:
 def _mesh(analysis: Result, path: Path, **chosen: int) -> Contents:
     if len(chosen) > 1:
         raise BatchError(f"{path.name} shows a motion or a degree of freedom, not both")
-    shown = select_motion(analysis, **chosen)
+    is_still = path.suffix.lower() in POSED and not chosen
+    shown = None if is_still else select_motion(analysis, **chosen)
     return MESHES.contents((analysis, None if shown is None else shown.motion), path)
+
+
+@RESULTS.register((".glb",), shows=("motion", "freedom", "stress"))
+def _playing(analysis: Result, path: Path, stress: int | None = None, **chosen: int) -> Contents:
+    if len(chosen) > 1:
+        raise BatchError(f"{path.name} shows a motion or a degree of freedom, not both")
+    if stress is not None:
+        require_there(stress, len(analysis.self_stresses), "self-stress", "self-stresses")
+    shown = select_motion(analysis, **chosen)
+    drawn = analysis, None if shown is None else shown.motion
+    return MESHES.contents(drawn, path, **({} if stress is None else {"stress": stress}))
 
 
 def save(analysis: Result, path: Path, choice: dict[str, Any]) -> None:

@@ -24,9 +24,10 @@ STILLS = (".png", ".svg", ".pdf")
 VIDEOS = (".mp4", ".webm")
 MOVING = (".gif", *VIDEOS)
 PICTURES = (*STILLS, *MOVING)
-#: Of pages, of tables, and of what plays in ParaView.
+#: Of pages, of tables, of solids, and of what plays in ParaView.
 PAGES = (".html", ".htm")
 TABLES = (".csv", ".jsonl", ".parquet")
+SOLIDS = (".step", ".stp", ".3mf", ".stl", ".glb")
 PLAYING = ".pvd"
 
 #: What a file holds, or each of several files that belong together.

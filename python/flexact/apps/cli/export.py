@@ -1,29 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact export``: a mechanism as a mesh for ParaView; and the files of `analyse -o`."""
+"""``flexact export``: a mechanism as solids or a mesh; and the files of `analyse -o`."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from ...analysis.json import text_of
 from ...analysis.naming import motion_in_words
 from ...analysis.result import Result
-from ...show.drawing.selection import select_motion
+from ...show.drawing.selection import require_there, select_motion
 from ...show.mesh import Meshes
-from ...show.mesh.collection import ENDINGS, MESHES
+from ...show.mesh.collection import ENDINGS, MESHES, POSED
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.spacar_log import log_text, spacar_log
-from ...show.writers import write
+from ...show.writers import SOLIDS, write
 from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_files, write_together
 from ...util.partial import attempted
 from ...util.text import harmless
 from .decks import DECISION, UNITS, foreseen, read_and_analysed, take
-from .parser import Group, Verb
-from .targets import SHOWN_MOTION, deck_arguments, one_deck, plan_shown
+from .parser import Group, Verb, argument
+from .targets import SHOWN_MOTION, deck_arguments, number, one_deck, plan_shown
 from .terminal import Bar, ExitCode, Outcome, complain, say
 
 
@@ -40,18 +41,26 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
             analysis = read_and_analysed(deck, chosen, bar)
             bar.show("writing")
             missing: list[str] = []
-            wanted = chosen.motion, chosen.freedom
-            if wanted == (None, None):
+            wanted, suffix = (chosen.motion, chosen.freedom), target.suffix.lower()
+            if wanted == (None, None) and suffix in POSED:
+                shown = None
+            elif wanted == (None, None):
                 shown = attempted("Its motion", lambda: select_motion(analysis), None, missing)
             else:
                 shown = select_motion(analysis, *wanted)
+            told: dict[str, Any] = {"notes": missing} if suffix in SOLIDS else {}
+            if chosen.stress is not None:
+                require_there(
+                    chosen.stress, len(analysis.self_stresses), "self-stress", "self-stresses"
+                )
+                told["stress"] = chosen.stress
             with unwinding():
                 motion = None if shown is None else shown.motion
-                write(target, MESHES.contents((analysis, motion), target))
+                write(target, MESHES.contents((analysis, motion), target, **told))
         name = harmless(deck.name)
-        if missing:
-            complain(f"{name}: note: {missing[0]}")
-        elif shown is None:
+        for note in missing:
+            complain(f"{name}: note: {harmless(note)}")
+        if shown is None and not missing and suffix not in SOLIDS:
             complain(f"{name}: note: the mechanism does not move; displacements are zero")
         what = ""
         if shown is not None:
@@ -108,8 +117,13 @@ def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tup
 
 VERB = Verb(
     run=export_deck,
-    description="Write a mechanism with its motions and self-stresses as a mesh.",
+    description="Write a mechanism as solids for CAD, or as a mesh with its motions and "
+    "self-stresses.",
     examples=(
+        (
+            "Solids for CAD, in mm",
+            "flexact export input_decks/flexures/parallel_guide.dat -o results/guide.step",
+        ),
         (
             "A mesh with all modes",
             "flexact export input_decks/paper/twelve_trusses.dat -o results/trusses.vtu",
@@ -121,9 +135,21 @@ VERB = Verb(
     ),
     arguments=(
         *deck_arguments(
-            "a mesh: .vtu, .vtp, .vtk, .xdmf, ...; or .pvd, the motion as a cycle that plays"
+            "solids: .step, .3mf, .stl, or .glb, in which the motion plays; a mesh: .vtu, .vtp, "
+            ".vtk, .xdmf, ...; or .pvd, the motion as a cycle that plays"
         ),
-        Group("what is shown", (SHOWN_MOTION,)),
+        Group(
+            "what is shown",
+            (
+                SHOWN_MOTION,
+                argument(
+                    "--stress",
+                    type=number,
+                    metavar="K",
+                    help="colour a .glb by self-stress K (default: the first, if any)",
+                ),
+            ),
+        ),
         DECISION,
         UNITS,
     ),

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...deck.rendering import ModelError, ProblemsError
-from ...show.writers import PAGES, PICTURES, PLAYING, TABLES, as_bytes
+from ...show.writers import PAGES, PICTURES, PLAYING, SOLIDS, TABLES, as_bytes
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
@@ -39,6 +39,7 @@ _MAKERS = {
     **dict.fromkeys(PICTURES, "a picture is made by flexact picture"),
     **dict.fromkeys(TABLES, "a table is made by flexact batch"),
     **dict.fromkeys((".vtu", ".vtp", ".vtk", ".xdmf", PLAYING), "a mesh is made by flexact export"),
+    **dict.fromkeys(SOLIDS, "solids are made by flexact export"),
     ".json": "for JSON on standard output say --json of flexact analyse",
     SUFFIX: "a deck is made by flexact advise --apply, declare or convert",
 }

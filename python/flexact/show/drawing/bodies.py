@@ -86,7 +86,7 @@ def hull_round(points: FloatArray) -> Hull | None:
         return None
     chance = np.random.default_rng(7).uniform(-1.0, 1.0, points.shape)
     moved = points + _MOVED * extent * chance
-    triangles = _triangles(moved)
+    triangles = triangles_round(moved)
     owner = {way: k for k, face in enumerate(triangles.tolist()) for way in _around(face)}
     a, b, c = np.moveaxis(moved[triangles], 1, 0)
     normal = np.cross(b - a, c - a)
@@ -119,7 +119,7 @@ def _around(face: list[int]) -> list[tuple[int, int]]:
     return [(face[k], face[(k + 1) % 3]) for k in range(3)]
 
 
-def _triangles(points: FloatArray) -> np.ndarray:
+def triangles_round(points: FloatArray) -> np.ndarray:
     """(t, 3) triangles of the hull of points in general position."""
     first = _first_corners(points)
     inside = points[first].mean(axis=0)

@@ -87,6 +87,11 @@ def stations(
         yield (_bent if at.size > 2 else _straight)(members, pose, rows, at)
 
 
+def along(members: Members, pose: Pose, rows: np.ndarray, at: FloatArray) -> Strip:
+    """Some members in a pose, that bend all or none, at stations (s,) of one's choice."""
+    return (_bent if members.bends[rows[0]] else _straight)(members, pose, rows, at)
+
+
 def by_shape(
     members: Members, segments: int, chosen: np.ndarray | bool = True
 ) -> Iterator[tuple[np.ndarray, FloatArray]]:

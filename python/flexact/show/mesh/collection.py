@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of meshes, still or playing in ParaView: a .pvd file says when which is shown."""
+"""The files of meshes, still or playing in ParaView (.pvd), and of solids, by suffix."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from ...analysis.result import Result
 from ...util.outputs import OutputError
 from ..drawing import Moving, move
+from ..solids.files import STILL, solid_bytes
 from ..writers import PLAYING, Writers
 from .content import Mesh, Meshes, mesh_of
 from .file import (
@@ -110,7 +112,7 @@ def cycle(analysis: Result, shown: Moving | None, target: Path) -> Collection:
 
 def _unknown(path: Path, suffixes: tuple[str, ...]) -> Exception:
     if not path.suffix:
-        return OutputError(f"the suffix of {path} is to say what to write: .vtu, .pvd, ...")
+        return OutputError(f"the suffix of {path} is to say what to write: .vtu, .step, .glb, ...")
     return unknown_format(path.suffix)
 
 
@@ -131,3 +133,13 @@ def _polydata(drawn: tuple[Result, Moving | None], path: Path) -> bytes:
 @MESHES.register((PLAYING,), require=lambda _: find_format("vtu"))
 def _playing(drawn: tuple[Result, Moving | None], path: Path) -> Collection:
     return cycle(*drawn, path)
+
+
+#: What shows a position of a motion, and that only where the motion is asked for.
+POSED = tuple(STILL)
+
+
+@MESHES.register(POSED, shows=("notes",))
+@MESHES.register((".glb",), shows=("notes", "stress"))
+def _solids(drawn: tuple[Result, Moving | None], path: Path, **chosen: Any) -> bytes:
+    return solid_bytes(*drawn, path.suffix.lower(), **chosen)
