@@ -21,8 +21,8 @@ from ....model.sections import MATERIALS
 from ....util.errors import BatchError
 from . import brep
 from .assembly import Assembly, Body, Choices, Flexure, Kind, Piece, Solid
-from .brep import Part, are_parallel, unit
-from .flexures import Region, Scene, Thin, necks, regions, walls, wires
+from .brep import Face, Part, are_parallel, unit
+from .flexures import Region, Scene, Thin, necks, regions, rounds, walls, wires
 
 #: Solids that are no further apart touch [mm].
 TOUCHING = 0.02
@@ -173,8 +173,9 @@ class _Recognition:
             off = np.linalg.norm(away - away @ axis * axis)
             if not are_parallel(face.axis, axis, 1e-3) or off > 1e-2:
                 return False
-        convex = [f for f in round_ if f.is_convex]
-        return len({round(f.radius, 3) for f in round_}) > 1 or not convex
+        if len({round(f.radius, 3) for f in round_}) == 1 and round_[0].is_convex:
+            return False
+        return any(_is_full(part, group) for c in (False, True) for group in rounds(part, convex=c))
 
     # Which thin parts are flexures -----------------------------------------------------
 
@@ -972,7 +973,7 @@ def contact(a: Part, b: Part) -> str:
     near_a = [face for face in a.faces if brep.boxes_meet(face.box + gap, b.box)]
     near_b = [face for face in b.faces if brep.boxes_meet(face.box + gap, a.box)]
     if not near_a or not near_b:
-        return "face" if _overlap(a, b) else ""
+        return "face" if _contains(a, b) else ""
     for one, other in itertools.product(near_a, near_b):
         if one.kind != other.kind or one.kind not in ("plane", "cylinder"):
             continue
@@ -994,8 +995,21 @@ def contact(a: Part, b: Part) -> str:
                 return "face"
     far = brep.distance(brep.compound(f.shape for f in near_a), brep.compound(f.shape for f in near_b))
     if far > TOUCHING:
-        return "face" if _overlap(a, b) else ""
+        return "face" if _contains(a, b) else ""
     return "face" if far < TOUCHING / 4 and _overlap(a, b) else "line"
+
+
+def _is_full(part: Part, group: Sequence[Face]) -> bool:
+    """Whether the faces of one cylinder go all around it."""
+    levels = np.concatenate([part.edges[k].ends for f in group for k in f.edges]) @ group[0].axis
+    return sum(f.area for f in group) > 0.9 * 2 * np.pi * group[0].radius * np.ptp(levels)
+
+
+def _contains(a: Part, b: Part) -> bool:
+    """Whether one of two solids whose surfaces do not meet lies in the other."""
+    return any(
+        one.edges and other.holds(one.edges[0].ends[0]) for one, other in ((a, b), (b, a))
+    )
 
 
 def _overlap(a: Part, b: Part) -> bool:

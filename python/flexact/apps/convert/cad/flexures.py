@@ -235,8 +235,7 @@ def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin
     clamps: list[TopoDS_Shape] = []
     for side in (0.0, -1.0, 1.0) if others else ():
         shift = side * (thickness / 2 + gap) * normal
-        solids = [scene.shown(k).shape for k in others]
-        for clamp in brep.common([brep.moved(region.face, shift)], solids):
+        for clamp in _held(scene, brep.moved(region.face, shift), normal, others):
             clamps.append(brep.filled(brep.moved(clamp, -shift), _HOLES))
     free = without([region.face], clamps) if clamps else [region.face]
     found = []
@@ -265,6 +264,34 @@ def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin
         elif len(chains) > 2:
             found.append(_web(row, outline, thickness, len(chains)))
     return found
+
+
+def _held(
+    scene: Scene, face: TopoDS_Shape, normal: FloatArray, others: Sequence[int]
+) -> list[TopoDS_Shape]:
+    """What of a plane face lies in other solids."""
+    box = brep.box_of(face, NEAR)
+    at = brep.corner(face)
+    cuts = []
+    for row in others:
+        part = scene.shown(row)
+        for each in part.faces:
+            if not brep.boxes_meet(each.box, box):
+                continue
+            if each.kind == "plane":
+                levels = [(part.edges[k].ends - at) @ normal for k in each.edges]
+                straight = all(part.edges[k].kind == "line" for k in each.edges)
+                if are_parallel(each.axis, normal, 1e-6) or (
+                    straight and (np.min(levels) > NEAR or np.max(levels) < -NEAR)
+                ):
+                    continue
+            cuts.append(each.shape)
+    made = []
+    for piece in brep.split_face(face, cuts) if cuts else [face]:
+        inner = _Outline(brep.loops(piece), normal).samples(3)[0]
+        if scene.where(inner, others) is not None:
+            made.append(piece)
+    return made
 
 
 #: Of an outline: from, to, and whether it is straight.
@@ -631,12 +658,12 @@ def wires(scene: Scene, row: int) -> list[Thin]:
     """The round wires of a solid."""
     part = scene.parts[row]
     found = []
-    for group in _round(part, convex=True):
+    for group in rounds(part, convex=True):
         found += _wires_of(scene, row, group)
     return found
 
 
-def _round(part: Part, *, convex: bool) -> list[list[Face]]:
+def rounds(part: Part, *, convex: bool) -> list[list[Face]]:
     """The cylindrical faces of a solid, those of one axis and radius together."""
     groups: list[list[Face]] = []
     for face in part.faces:
@@ -751,7 +778,7 @@ def _free_wires(
                 )
                 if not fastened:
                     break
-                more = _fillet_round(part, place, axis, radius)
+                more = _filletrounds(part, place, axis, radius)
             made.append(place + sign * more * axis)
             radii.append(more)
         if len(made) < 2:
@@ -769,7 +796,7 @@ def _free_wires(
     return found
 
 
-def _fillet_round(part: Part, end: FloatArray, axis: FloatArray, radius: float) -> float:
+def _filletrounds(part: Part, end: FloatArray, axis: FloatArray, radius: float) -> float:
     """Radius of the fillet at the end of a round wire, or 0."""
     for face in part.faces:
         if face.kind == "torus" and not face.is_convex and are_parallel(face.axis, axis, 1e-3):
@@ -800,7 +827,7 @@ def necks(scene: Scene, row: int) -> list[Thin]:
     """The circular notches of a solid: what is left between two bores side by side."""
     part = scene.parts[row]
     bores: list[tuple[list[Face], float, float]] = []
-    for group in _round(part, convex=False):
+    for group in rounds(part, convex=False):
         ends = np.concatenate([part.edges[e].ends for face in group for e in face.edges])
         levels = ends @ group[0].axis
         bores.append((group, float(levels.min()), float(levels.max())))
