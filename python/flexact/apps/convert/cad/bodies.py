@@ -22,7 +22,7 @@ from ....util.errors import BatchError
 from . import brep
 from .assembly import Assembly, Body, Choices, Flexure, Kind, Piece, Solid
 from .brep import Face, Part, are_parallel, unit
-from .flexures import Region, Scene, Thin, necks, regions, rounds, walls, wires
+from .flexures import GLUED, Region, Scene, Thin, necks, regions, rounds, walls, wires
 
 #: Solids that are no further apart touch [mm].
 TOUCHING = 0.02
@@ -48,8 +48,10 @@ _MATERIALS = [
     for words, name in (
         (r"spring ?steel|federstahl|verenstaal|50crv4|1\.8159|51crv4", "spring steel"),
         (r"tool ?steel|werkzeugstahl|gereedschapsstaal|h13|1\.2344", "tool steel"),
-        (r"stainless|edelstahl|nichtrostend|\brvs\b|1\.43\d\d|1\.44\d\d|aisi ?3\d\d|inox",
-         "stainless steel"),
+        (
+            r"stainless|edelstahl|nichtrostend|\brvs\b|1\.43\d\d|1\.44\d\d|aisi ?3\d\d|inox",
+            "stainless steel",
+        ),
         (r"7075", "aluminium 7075-T6"),
         (r"alumini?um|\balu\b|en[ -]?aw|6061|6082|5083|almg", "aluminium"),
         (r"titan", "titanium"),
@@ -345,9 +347,44 @@ class _Recognition:
                 self.parent[self._root(a)] = self._root(b)
             elif how:
                 self.touching.append((a, b))
+        self._glue(rest)
         self.ends = [
             _End(thin, side, self._lump_at(thin, side)) for thin in self.taken for side in (0, 1)
         ]
+
+    def _glue(self, rest: Sequence[int]) -> None:
+        """Join ends of flexures that touch nothing with what they are near to, with a doubt."""
+        cut = {thin.part for thin in self.taken}
+        groups: dict[int, list[int]] = defaultdict(list)
+        for k in rest:
+            groups[self._root(k)].append(k)
+        for members in list(groups.values()):
+            if not {self.lumps[k].solid for k in members} <= cut or len(members) > 1:
+                continue
+            (k,) = members
+            solid = self.lumps[k].solid
+            ends = sum(
+                self.lumps[k].part.holds(place, edge=True)
+                for thin in self.taken
+                if thin.part == solid
+                for place in _outside(thin)
+            )
+            if ends != 1 or self.lumps[k].part.volume > 0.5 * self.parts[solid].volume:
+                continue
+            reach = np.array([[-GLUED] * 3, [GLUED] * 3])
+            near = [
+                (brep.distance(self.lumps[k].part.shape, self._shown(other).shape), other)
+                for other in rest
+                if self.lumps[other].solid != solid
+                and brep.boxes_meet(self.lumps[k].part.box + reach, self._shown(other).box)
+            ]
+            far, other = min(near, default=(np.inf, 0))
+            if far <= GLUED:
+                self.parent[self._root(k)] = self._root(other)
+                names = [self._solid_name(self.lumps[row].solid) for row in (k, other)]
+                self.doubts.append(
+                    f"{names[0]} and {names[1]} are {far:.2g} mm apart, and are taken as joined"
+                )
 
     def _root(self, lump: int) -> int:
         while self.parent[lump] != lump:
@@ -372,7 +409,9 @@ class _Recognition:
         end = (thin.p, thin.q)[side]
         reach = max(0.6 * thin.thickness, TOUCHING)
         box = np.array([end - thin.breadth, end + thin.breadth])
-        line = brep.segment(end - 0.45 * thin.breadth * thin.width, end + 0.45 * thin.breadth * thin.width)
+        line = brep.segment(
+            end - 0.45 * thin.breadth * thin.width, end + 0.45 * thin.breadth * thin.width
+        )
         best: tuple[float, int] | None = None
         for k in rest:
             if brep.boxes_meet(self._shown(k).box, box):
@@ -490,8 +529,8 @@ class _Recognition:
                     for k in group.lumps
                 )
             ]
-        if named and len(named) < len(held):
-            self.why_ground = "by its name"
+        if named and (len(named) < len(held) or len(held) == 1):
+            self.why_ground = "by its name" if len(named) == 1 else "by their names"
             return named
         self.why_ground = (
             "the largest body; flexact convert --ground NAME says another"
@@ -579,8 +618,10 @@ class _Recognition:
                 f"taken as {default}"
             )
         elif plain and not self.choices.material:
-            what = "the file names no material" if plain == len(self.parts) else (
-                f"of {plain} solids the file names no material"
+            what = (
+                "the file names no material"
+                if plain == len(self.parts)
+                else (f"of {plain} solids the file names no material")
             )
             self.remarks.append(f"{what}: taken as {default}; --material says another")
 
@@ -590,10 +631,7 @@ class _Recognition:
         loose = [group for group in bodies if not group.ends and group not in self.grounds]
         bodies = [group for group in bodies if group not in loose]
         bodies.sort(key=lambda group: (group not in self.grounds, -self._volume(group)))
-        main = {
-            id(group): self.lumps[max(group.lumps, key=self._weight)].solid
-            for group in [*bodies, *loose]
-        }
+        main = {id(group): self._main(group) for group in [*bodies, *loose]}
         self.main_solids = {main[id(group)] for group in bodies if group.role == "body"}
         count: dict[int, int] = defaultdict(int)
         for group in bodies:
@@ -614,6 +652,20 @@ class _Recognition:
             group.name = self._once(self.parts[main[id(group)]].name or "a body")
             self.loose.append(group.name)
         return bodies
+
+    def _main(self, group: _Group) -> int:
+        """The solid after which a body is called.
+
+        Of the ground one that is called so; else one at which flexures end, and the largest.
+        """
+        lumps = group.lumps
+        if group in self.grounds:
+            said = [k for k in lumps if is_ground_name(self.parts[self.lumps[k].solid].name)]
+            lumps = said or lumps
+        ends = {end.lump for end in group.ends}
+        at = [k for k in lumps if k in ends and self._is_whole(self.lumps[k].solid)]
+        named = [k for k in at if self.parts[self.lumps[k].solid].name] or lumps
+        return self.lumps[max(named, key=self._weight)].solid
 
     def _weight(self, lump: int) -> float:
         """Volume, of purchased parts less than of all others."""
@@ -649,7 +701,10 @@ class _Recognition:
         # Rows begin at a body, if possible at the ground.
         starts = sorted(
             ((thin, side) for thin in self.taken for side in (0, 1)),
-            key=lambda s: (at[id(s[0]), s[1]].role in inner, at[id(s[0]), s[1]] not in self.grounds),
+            key=lambda s: (
+                at[id(s[0]), s[1]].role in inner,
+                at[id(s[0]), s[1]] not in self.grounds,
+            ),
         )
         for thin, side in starts:
             if id(thin) in done:
@@ -774,9 +829,7 @@ class _Recognition:
     def _doubt(self, name: str, doubts: Sequence[str]) -> None:
         self.doubts += [f"{name}: {doubt}" for doubt in doubts]
 
-    def _flexure(
-        self, thin: Thin, name: str, between: tuple[str, str], is_taken: bool
-    ) -> Flexure:
+    def _flexure(self, thin: Thin, name: str, between: tuple[str, str], is_taken: bool) -> Flexure:
         if is_taken:
             self._doubt(name, [*thin.why, *thin.doubts])
             self.owner[id(thin)] = name
@@ -785,7 +838,13 @@ class _Recognition:
             *(thin.kind, name or self._solid_name(thin.part), thin.part, 1e-3 * thin.p),
             *(1e-3 * thin.q, 1e-3 * ends, thin.width, thin.normal, 1e-3 * thin.length),
             *(1e-3 * thin.breadth, 1e-3 * thin.thickness, 1e-3 * thin.radius, 0.0),
-            *(thin.contour, between, 1e-3 * thin.outline, "; ".join([*thin.why, *thin.doubts]), is_taken),
+            *(
+                thin.contour,
+                between,
+                1e-3 * thin.outline,
+                "; ".join([*thin.why, *thin.doubts]),
+                is_taken,
+            ),
         )
 
     def _body(self, group: _Group, flexures: Sequence[Flexure]) -> Body:
@@ -993,7 +1052,9 @@ def contact(a: Part, b: Part) -> str:
             off = float(np.linalg.norm(away - away @ one.axis * one.axis))
             if off < TOUCHING and abs(one.radius - other.radius) < 2 * TOUCHING:
                 return "face"
-    far = brep.distance(brep.compound(f.shape for f in near_a), brep.compound(f.shape for f in near_b))
+    far = brep.distance(
+        brep.compound(f.shape for f in near_a), brep.compound(f.shape for f in near_b)
+    )
     if far > TOUCHING:
         return "face" if _contains(a, b) else ""
     return "face" if far < TOUCHING / 4 and _overlap(a, b) else "line"
@@ -1007,9 +1068,7 @@ def _is_full(part: Part, group: Sequence[Face]) -> bool:
 
 def _contains(a: Part, b: Part) -> bool:
     """Whether one of two solids whose surfaces do not meet lies in the other."""
-    return any(
-        one.edges and other.holds(one.edges[0].ends[0]) for one, other in ((a, b), (b, a))
-    )
+    return any(one.edges and other.holds(one.edges[0].ends[0]) for one, other in ((a, b), (b, a)))
 
 
 def _overlap(a: Part, b: Part) -> bool:

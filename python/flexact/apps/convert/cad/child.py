@@ -40,7 +40,9 @@ def answer(path: str, choices: Choices, drawing: bool) -> object:
     except FlexactError as error:
         return str(error)
     except MemoryError:
-        return "it takes more memory than is given to it: export the mechanism alone, or less detail"
+        return (
+            "it takes more memory than is given to it: export the mechanism alone, or less detail"
+        )
     except Exception as error:  # noqa: BLE001
         words = " ".join(str(error).split())[:200]
         if "bad_alloc" in words or "OutOfMemory" in type(error).__name__:

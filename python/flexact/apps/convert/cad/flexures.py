@@ -24,6 +24,8 @@ from .brep import NEAR, Face, Part, are_parallel, unit, without
 LEAST_SLENDER = 4.0
 #: A sheet is at least so many thicknesses broad; what is narrower is a wire.
 SHEET = 5.0
+#: The widest gap that is filled with glue [mm].
+GLUED = 0.25
 #: Share of a clamp that may be holes, which screws fill.
 _HOLES = 0.3
 
@@ -225,21 +227,42 @@ def _extent(face: TopoDS_Shape) -> float:
 
 
 def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin]:
-    """The walls in one region; those of thinner walls are passed over."""
-    row, thickness, planes = region.part, region.thickness, region.planes
+    """The walls in one region; those of thinner walls are passed over.
+
+    Where nothing holds a slender one, it may be glued: then a wider gap counts, with a doubt.
+    """
+    made = _free_walls(scene, region, before, min(0.02, 0.05 * region.thickness))
+    if made or region.extent < 15 * region.thickness:
+        return made
+    made = _free_walls(scene, region, before, min(GLUED, 0.5 * region.thickness))
+    for thin in made:
+        thin.doubts.append("it is fastened across a gap, as if it were glued")
+    return made
+
+
+def _free_walls(
+    scene: Scene, region: Region, before: Sequence[Thin], gap: float
+) -> list[Thin]:
+    """The walls in one region, where what is no further away than a gap holds it."""
+    row, thickness, normal = region.part, region.thickness, region.planes[0].normal
     part = scene.parts[row]
-    normal = planes[0].normal
-    gap = min(0.02, 0.05 * thickness)
+    step = max(0.05 * thickness, gap)
     box = brep.box_of(region.face, thickness / 2 + 2 * gap)
     others = scene.near(box, row)
+    levels = [side * (thickness / 2 + gap) * normal for side in (0.0, -1.0, 1.0)]
     clamps: list[TopoDS_Shape] = []
-    for side in (0.0, -1.0, 1.0) if others else ():
-        shift = side * (thickness / 2 + gap) * normal
-        for clamp in _held(scene, brep.moved(region.face, shift), normal, others):
-            clamps.append(brep.filled(brep.moved(clamp, -shift), _HOLES))
-    free = without([region.face], clamps) if clamps else [region.face]
+    for level in levels if others else ():
+        for clamp in _held(scene, brep.moved(region.face, level), normal, others):
+            clamps.append(brep.filled(brep.moved(clamp, -level), _HOLES))
+
+    def is_held(place: FloatArray) -> bool:
+        return any(scene.where(place + level, others) is not None for level in levels)
+
+    def goes_on(place: FloatArray) -> bool:
+        return part.holds(place) or is_held(place)
+
     found = []
-    for face in free:
+    for face in without([region.face], clamps) if clamps else [region.face]:
         if _extent(face) < LEAST_SLENDER * thickness or brep.area_of(face) < thickness**2:
             continue
         outline = _Outline(brep.loops(face), normal)
@@ -248,17 +271,9 @@ def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin
             continue
         if np.mean([part.holds(place) for place in inner]) < 0.75:
             continue
-        levels = [shift * (thickness / 2 + gap) * normal for shift in (0.0, -1.0, 1.0)]
-
-        def is_held(place: FloatArray) -> bool:
-            return any(scene.where(place + level, others) is not None for level in levels)
-
-        def goes_on(place: FloatArray) -> bool:
-            return part.holds(place) or is_held(place)
-
-        chains = outline.chains(goes_on, 0.05 * thickness, thickness / 2)
+        chains = outline.chains(goes_on, step, thickness / 2)
         if len(chains) == 2:
-            made = _wall(part, row, outline, chains, thickness, planes, is_held)
+            made = _wall(part, row, outline, chains, thickness, region.planes, is_held)
             if made is not None:
                 found.append(made)
         elif len(chains) > 2:
@@ -681,8 +696,7 @@ def rounds(part: Part, *, convex: bool) -> list[list[Face]]:
 def _coaxial(a: Face, b: Face) -> bool:
     away = b.at - a.at
     return (
-        are_parallel(a.axis, b.axis)
-        and float(np.linalg.norm(away - away @ a.axis * a.axis)) < NEAR
+        are_parallel(a.axis, b.axis) and float(np.linalg.norm(away - away @ a.axis * a.axis)) < NEAR
     )
 
 
@@ -709,22 +723,27 @@ def _wires_of(scene: Scene, row: int, group: list[Face]) -> list[Thin]:
             continue
         if not part.holds(at + (low + high) / 2 * axis):
             continue
-        found += _free_wires(scene, row, at, axis, radius, low, high)
+        line = at + low * axis, at + high * axis
+        made = _free_wires(scene, row, line, axis, radius, min(0.02, 0.05 * radius))
+        if not made and high - low > 20 * radius:
+            made = _free_wires(scene, row, line, axis, radius, min(GLUED, 0.5 * radius))
+            for thin in made:
+                thin.doubts.append("it is fastened across a gap, as if it were glued")
+        found += made
     return found
 
 
 def _free_wires(
     scene: Scene,
     row: int,
-    at: FloatArray,
+    line: tuple[FloatArray, FloatArray],
     axis: FloatArray,
     radius: float,
-    low: float,
-    high: float,
+    gap: float,
 ) -> list[Thin]:
     """What of a round bar no other solid holds, where its ends are fastened."""
     part = scene.parts[row]
-    gap = min(0.02, 0.05 * radius)
+    at, low, high = line[0], 0.0, float((line[1] - line[0]) @ axis)
     u = brep.across(axis)
     v = np.cross(axis, u)
     ends = np.array([at + low * axis, at + high * axis])
@@ -772,7 +791,7 @@ def _free_wires(
             place = at + level * axis
             more = 0.0
             if not is_held:
-                outside = place + sign * 0.05 * radius * axis
+                outside = place + sign * max(0.05 * radius, gap) * axis
                 fastened = part.holds(outside) or any(
                     scene.where(outside + 0.5 * d, others) is not None for d in around
                 )

@@ -75,7 +75,10 @@ def mechanism_of(
     """
     said = choices or Choices()
     assembly = recognised(Path(path), said, drawing=drawing)
-    return CadMechanism(assembly, model_of_assembly(assembly), said)
+    try:
+        return CadMechanism(assembly, model_of_assembly(assembly), said)
+    except BatchError as error:
+        raise BatchError(f"{path}: {error}") from error
 
 
 def model_of_assembly(assembly: Assembly) -> Model:
@@ -155,9 +158,7 @@ def _direction(vector: FloatArray) -> list[float]:
     return [float(x) for x in made]
 
 
-def _add(
-    model: Model, flexure: Flexure, points: _Points, middles: set[str], material: str
-) -> None:
+def _add(model: Model, flexure: Flexure, points: _Points, middles: set[str], material: str) -> None:
     """Give a model one flexure."""
     name = flexure.name
     p = points.at(flexure.between[0], flexure.p)
@@ -203,7 +204,7 @@ def _add(
 def _no_flexures(assembly: Assembly) -> str:
     thin = [f"{each.name}: {each.doubt}" for each in assembly.candidates if each.doubt][:4]
     return (
-        f"{assembly.name}: no flexure was recognised in {len(assembly.solids)} solids: sheets lie "
+        f"no flexure was recognised in {len(assembly.solids)} solids: sheets lie "
         "between parallel planes, wires are round or square bars, notches lie between two bores"
         + (f"; taken as bodies were {'; '.join(thin)}" if thin else "")
     )
@@ -224,14 +225,20 @@ def described(assembly: Assembly, width: int = 100) -> str:
     if assembly.doubts:
         lines += ["", "In doubt, and the verdict depends on it:"]
         lines += [wrapped(harmless(f"  - {words}"), width, "    ") for words in assembly.doubts]
-    lines += ["", *(wrapped(harmless(f"Note: {words}."), width, "  ") for words in assembly.remarks)]
+    lines += [
+        "",
+        *(wrapped(harmless(f"Note: {words}."), width, "  ") for words in assembly.remarks),
+    ]
     return "\n".join(lines)
 
 
 def _head(assembly: Assembly) -> str:
     solids, bought = len(assembly.solids), sum(s.is_purchased for s in assembly.solids)
     moving = sum(not body.is_ground and not body.is_middle for body in assembly.bodies)
-    parts = [_many(len(assembly.flexures), "flexure"), _many(moving, "moving body", "moving bodies")]
+    parts = [
+        _many(len(assembly.flexures), "flexure"),
+        _many(moving, "moving body", "moving bodies"),
+    ]
     kept = f", {bought} of them purchased parts" if bought else ""
     return f"{_many(solids, 'solid')}{kept}: {' and '.join(parts)}."
 

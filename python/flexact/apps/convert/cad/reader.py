@@ -53,9 +53,7 @@ def recognised(
         raise BatchError(
             "STEP files need OpenCASCADE: pip install flexact[cad], which brings cadquery-ocp-novtk"
         )
-    question = pickle.dumps(
-        (os.path.abspath(path), choices or Choices(), drawing, memory, seconds)
-    )
+    question = pickle.dumps((os.path.abspath(path), choices or Choices(), drawing, memory, seconds))
     try:
         process = subprocess.Popen(
             [sys.executable, "-c", _START, _HOME],
@@ -90,7 +88,9 @@ def _require_step(path: Path) -> None:
         if path.is_dir():
             raise BatchError(f"{path}: this is a directory; name a STEP file in it")
         if path.exists() and not path.is_file():
-            raise BatchError(f"{path}: this is not a regular file; write the STEP file to one first")
+            raise BatchError(
+                f"{path}: this is not a regular file; write the STEP file to one first"
+            )
         with open(path, "rb") as file:
             head = file.read(_HEAD)
     except OSError as error:

@@ -10,8 +10,11 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
-from OCP.collections import Sequence_TCollection_AsciiString, Sequence_TDF_Label
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as Shapes
+from OCP.collections import Sequence_TDF_Label
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.Message import Message
 from OCP.Quantity import Quantity_Color
@@ -39,6 +42,10 @@ from .brep import Part, each
 _DEPTH = 60
 #: An assembly of more solids is no mechanism that is looked at by hand.
 MOST_SOLIDS = 2000
+#: Solids of more faces are not checked, which takes long.
+_MOST_FACES = 500
+#: Solids in the text of a file.
+_SOLID = re.compile(rb"=\s*(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(")
 #: What translators write where there is no name.
 _NO_NAME = re.compile(
     r"^(|NAUO\d+|=>\[.*\]|open cascade step translator.*|"
@@ -61,7 +68,10 @@ def parts_of(path: Path) -> tuple[list[Part], list[str], list[str]]:
     reader.SetMatMode(True)
     if reader.ReadFile(str(path)) != IFSelect_RetDone:
         raise BatchError("this is no STEP file that OpenCASCADE can read: export it again")
-    doubts, remarks = _units(reader)
+    text = path.read_bytes()
+    doubts, remarks = _units(text)
+    stated = len(_SOLID.findall(text))
+    del text
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     XCAFDoc_DocumentTool.SetLengthUnit_s(document, 0.001)
     if not reader.Transfer(document):
@@ -73,10 +83,20 @@ def parts_of(path: Path) -> tuple[list[Part], list[str], list[str]]:
     tool.GetFreeShapes(free)
     for k in range(1, free.Length() + 1):
         walk.enter(free.Value(k), TopLoc_Location(), (), "", 0)
-    parts = [part for part in walk.parts if part.volume > 0.0]
-    lost = len(walk.parts) - len(parts)
-    if lost:
-        doubts.append(f"{lost} solids of the file have no volume and are left out")
+    parts = [part for part in walk.parts if np.isfinite(part.volume) and part.volume > 0.0]
+    for part in walk.parts:
+        if part not in parts:
+            doubts.append(f"{part.name or 'a solid'} has no volume and is left out")
+    different = Shapes()
+    for part in walk.parts:
+        different.Add(part.shape.Located(TopLoc_Location()))
+    if different.Extent() < stated:
+        doubts.append(
+            f"the file has {stated} solids, of which {different.Extent()} could be read: export it "
+            "again"
+        )
+    for name in walk.empty:
+        doubts.append(f"{name} has no shape in the file")
     if walk.surfaces:
         doubts.append(
             f"{walk.surfaces} surfaces of the file enclose no solid and are left out: "
@@ -89,21 +109,51 @@ def parts_of(path: Path) -> tuple[list[Part], list[str], list[str]]:
             + ": export solid bodies (AP214 or AP242)"
         )
     _name(parts)
+    _require_size(parts, doubts)
+    for part in parts:
+        if len(part.faces) < _MOST_FACES and not BRepCheck_Analyzer(part.shape).IsValid():
+            doubts.append(f"{part.name or 'a solid'} is no sound solid: export it again")
     return parts, doubts, remarks
 
 
-def _units(reader: STEPCAFControl_Reader) -> tuple[list[str], list[str]]:
-    """What is to be said of units."""
-    lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
-    reader.ChangeReader().FileUnits(lengths, angles, solid_angles)
-    found = {lengths.Value(k).ToCString().lower() for k in range(1, lengths.Length() + 1)}
-    if not found:
+def _units(text: bytes) -> tuple[list[str], list[str]]:
+    """What is to be said of units: a doubt, or a remark where they are not millimetres."""
+    names = {
+        prefix.lower() + b"metre"
+        for prefix in re.findall(rb"SI_UNIT\s*\(\s*(?:\.(\w+)\.|\$)\s*,\s*\.METRE\.", text)
+    }
+    if b"LENGTH_UNIT" not in text or b"GLOBAL_UNIT_ASSIGNED_CONTEXT" not in text:
         return ["the file gives no unit of length: it is taken as mm"], []
-    if len(found) > 1:
-        return [f"the file has lengths in several units: {', '.join(sorted(found))}"], []
-    if found & {"millimetre", "millimeter", "mm"}:
+    converted = re.findall(
+        rb"CONVERSION_BASED_UNIT\s*\(\s*'(\w+)'[^;]*?LENGTH_UNIT|"
+        rb"LENGTH_UNIT[^;]*?CONVERSION_BASED_UNIT\s*\(\s*'(\w+)'",
+        text,
+    )
+    others = {(a or b).lower() for a, b in converted}
+    # What is converted is so from a unit that stands there, too.
+    used = others or names
+    if not used:
+        return ["the unit of length of the file is not known: it is taken as mm"], []
+    if used == {b"millimetre"}:
         return [], []
-    return [], [f"lengths of the file are in {found.pop()}"]
+    words = ", ".join(sorted(name.decode("ascii", "replace") for name in used))
+    if len(used) > 1:
+        return [f"the file has lengths in several units: {words}"], []
+    return [], [f"lengths of the file are in {words}"]
+
+
+def _require_size(parts: list[Part], doubts: list[str]) -> None:
+    """Note a doubt where an assembly is larger or smaller than mechanisms are.
+
+    Raises:
+        BatchError: it is so by far.
+    """
+    boxes = np.array([part.box for part in parts])
+    size = 1e-3 * float(np.linalg.norm(boxes[:, 1].max(0) - boxes[:, 0].min(0)))
+    if not 1e-6 < size < 1e3:
+        raise BatchError(f"the assembly measures {size:.3g} m: correct the unit of length")
+    if not 5e-4 < size < 20.0:
+        doubts.append(f"the assembly measures {size:.3g} m: is the unit of length right?")
 
 
 class _Walk:
@@ -114,6 +164,7 @@ class _Walk:
         self.parts: list[Part] = []
         self.instances: list[str] = []
         self.surfaces = 0
+        self.empty: list[str] = []
         self.colours = XCAFDoc_DocumentTool.ColorTool_s(main)
 
     def enter(
@@ -146,11 +197,16 @@ class _Walk:
             return
         shape = XCAFDoc_ShapeTool.GetShape_s(label)
         if shape is None or shape.IsNull():
+            if name:
+                self.empty.append(name)
             return
         whole = shape.Moved(place)
         solids = list(each(whole, TopAbs_SOLID)) or list(_closed(whole))
         if not solids:
-            self.surfaces += sum(1 for _ in each(whole, TopAbs_FACE))
+            faces = sum(1 for _ in each(whole, TopAbs_FACE))
+            self.surfaces += faces
+            if not faces and name:
+                self.empty.append(name)
             return
         material, density = _material(label)
         for solid in solids:
