@@ -154,9 +154,8 @@ class _Recognition:
         self.why_ground = ""
 
     def _is_purchased(self, part: Part) -> bool:
-        """By name, or by shape: small, and round about one axis."""
-        named = _PURCHASED.search(part.name) or any(_PURCHASED.search(n) for n in part.path[1:])
-        if named:
+        """By name, or by shape: small, and round about one axis, without a waist."""
+        if _is_named_purchased(part):
             return part.volume < 0.05 * self.total or len(self.parts) < 3
         if len(self.parts) < 4 or part.volume > 0.01 * self.total or len(part.faces) < 4:
             return False
@@ -164,20 +163,28 @@ class _Recognition:
         if not round_:
             return False
         axis, at = round_[0].axis, round_[0].at
+        flats = 0
         for face in part.faces:
             if face.kind == "other":
                 continue
             if face.kind == "plane":
-                if not (are_parallel(face.axis, axis, 1e-3) or abs(face.axis @ axis) < 1e-3):
+                flat = abs(float(face.axis @ axis)) < 1e-3
+                if not flat and not are_parallel(face.axis, axis, 1e-3):
                     return False
+                flats += flat
                 continue
             away = face.at - at
             off = np.linalg.norm(away - away @ axis * axis)
             if not are_parallel(face.axis, axis, 1e-3) or off > 1e-2:
                 return False
+        # A nut, a socket, or both have six sides each.
+        if flats not in (0, 6, 12):
+            return False
         if len({round(f.radius, 3) for f in round_}) == 1 and round_[0].is_convex:
             return False
-        return any(_is_full(part, group) for c in (False, True) for group in rounds(part, convex=c))
+        if not any(_is_full(part, g) for c in (False, True) for g in rounds(part, convex=c)):
+            return False
+        return not _has_waists(part)
 
     # Which thin parts are flexures -----------------------------------------------------
 
@@ -269,7 +276,7 @@ class _Recognition:
                     thin.why.append(f"{words}, it is short for a flexure")
             (self.taken if is_flexure else self.candidates).append(thin)
         for thin in webs:
-            near = thin.thickness < 3 * least or not least
+            near = thin.thickness < 3 * least or not references
             cut_up = any(each.part == thin.part for each in self.taken)
             if near and thin.length > 20 * thin.thickness and not cut_up:
                 thin.why += thin.doubts
@@ -355,6 +362,7 @@ class _Recognition:
     def _glue(self, rest: Sequence[int]) -> None:
         """Join ends of flexures that touch nothing with what they are near to, with a doubt."""
         cut = {thin.part for thin in self.taken}
+        glued: list[tuple[float, str]] = []
         groups: dict[int, list[int]] = defaultdict(list)
         for k in rest:
             groups[self._root(k)].append(k)
@@ -382,9 +390,14 @@ class _Recognition:
             if far <= GLUED:
                 self.parent[self._root(k)] = self._root(other)
                 names = [self._solid_name(self.lumps[row].solid) for row in (k, other)]
-                self.doubts.append(
-                    f"{names[0]} and {names[1]} are {far:.2g} mm apart, and are taken as joined"
-                )
+                glued.append((far, f"{names[0]} to {names[1]}"))
+        if glued:
+            widest = max(far for far, _ in glued)
+            pairs = ", ".join(words for _, words in glued[:6])
+            more = f" and {len(glued) - 6} more" if len(glued) > 6 else ""
+            self.doubts.append(
+                f"gaps of up to {widest:.2g} mm are taken as joined: {pairs}{more}"
+            )
 
     def _root(self, lump: int) -> int:
         while self.parent[lump] != lump:
@@ -1058,6 +1071,23 @@ def contact(a: Part, b: Part) -> str:
     if far > TOUCHING:
         return "face" if _contains(a, b) else ""
     return "face" if far < TOUCHING / 4 and _overlap(a, b) else "line"
+
+
+def _is_named_purchased(part: Part) -> bool:
+    return any(_PURCHASED.search(name) for name in (part.name, *part.path[1:]))
+
+
+def _has_waists(part: Part) -> bool:
+    """Whether a turned part is slender at two places, as a strut is, and no screw or pin."""
+    spans = []
+    for group in rounds(part, convex=True):
+        for face in group:
+            levels = np.concatenate([part.edges[k].ends for k in face.edges]) @ group[0].axis
+            spans.append((group[0].radius, float(levels.min()), float(levels.max())))
+    least = min((r for r, *_ in spans), default=0.0)
+    largest = max((r for r, *_ in spans), default=0.0)
+    slim = {round(low, 3) for r, low, high in spans if r < 1.01 * least and high - low > 4 * r}
+    return least < 0.6 * largest and len(slim) >= 2
 
 
 def _is_full(part: Part, group: Sequence[Face]) -> bool:

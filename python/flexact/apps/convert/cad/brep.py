@@ -35,8 +35,9 @@ from OCP.collections import (
 from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as Shapes
 from OCP.collections import List_TopoDS_Shape
 from OCP.GeomAbs import GeomAbs_Circle, GeomAbs_Cylinder, GeomAbs_Line, GeomAbs_Plane, GeomAbs_Torus
-from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.gp import gp_Ax2, gp_Cylinder, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.GProp import GProp_GProps
+from OCP.ShapeAnalysis import ShapeAnalysis_CanonicalRecognition
 from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
 from OCP.TopAbs import (
     TopAbs_EDGE,
@@ -144,8 +145,8 @@ class Face:
     Attributes:
         shape: Its shape.
         kind: "plane", "cylinder", "torus" or "other".
-        at: A point of a plane, or of the axis.
-        axis: Outward normal of a plane, direction of the axis of a cylinder or torus.
+        at: A point of a plane or another face, or of the axis.
+        axis: Outward normal there, or direction of the axis of a cylinder or torus.
         radius: Of a cylinder, or the smaller one of a torus.
         is_convex: Whether the material is inside of it.
         area: [mm2].
@@ -175,27 +176,43 @@ def _face(shape: TopoDS_Shape) -> Face:
     properties = GProp_GProps()
     BRepGProp.SurfaceProperties_s(shape, properties)
     area = properties.Mass()
-    if kind not in (GeomAbs_Plane, GeomAbs_Cylinder, GeomAbs_Torus):
-        return Face(shape, "other", np.zeros(3), np.zeros(3), 0.0, True, area)
     at, du, dv = gp_Pnt(), gp_Vec(), gp_Vec()
     u = (surface.FirstUParameter() + surface.LastUParameter()) / 2
     v = (surface.FirstVParameter() + surface.LastVParameter()) / 2
     surface.D1(u, v, at, du, dv)
     normal = sign * unit(np.cross(xyz(du), xyz(dv)))
-    if kind == GeomAbs_Plane:
+    plane, cylinder = gp_Pln(), gp_Cylinder()
+    known = kind in (GeomAbs_Plane, GeomAbs_Cylinder, GeomAbs_Torus)
+    # Some programs export all surfaces as splines.
+    spline = None if known else ShapeAnalysis_CanonicalRecognition(shape)
+    if kind == GeomAbs_Plane or (spline is not None and spline.IsPlane(NEAR, plane)):
         return Face(shape, "plane", xyz(at), normal, 0.0, True, area)
-    if kind == GeomAbs_Cylinder:
-        cylinder = surface.Cylinder()
+    if kind == GeomAbs_Cylinder or (spline is not None and spline.IsCylinder(NEAR, cylinder)):
+        if known:
+            cylinder = surface.Cylinder()
         start, axis = xyz(cylinder.Axis().Location()), xyz(cylinder.Axis().Direction())
         away = xyz(at) - start - (xyz(at) - start) @ axis * axis
         convex = bool(normal @ away > 0)
         return Face(shape, "cylinder", start, axis, cylinder.Radius(), convex, area)
+    if kind != GeomAbs_Torus:
+        return Face(shape, "other", xyz(at), normal, 0.0, True, area)
     torus = surface.Torus()
     start, axis = xyz(torus.Axis().Location()), xyz(torus.Axis().Direction())
     away = xyz(at) - start - (xyz(at) - start) @ axis * axis
     tube = start + torus.MajorRadius() * unit(away)
     convex = bool(normal @ (xyz(at) - tube) > 0)
     return Face(shape, "torus", start, axis, torus.MinorRadius(), convex, area)
+
+
+def _is_straight(curve: BRepAdaptor_Curve, first: float, last: float) -> bool:
+    """Whether a spline is a straight line."""
+    places = np.array([xyz(curve.Value(t)) for t in np.linspace(first, last, 5)])
+    along = places[-1] - places[0]
+    if np.linalg.norm(along) < NEAR:
+        return False
+    away = places - places[0]
+    off = away - np.outer(away @ unit(along), unit(along))
+    return bool(np.abs(off).max() < NEAR)
 
 
 @dataclass(eq=False)
@@ -246,8 +263,11 @@ class Part:
             found = (rows.FindIndex(face) - 1 for face in ancestors.FindFromIndex(k))
             around = tuple(dict.fromkeys(found))
             curve = BRepAdaptor_Curve(edge)
+            first, last = curve.FirstParameter(), curve.LastParameter()
             kind = {GeomAbs_Line: "line", GeomAbs_Circle: "circle"}.get(curve.GetType(), "other")
-            ends = [xyz(curve.Value(t)) for t in (curve.FirstParameter(), curve.LastParameter())]
+            ends = [xyz(curve.Value(t)) for t in (first, last)]
+            if kind == "other" and _is_straight(curve, first, last):
+                kind = "line"
             for row in around:
                 made[row].edges.append(len(edges))
             edges.append(Edge(shape, kind, np.array(ends), around))
@@ -402,7 +422,7 @@ def loops(shape: TopoDS_Shape, turns: int = 12) -> list[list[FloatArray]]:
             curve = BRepAdaptor_Curve(edge)
             first, last = curve.FirstParameter(), curve.LastParameter()
             count = 2
-            if curve.GetType() != GeomAbs_Line:
+            if curve.GetType() != GeomAbs_Line and not _is_straight(curve, first, last):
                 count = turns + 1
             points = np.array([xyz(curve.Value(t)) for t in np.linspace(first, last, count)])
             edges.append(points[::-1] if walk.Orientation() == TopAbs_REVERSED else points)

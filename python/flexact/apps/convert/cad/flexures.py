@@ -22,6 +22,8 @@ from .brep import NEAR, Face, Part, are_parallel, unit, without
 
 #: A wall is at least so many thicknesses long.
 LEAST_SLENDER = 4.0
+#: A wall with fillets at both ends that is no longer than so many thicknesses is a notch.
+NOTCH = 12.0
 #: A sheet is at least so many thicknesses broad; what is narrower is a wire.
 SHEET = 5.0
 #: The widest gap that is filled with glue [mm].
@@ -229,14 +231,12 @@ def _extent(face: TopoDS_Shape) -> float:
 def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin]:
     """The walls in one region; those of thinner walls are passed over.
 
-    Where nothing holds a slender one, it may be glued: then a wider gap counts, with a doubt.
+    Where nothing holds a slender one, it may be glued: then a wider gap counts.
     """
     made = _free_walls(scene, region, before, min(0.02, 0.05 * region.thickness))
     if made or region.extent < 15 * region.thickness:
         return made
     made = _free_walls(scene, region, before, min(GLUED, 0.5 * region.thickness))
-    for thin in made:
-        thin.doubts.append("it is fastened across a gap, as if it were glued")
     return made
 
 
@@ -276,8 +276,10 @@ def _free_walls(
             made = _wall(part, row, outline, chains, thickness, region.planes, is_held)
             if made is not None:
                 found.append(made)
+            elif region.extent > 15 * thickness:
+                found.append(_web(row, outline, thickness, "it is fastened all around"))
         elif len(chains) > 2:
-            found.append(_web(row, outline, thickness, len(chains)))
+            found.append(_web(row, outline, thickness, f"it is fastened at {len(chains)} places"))
     return found
 
 
@@ -355,11 +357,13 @@ class _Outline:
                 return np.asarray(inside[np.argsort(away)][: count**2])
         return np.asarray([self.rings[0].mean(0)])
 
-    def area(self, low: float, high: float, axis: FloatArray, at: FloatArray) -> float:
-        """Area between two distances from a place along an axis."""
+    def area(
+        self, low: float, high: float, axis: FloatArray, at: FloatArray, *, holes: bool = True
+    ) -> float:
+        """Area between two distances from a place along an axis, with or without holes."""
         total = 0.0
         side = np.cross(self.normal, axis)
-        for k, ring in enumerate(self.rings):
+        for k, ring in enumerate(self.rings if holes else self.rings[:1]):
             flat = np.stack([(ring - at) @ axis, (ring - at) @ side], 1)
             flat = _clipped(_clipped(flat, low, 1.0), high, -1.0)
             x, y = flat[:, 0], flat[:, 1]
@@ -440,8 +444,8 @@ def _clipped(ring: FloatArray, level: float, sign: float) -> FloatArray:
     return np.array(made) if made else np.zeros((1, 2))
 
 
-def _web(row: int, outline: _Outline, thickness: float, ends: int) -> Thin:
-    """A wall to which more than two things are fastened: no flexure that is known."""
+def _web(row: int, outline: _Outline, thickness: float, words: str) -> Thin:
+    """A wall that is not fastened at two ends: no flexure that is known."""
     ring = outline.rings[0]
     flat = ring @ np.array([outline.u, outline.v]).T
     low, high = flat.min(0), flat.max(0)
@@ -450,7 +454,6 @@ def _web(row: int, outline: _Outline, thickness: float, ends: int) -> Thin:
     k = int(np.argmax(half))
     axis, width = (outline.u, outline.v) if k == 0 else (outline.v, outline.u)
     p, q = middle - half[k] * axis, middle + half[k] * axis
-    words = f"it is fastened at {ends} places"
     breadth = 2 * float(half[1 - k])
     return Thin(
         *(row, Kind.SHEET, p, q, (), width, outline.normal, breadth, thickness),
@@ -521,17 +524,22 @@ def _wall(
     doubts = []
     skew = m1 - m0 - (m1 - m0) @ axis * axis
     length = float((m1 - m0) @ axis)
-    if length < thickness:
+    if length < 0.2 * thickness:
         return None
     ring = outline.rings[0]
     lateral = (ring - m0) @ width
     inside = np.ptp(lateral)
     span = (float(lateral.min()) - 0.05 * thickness, float(lateral.max()) + 0.05 * thickness)
-    breadth = min(outline.area(0.0, length, axis, m0) / length, float(inside))
-    if breadth < 0.8 * min(inside, max(b0, b1)):
-        doubts.append("it is not a rectangle: holes or cuts make it narrower")
-    if abs(b0 - b1) > 0.05 * max(b0, b1) and min(b0, b1) < 0.9 * inside:
-        doubts.append(f"its ends are {b0:.3g} and {b1:.3g} mm broad")
+    # Fillets in its plane are near the ends, holes to make it lighter in the middle.
+    breadth, near, far = (
+        outline.area(low * length, high * length, axis, m0) / ((high - low) * length)
+        for low, high in ((0.3, 0.7), (0.3, 0.4), (0.6, 0.7))
+    )
+    solid = outline.area(0.3 * length, 0.7 * length, axis, m0, holes=False) / (0.4 * length)
+    if breadth < 0.9 * solid:
+        doubts.append(f"holes take away {100 * (1 - breadth / solid):.0f} % of its middle")
+    elif abs(near - far) > 0.02 * breadth:
+        doubts.append("its breadth changes along it: it is taken as even")
     cuts = (m0, m1)
     radii = []
     ends = []
@@ -552,7 +560,14 @@ def _wall(
     else:
         # Of ends that are not opposite by rounding the line between both is the axis.
         width = unit(width - width @ (q - p) * (q - p) / ((q - p) @ (q - p)))
-    if length < LEAST_SLENDER * thickness:
+    nominal = float(np.linalg.norm(q - p))
+    if min(radii) >= 0.4 * thickness and nominal < NOTCH * thickness and breadth > thickness:
+        half = (m1 - m0) / 2
+        return Thin(
+            *(row, Kind.NOTCH, p, q, (m0 + half,), width, normal, breadth, thickness, span),
+            *(ring, min(radii), "fillet", doubts),
+        )
+    if nominal < LEAST_SLENDER * thickness:
         return None
     kind = Kind.SHEET if breadth >= SHEET * thickness else Kind.WIRE
     return Thin(
@@ -727,8 +742,6 @@ def _wires_of(scene: Scene, row: int, group: list[Face]) -> list[Thin]:
         made = _free_wires(scene, row, line, axis, radius, min(0.02, 0.05 * radius))
         if not made and high - low > 20 * radius:
             made = _free_wires(scene, row, line, axis, radius, min(GLUED, 0.5 * radius))
-            for thin in made:
-                thin.doubts.append("it is fastened across a gap, as if it were glued")
         found += made
     return found
 
