@@ -22,7 +22,7 @@ from ....util.errors import BatchError
 from . import brep
 from .assembly import Assembly, Body, Choices, Flexure, Kind, Piece, Solid
 from .brep import Face, Part, are_parallel, unit
-from .flexures import GLUED, Region, Scene, Thin, necks, regions, rounds, walls, wires
+from .flexures import GLUED, Region, Scene, Thin, necks, odd_necks, regions, rounds, walls, wires
 
 #: Solids that are no further apart touch [mm].
 TOUCHING = 0.02
@@ -149,6 +149,7 @@ class _Recognition:
         self.scene = Scene(parts, stand_ins)
         self.touching: list[tuple[int, int]] = []
         self.loose: list[str] = []
+        self.of_flexures: dict[str, list[str]] = {}
         self.owner: dict[int, str] = {}
         self.owner_of_lump: dict[int, str] = {}
         self.why_ground = ""
@@ -196,7 +197,7 @@ class _Recognition:
         for row, part in enumerate(self.parts):
             if part.is_purchased or self._is_chosen(row, self.choices.bodies):
                 continue
-            found += necks(self.scene, row)
+            found += [*necks(self.scene, row), *odd_necks(self.scene, row)]
             rods += wires(self.scene, row)
             places += regions(self.scene, row)
         slim: dict[int, list[Thin]] = defaultdict(list)
@@ -239,11 +240,14 @@ class _Recognition:
         webs = [thin for thin in found if thin.contour == "web"]
         necks_ = [thin for thin in found if thin.kind is Kind.NOTCH]
         slim = [thin for thin in found if thin.contour != "web" and thin.kind is not Kind.NOTCH]
-        references = [thin.thickness for thin in necks_]
+        references = [thin.thickness for thin in necks_ if thin.contour == "circular"]
         if slim:
-            most = max(slim, key=lambda thin: thin.length / thin.thickness)
-            if most.length >= 15 * most.thickness or not references:
-                references.append(most.thickness)
+            most = max(thin.length / thin.thickness for thin in slim)
+            alike = [t.thickness for t in slim if t.length >= 0.5 * most * t.thickness]
+            if most >= 15 or not references:
+                references.append(min(alike))
+        elif not references:
+            references = [thin.thickness for thin in necks_]
         least = min(references, default=0.0)
         thin_ones = [t for t in slim if t.length >= 20 * t.thickness and t.thickness <= 4 * least]
         usual = float(np.median([t.bending for t in thin_ones])) if thin_ones else 0.0
@@ -253,8 +257,13 @@ class _Recognition:
             if self._says(thin, self.choices.bodies):
                 self.candidates.append(thin)
                 continue
-            if thin.kind is Kind.NOTCH or self._says(thin, self.choices.flexures):
+            if self._says(thin, self.choices.flexures):
                 self.taken.append(thin)
+                continue
+            if thin.kind is Kind.NOTCH:
+                # Between two bores it is meant; a bar between fillets may be a link.
+                if thin.contour == "circular" or thin.thickness < 3 * least:
+                    self.taken.append(thin)
                 continue
             slender, thick = thin.length / thin.thickness, thin.thickness / least
             stiff = thin.bending / usual if usual else 1.0
@@ -305,15 +314,22 @@ class _Recognition:
             if not inside:
                 self.lumps.append(_Lump(part, row))
                 continue
-            cuts = [cut for thin in inside for cut in _cuts(thin)]
-            pieces = [Part(shape) for shape in brep.split(part.shape, cuts)]
-            lumps = [_Lump(piece, row) for piece in pieces]
-            for thin in inside:
-                if self._claim(thin, lumps):
-                    kept.append(thin)
-                else:
-                    thin.why.append("it could not be cut from what is around it")
-                    self.candidates.append(thin)
+            while True:
+                cuts = [cut for thin in inside for cut in _cuts(thin)]
+                pieces = brep.split(part.shape, cuts) if cuts else [part.shape]
+                lumps = [_Lump(Part(shape), row) for shape in pieces]
+                failed = [thin for thin in inside if not self._claim(thin, lumps)]
+                if not failed:
+                    break
+                # What does not part the solid is left out, so that nothing of it remains.
+                for thin in failed:
+                    inside.remove(thin)
+                    if thin.kind is not Kind.NOTCH:
+                        thin.why.append("it could not be cut from what is around it")
+                        self.candidates.append(thin)
+            kept += inside
+            if len(lumps) == 1 and lumps[0].thin is None:
+                lumps = [_Lump(part, row)]
             self.lumps += lumps
         self.taken = kept
 
@@ -470,9 +486,15 @@ class _Recognition:
         if len(group.ends) != 2:
             return
         (a, b) = (end.thin for end in group.ends)
-        if a is b or a.kind is not Kind.SHEET or b.kind is not Kind.SHEET:
+        if a is b or a.kind is not b.kind or a.kind is Kind.NOTCH:
             return
-        if not are_parallel(a.width, b.width, 1e-2) or a.contour or b.contour:
+        if a.kind is Kind.WIRE:
+            # A rod between two necks on its line is the stiff middle of one wire.
+            off = np.linalg.norm(np.cross(b.middle - a.middle, a.axis))
+            if a.part == b.part and are_parallel(a.axis, b.axis, 0.01) and off < a.thickness / 10:
+                group.role = "middle"
+            return
+        if not are_parallel(a.width, b.width, 1e-2):
             return
         alike = max(a.thickness, b.thickness) < 1.5 * min(a.thickness, b.thickness)
         if not alike:
@@ -759,7 +781,7 @@ class _Recognition:
             what = (
                 "bent sheet" if "bend" in roles
                 else "folded sheet" if "fold" in roles
-                else "reinforced sheet" if "middle" in roles
+                else f"reinforced {row[0].kind.value}" if "middle" in roles
                 else row[0].kind.value
             )  # fmt: skip
             own = self.parts[solid].name
@@ -840,7 +862,8 @@ class _Recognition:
         return sorted(group.corners, key=lambda place: float(np.linalg.norm(place - before.q)))
 
     def _doubt(self, name: str, doubts: Sequence[str]) -> None:
-        self.doubts += [f"{name}: {doubt}" for doubt in doubts]
+        for doubt in doubts:
+            self.of_flexures.setdefault(doubt, []).append(name)
 
     def _flexure(self, thin: Thin, name: str, between: tuple[str, str], is_taken: bool) -> Flexure:
         if is_taken:
@@ -912,7 +935,10 @@ class _Recognition:
                 )
         for name in self.loose:
             grave.append(f"{name} touches nothing that is part of the mechanism and is left out")
-        self.doubts[:0] = grave
+        for words, names in self.of_flexures.items():
+            more = f" and {len(names) - 5} more" if len(names) > 6 else ""
+            self.doubts.append(f"{', '.join(names[:5] if more else names)}{more}: {words}")
+        self.doubts[:0] = list(dict.fromkeys(grave))
         seen = set()
         for a, b in self.touching:
             names = tuple(self._solid_name(self.lumps[k].solid) for k in (a, b))

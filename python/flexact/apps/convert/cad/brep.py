@@ -34,7 +34,15 @@ from OCP.collections import (
 )
 from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as Shapes
 from OCP.collections import List_TopoDS_Shape
-from OCP.GeomAbs import GeomAbs_Circle, GeomAbs_Cylinder, GeomAbs_Line, GeomAbs_Plane, GeomAbs_Torus
+from OCP.GeomAbs import (
+    GeomAbs_Circle,
+    GeomAbs_Cylinder,
+    GeomAbs_Ellipse,
+    GeomAbs_Line,
+    GeomAbs_Plane,
+    GeomAbs_SurfaceOfExtrusion,
+    GeomAbs_Torus,
+)
 from OCP.gp import gp_Ax2, gp_Cylinder, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.ShapeAnalysis import ShapeAnalysis_CanonicalRecognition
@@ -118,12 +126,14 @@ class Edge:
         shape: Its shape.
         kind: "line", "circle" or "other".
         ends: Its two ends (2, 3).
+        places: Some places on it, its ends among them (n, 3).
         faces: Rows of the faces that meet in it.
     """
 
     shape: TopoDS_Shape
     kind: str
     ends: FloatArray
+    places: FloatArray
     faces: tuple[int, ...]
 
     @cached_property
@@ -270,7 +280,9 @@ class Part:
                 kind = "line"
             for row in around:
                 made[row].edges.append(len(edges))
-            edges.append(Edge(shape, kind, np.array(ends), around))
+            count = 2 if kind == "line" else 9
+            places = [xyz(curve.Value(t)) for t in np.linspace(first, last, count)]
+            edges.append(Edge(shape, kind, np.array(ends), np.array(places), around))
         return made, edges
 
     @property
@@ -489,6 +501,34 @@ def segment(p: FloatArray, q: FloatArray) -> TopoDS_Shape:
 def vertex(p: FloatArray) -> TopoDS_Shape:
     """A point as a shape."""
     return BRepBuilderAPI_MakeVertex(point(p)).Vertex()
+
+
+def nearest(a: TopoDS_Shape, b: TopoDS_Shape) -> tuple[FloatArray, FloatArray] | None:
+    """The places of two shapes that are nearest to each other."""
+    measure = BRepExtrema_DistShapeShape(a, b)
+    if not measure.IsDone() or measure.NbSolution() < 1:
+        return None
+    return xyz(measure.PointOnShape1(1)), xyz(measure.PointOnShape2(1))
+
+
+def swept_along(shape: TopoDS_Shape) -> FloatArray | None:
+    """The direction along which the surface of a face is swept, if it is."""
+    surface = BRepAdaptor_Surface(TopoDS.Face(shape))
+    if surface.GetType() == GeomAbs_SurfaceOfExtrusion:
+        return xyz(surface.Direction())
+    return None
+
+
+def ellipse_of(shape: TopoDS_Shape) -> tuple[float, float, FloatArray] | None:
+    """Half axes of the ellipse that a face is swept from, and the direction of the first."""
+    surface = BRepAdaptor_Surface(TopoDS.Face(shape))
+    if surface.GetType() != GeomAbs_SurfaceOfExtrusion:
+        return None
+    curve = surface.BasisCurve()
+    if curve.GetType() != GeomAbs_Ellipse:
+        return None
+    ellipse = curve.Ellipse()
+    return ellipse.MajorRadius(), ellipse.MinorRadius(), xyz(ellipse.XAxis().Direction())
 
 
 def compound(shapes: Iterable[TopoDS_Shape]) -> TopoDS_Shape:

@@ -18,7 +18,7 @@ from OCP.TopoDS import TopoDS_Shape
 from ....core.arrays import FloatArray
 from . import brep
 from .assembly import Kind
-from .brep import NEAR, Face, Part, are_parallel, unit, without
+from .brep import NEAR, PARALLEL, Face, Part, are_parallel, unit, without
 
 #: A wall is at least so many thicknesses long.
 LEAST_SLENDER = 4.0
@@ -140,7 +140,7 @@ def _planes(part: Part) -> list[_Plane]:
     for row, face in enumerate(part.faces):
         if face.kind != "plane":
             continue
-        ends = [part.edges[k].ends for k in face.edges]
+        ends = [part.edges[k].places for k in face.edges]
         corners = np.concatenate(ends) if ends else face.box
         for plane in found:
             if (
@@ -921,3 +921,88 @@ def necks(scene: Scene, row: int) -> list[Thin]:
             )
         )
     return found
+
+
+def odd_necks(scene: Scene, row: int) -> list[Thin]:
+    """Necks of a solid that are not between two bores: elliptic, one-sided, or of another shape."""
+    part = scene.parts[row]
+    swept = [
+        (face, direction)
+        for face in part.faces
+        if face.kind == "other" and (direction := brep.swept_along(face.shape)) is not None
+    ]
+    hollow = [(f, f.axis) for f in part.faces if f.kind == "cylinder" and not f.is_convex]
+    flat = [f for f in part.faces if f.kind == "plane"]
+    found: list[Thin] = []
+    for (a, axis), (b, other) in itertools.combinations([*swept, *hollow], 2):
+        if (a.kind != "cylinder" or b.kind != "cylinder") and are_parallel(axis, other):
+            if brep.boxes_meet(a.box + [[-0.1 * part.size] * 3, [0.1 * part.size] * 3], b.box):
+                found += _odd_neck(part, row, a, b, axis)
+    for a, axis in hollow:
+        for plane in flat:
+            gap = float((plane.at - a.at) @ plane.axis) - a.radius
+            if abs(plane.axis @ axis) < PARALLEL and NEAR < gap < 0.5 * a.radius:
+                found += _odd_neck(part, row, a, plane, axis)
+    for a, axis in swept:
+        for plane in flat:
+            if abs(plane.axis @ axis) < PARALLEL and brep.boxes_meet(
+                a.box + [[-0.03 * part.size] * 3, [0.03 * part.size] * 3], plane.box
+            ):
+                found += _odd_neck(part, row, a, plane, axis)
+    kept: list[Thin] = []
+    for thin in found:
+        if not any(np.linalg.norm(thin.middle - each.middle) < each.thickness for each in kept):
+            kept.append(thin)
+    return kept
+
+
+def _odd_neck(part: Part, row: int, a: Face, b: Face, axis: FloatArray) -> list[Thin]:
+    """The neck between two faces that are swept along one axis, where there is one."""
+    if set(a.edges) & set(b.edges):
+        return []
+    near = brep.nearest(a.shape, b.shape)
+    if near is None:
+        return []
+    levels = []
+    for face in (a, b):
+        places = np.concatenate([part.edges[k].places for k in face.edges]) @ axis
+        levels.append((float(places.min()), float(places.max())))
+    low, high = max(x for x, _ in levels), min(x for _, x in levels)
+    away = near[1] - near[0]
+    away = away - away @ axis * axis
+    neck, breadth = float(np.linalg.norm(away)), high - low
+    if neck < NEAR or breadth < neck / 2:
+        return []
+    normal = away / neck
+    middle = near[0] + away / 2
+    middle = middle + ((low + high) / 2 - middle @ axis) * axis
+    half = neck / 2 * normal
+    if not part.holds(middle) or any(part.holds(middle + s * 1.1 * half) for s in (-1, 1)):
+        return []
+    along = np.cross(axis, normal)
+    # What begins at the neck, as the inside of a bend does, makes no notch: behind a curved face
+    # there is more material on both sides.
+    for face, place in ((a, middle - half), (b, middle + half)):
+        if face.kind != "plane" and not all(
+            part.holds(place + step * neck * along) for step in (-0.5, 0.5)
+        ):
+            return []
+    one, other = brep.ellipse_of(a.shape), brep.ellipse_of(b.shape)
+    contour, length = "", neck
+    if one is not None and other is not None and np.allclose(one[:2], other[:2], rtol=0.01):
+        major, minor, direction = one
+        along_major = are_parallel(direction, along, 1e-2)
+        if along_major or are_parallel(direction, normal, 1e-2):
+            contour, length = "elliptic", 2 * (major if along_major else minor)
+            radius = minor if along_major else major
+    doubts = [] if contour else ["its shape is not known: it is taken as a hinge, without stiffness"]
+    if not contour:
+        radius = 0.0
+    p, q = middle - length / 2 * along, middle + length / 2 * along
+    outline = np.array([p - half, q - half, q + half, p + half])
+    return [
+        Thin(
+            *(row, Kind.NOTCH, p, q, (middle,), axis, normal, breadth, neck),
+            *((-0.52 * breadth, 0.52 * breadth), outline, radius, contour, doubts),
+        )
+    ]

@@ -167,17 +167,17 @@ def _add(model: Model, flexure: Flexure, points: _Points, middles: set[str], mat
     thickness, breadth = _length(flexure.thickness), _length(flexure.breadth)
     fillet = _length(flexure.radius) or None
     if flexure.kind is Kind.NOTCH:
-        contour = dict(thickness=thickness, radius=_length(flexure.radius), breadth=breadth)
-        if flexure.contour == "circular" and breadth >= thickness:
-            model.notch(p, width, q, name, contour="circular", material=material, **contour)
-        else:
-            model.notch(p, width, q, name)
-    elif flexure.kind is Kind.WIRE and flexure.contour == "round":
-        model.wire(p, q, name=name, thickness=thickness, material=material, fillet=fillet)
+        _add_notch(model, flexure, p, q, material)
     elif flexure.kind is Kind.WIRE:
-        y = _direction(flexure.normal)
-        section = [breadth, thickness]
-        model.wire(p, q, y, name, section=section[::-1], material=material, fillet=fillet)
+        is_round = flexure.contour == "round"
+        section = None if is_round else [thickness, breadth]
+        y = None if is_round else _direction(flexure.normal)
+        diameter = thickness if is_round else None
+        model.wire(
+            *(p, q, y, name), section=section, thickness=diameter, material=material, fillet=fillet
+        )
+        if flexure.between[0] in middles:
+            model.independent(name, "twist", "bending")
     elif flexure.kind is Kind.SHEET:
         sizes = dict(thickness=thickness, breadth=breadth, fillet=fillet)
         model.sheet(p, q, width, name=name, material=material, **sizes)
@@ -199,6 +199,29 @@ def _add(model: Model, flexure: Flexure, points: _Points, middles: set[str], mat
             )
             if b is not q:
                 model.independent(leaf, "out-of-plane bending", at=b)
+
+
+def _add_notch(model: Model, flexure: Flexure, p: Node, q: Node, material: str) -> None:
+    """Give a model a notch as made, or where its contour is not known a hinge between links."""
+    axis, name = _direction(flexure.width), flexure.name
+    thickness, breadth = _length(flexure.thickness), _length(flexure.breadth)
+    radius = _length(flexure.radius)
+    if flexure.contour in ("circular", "fillet", "elliptic") and breadth >= thickness:
+        model.notch(
+            *(p, axis, q, name),
+            contour=flexure.contour,
+            thickness=thickness,
+            breadth=breadth,
+            material=material,
+            radius=None if flexure.contour == "elliptic" else radius,
+            length=None if flexure.contour == "circular" else _length(flexure.length),
+            height=thickness + 2 * radius if flexure.contour == "elliptic" else None,
+        )
+        return
+    middle = model.node(*_mm(flexure.place))
+    hinge = model.notch(middle, axis, name=name)
+    model.rigid(p, middle, name=f"{name}, half 1")
+    model.rigid(hinge.q, q, name=f"{name}, half 2")
 
 
 def _no_flexures(assembly: Assembly) -> str:
