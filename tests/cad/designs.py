@@ -8,12 +8,16 @@ constraint (`tests/python/test_cad_truth.py`). All lengths are in mm.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
 from OCP.gp import gp_Trsf
+from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Shape
 
 from . import shapes
@@ -234,7 +238,7 @@ def clamped_guide(name: str = "DIN 912 M3x12", clearance: float = 0.0) -> Design
     base, stage = box((0, 100), (0, 20), (0, 30)), box((0, 100), (60, 72), (0, 30))
     parts: dict[str, TopoDS_Shape] = {}
     screws, number = {}, 0
-    for k, (sheet, side) in enumerate(zip(sheets, (-1, 1)), 1):
+    for k, (sheet, side) in enumerate(zip(sheets, (-1, 1), strict=True), 1):
         blade = solid_of(sheet, 12)
         outside = (-0.5, 100.5)[k - 1]
         for what, y in (("base", 14.0), ("stage", 66.0)):
@@ -443,11 +447,13 @@ def strip(corners: Sequence[Vector], across: Vector, width: float, thickness: fl
     """A strip through corners; `inner` is the inside radius of its bends, 0 for sharp ones."""
     places = [np.asarray(p, float) for p in corners]
     across = np.asarray(across, float)
-    normal = [np.cross(across, q - p) / np.linalg.norm(q - p) for p, q in zip(places, places[1:])]
+    normal = [
+        np.cross(across, q - p) / np.linalg.norm(q - p) for p, q in itertools.pairwise(places)
+    ]
     sides: list[list[np.ndarray]] = []
     for s in (-1, 1):
         side = [places[0] + s * thickness / 2 * normal[0]]
-        for p, a, b in zip(places[1:-1], normal, normal[1:]):
+        for p, a, b in zip(places[1:-1], normal[:-1], normal[1:], strict=True):
             side.append(p + s * thickness / 2 * (a + b) / (1 + a @ b))
         sides.append([*side, places[-1] + s * thickness / 2 * normal[-1]])
     outline = [p - width / 2 * across for p in (*sides[0], *reversed(sides[1]))]
@@ -673,7 +679,8 @@ def compound() -> Design:
 def wires(sides: tuple[float, ...]) -> list[Wire]:
     """Three along z, two along x, one along y: they hold all six freedoms, once."""
     ends = [
-        ((-15, -10, -40), (-15, -10, 0)), ((15, -10, -40), (15, -10, 0)), ((0, 15, -40), (0, 15, 0)),
+        ((-15, -10, -40), (-15, -10, 0)), ((15, -10, -40), (15, -10, 0)),
+        ((0, 15, -40), (0, 15, 0)),
         ((60, -10, 10), (20, -10, 10)), ((60, 10, 10), (20, 10, 10)), ((0, 60, 14), (0, 20, 14)),
     ]  # fmt: skip
     return [Wire(f"wire {k}", ("base", "stage"), *each, sides) for k, each in enumerate(ends, 1)]
@@ -764,8 +771,293 @@ def four_bar(places: Sequence[tuple[float, float]]) -> Design:
     between = (("base", "link 1"), ("link 1", "stage"), ("stage", "link 2"), ("link 2", "base"))
     notches = tuple(
         Notch(f"notch {k}", pair, (*map(float, at), thick / 2), Z, neck, radius, thick)
-        for k, (pair, at) in enumerate(zip(between, p), 1)
+        for k, (pair, at) in enumerate(zip(between, p, strict=True), 1)
     )
     why = "18 freedoms of three bodies, 20 held, rank 17: one loop of parallel hinges."
     truth = Truth("base", bodies, notches, motions=1, over=3, is_named=False, why=why)
     return Design(((("notch plate",), cut(fused(*solids), *bores)),), truth)
+
+
+# Assemblies with much that is bought
+
+
+@case("assembly of 32 solids")
+def assembly() -> Design:
+    """Base, stage, two sheets, four clamp plates, eight screws, washers and nuts each.
+
+    The screws go through clamp plate, sheet and the flanges of base and stage, to nuts behind; the
+    bought parts are instances of one shape each, as CAD writes them.
+    """
+    sheets = guide_sheets((-0.25, 100.25))
+    base = fused(
+        *(box(x, (8, 20), (0, 30)) for x in ((0, 8), (92, 100))), box((0, 100), (0, 8), (0, 30))
+    )
+    stage = fused(
+        *(box(x, (60, 72), (0, 30)) for x in ((0, 8), (92, 100))), box((0, 100), (72, 80), (0, 30))
+    )
+    bolt = screw((0, 0, 0), X, 16.5)
+    washer = cut(cylinder((0, 0, 0), (0.5, 0, 0), 7), cylinder((-1, 0, 0), (1, 0, 0), 3.2))
+    hexagon = [(0, 3 * np.cos(a), 3 * np.sin(a)) for a in np.radians(np.arange(0, 360, 60))]
+    nut = cut(prism(hexagon, (2.4, 0, 0)), cylinder((-1, 0, 0), (4, 0, 0), 3))
+    parts: dict[str, TopoDS_Shape] = {}
+    bought: dict[str, TopoDS_Shape] = {}
+    number = 0
+    for k, (sheet, side) in enumerate(zip(sheets, (1, -1), strict=True), 1):
+        blade, outside = solid_of(sheet, 12), (-0.5, 100.5)[k - 1]
+        for n, y in enumerate((14.0, 66.0)):
+            clamp = box(sorted((outside, outside - 5 * side)), (y - 6, y + 6), (0, 30))
+            for z in (7.0, 23.0):
+                number += 1
+                hole = cylinder((outside - 6 * side, y, z), (outside + 10 * side, y, z), 3.2)
+                blade, clamp = cut(blade, hole), cut(clamp, hole)
+                base, stage = (base, cut(stage, hole)) if n else (cut(base, hole), stage)
+                for words, part, x in (
+                    ("ISO 4762 M3x16", bolt, -5.5 - 3),
+                    ("ISO 7089 washer 3", washer, -5.5),
+                    ("ISO 4032 nut M3", nut, 8.0),
+                ):
+                    turn = gp_Trsf() if side > 0 else turning(Z, 180)
+                    turn.SetTranslationPart(shapes.vector((x if side > 0 else 100 - x, y, z)))
+                    # What was cut for x = 0 sits at 0.5 mm from the side of the flange.
+                    bought[f"fasteners/{words}:{number}"] = part.Located(TopLoc_Location(turn))
+            parts[f"guide/clamp plate {2 * k - 1 + n}"] = clamp
+        parts[f"guide/{sheet.name}"] = blade
+    parts = {"fixed/base": base, "guide/stage": stage, **parts, **bought}
+    truth = guide_truth(sheets, base=(50, 4, 15), stage=(50, 76, 15))
+    return design(parts, truth, root="linear guide")
+
+
+@case("assembly of 32 solids, turned, without names")
+def assembly_turned() -> Design:
+    return without_names(skewed(assembly()))
+
+
+@case("folded sheets between clamps")
+def folded_clamped() -> Design:
+    """The five folded sheets, each in a clamp with a dowel and a screw at both ends: 47 solids."""
+    made = folded()
+    base, stage = made.parts[0][1], made.parts[1][1]
+    parts: dict[str, TopoDS_Shape] = {}
+    for name, corners in folded_corners().items():
+        across = np.asarray(X if name in ("folded 4", "folded 5") else Z)
+        end, fold, top = (np.asarray(p, float) for p in corners)
+        # The sheet goes on for 10 mm at both ends; what it meets there gives way on one side.
+        beyond = [end + (end - fold) / 4, fold, top + (top - fold) / 4]
+        blade = strip(beyond, across, 20, 0.5, 0)
+        for what, (p, along) in {
+            "base": (end, (end - fold) / 40), "stage": (top, (top - fold) / 40)
+        }.items():  # fmt: skip
+            normal = np.cross(along, across)
+            if normal @ (np.asarray((0, 0, 0)) - p) > 0:
+                normal = -normal
+            slot = plate(p, p + 10 * along, across, 20, 0.5)
+            room = plate(p + 2.25 * normal, p + 2.25 * normal + 10 * along, across, 20, 4)
+            body = cut(base if what == "base" else stage, slot, room)
+            clamp = room
+            for k, (kind, size) in enumerate((("M2.5x8 screw", 2.5), ("dowel 2x10", 2.0))):
+                at = p + 5 * along + (6 - 12 * k) * across
+                shank = cylinder(at + 4.25 * normal, at - 4 * normal, size)
+                clamp, blade, body = cut(clamp, shank), cut(blade, shank), cut(body, shank)
+                if k == 0:
+                    head = cylinder(at + 4.25 * normal, at + 6.25 * normal, 4.5)
+                    free = cylinder(at + 4.25 * normal, at + 30 * normal, 5)
+                    body = cut(body, free)
+                    shank = fused(head, shank)
+                parts[f"{name}/{kind} {what}"] = shank
+            parts[f"{name}/clamp {what}"] = clamp
+            base, stage = (body, stage) if what == "base" else (base, body)
+        parts[f"{name}/{name}"] = blade
+    parts = {"base": base, "stage": stage, **parts}
+    return design(parts, made.truth)
+
+
+# Solids as translators and habits leave them
+
+
+@case("guide, split faces")
+def guide_split() -> Design:
+    """Each sheet of two halves along its length that are one solid, its faces not made one."""
+    sheets = guide_sheets()
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts[:2]}
+    for each in sheets:
+        halves = [
+            plate((each.p[0], *y, 15)[:1] + (y[0], 15), (each.p[0], y[1], 15), Z, 30, 0.5)
+            for y in ((20, 33), (33, 60))
+        ]
+        parts[each.name] = fused(*halves, unified=False)
+    return design(parts, made.truth)
+
+
+@case("guide, split faces, monolithic")
+def guide_split_monolithic() -> Design:
+    return as_one(guide_split(), unified=False)
+
+
+@case("guide, stage of two solids")
+def guide_two_solids() -> Design:
+    """The stage is a rail below a block, which touch; base and a foot likewise."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts if names[0] != "stage"}
+    parts["stage"] = box((0, 100), (60, 66), (0, 30))
+    parts["stage block"] = box((20, 80), (66, 90), (0, 30))
+    parts["foot"] = box((-20, 120), (-12, 0), (-10, 40))
+    return design(parts, made.truth)
+
+
+@case("guide, sheets with holes where they are clamped")
+def guide_holed() -> Design:
+    """Lapped sheets with two holes of 4 mm at each end, and nothing in them."""
+    made = guide_lapped()
+    parts = {names[0]: shape for names, shape in made.parts}
+    for each in guide_sheets((-0.25, 100.25)):
+        x = each.p[0]
+        bores = [
+            cylinder((x - 2, y, z), (x + 2, y, z), 4) for y in (14.0, 66.0) for z in (7.0, 23.0)
+        ]
+        parts[each.name] = cut(parts[each.name], *bores)
+    return design(parts, made.truth)
+
+
+@case("guide, unequal sheets")
+def guide_unequal() -> Design:
+    """Sheets of 40 and 52 mm: the stage turns as it moves, and the counts are those of a guide."""
+    sheets = guide_sheets()
+    sheets[1] = replace(sheets[1], q=(80, 72, 15))
+    stage = fused(box((0, 70), (60, 84), (0, 30)), box((70, 100), (72, 84), (0, 30)))
+    parts = {"base": box((0, 100), (0, 20), (0, 30)), "stage": stage}
+    parts |= {each.name: solid_of(each) for each in sheets}
+    return design(parts, guide_truth(sheets, stage=(50, 78, 15)))
+
+
+@case("guide, gap of 0.01 mm")
+def guide_gap() -> Design:
+    """Between the second sheet and the stage there is a gap of 0.01 mm: they are meant to touch."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["sheet 2"] = plate((80, 20, 15), (80, 59.99, 15), Z, 30, 0.5)
+    return design(parts, made.truth)
+
+
+@case("guide, overlap of 0.05 mm")
+def guide_overlap() -> Design:
+    """The second sheet goes 0.05 mm into the stage."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["sheet 2"] = plate((80, 20, 15), (80, 60.05, 15), Z, 30, 0.5)
+    return design(parts, made.truth)
+
+
+@case("guide, a body that hangs on nothing")
+def guide_loose() -> Design:
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["cover"] = box((0, 100), (100, 103), (0, 30))
+    truth = replace(
+        made.truth,
+        bodies={**made.truth.bodies, "cover": (50, 101.5, 15)},
+        told=("cover",),
+        loose=("cover",),
+    )
+    return design(parts, truth)
+
+
+@case("guide, two grounds")
+def guide_two_grounds() -> Design:
+    """Each sheet on a base of its own: both are named as ground."""
+    sheets = guide_sheets()
+    named = [replace(s, between=(f"base {k}", "stage")) for k, s in enumerate(sheets, 1)]
+    parts = {f"base {k}": box(x, (0, 20), (0, 30)) for k, x in ((1, (0, 40)), (2, (60, 100)))}
+    parts["stage"] = box((0, 100), (60, 72), (0, 30))
+    parts |= {each.name: solid_of(each) for each in sheets}
+    bodies = {"base 1": (30, 10, 15), "base 2": (70, 10, 15), "stage": (50, 65, 15)}
+    truth = Truth(
+        "base 1", bodies, tuple(named), motions=1, over=1, more_grounds=("base 2",), why=GUIDE_WHY
+    )
+    return design(parts, truth)
+
+
+@case("guide, a sheet from the stage to itself")
+def guide_loop() -> Design:
+    """A third sheet between two arms of the stage: it holds 3 that nothing asks of it.
+
+    The guide is over-constrained by 1, the sheet by all that it holds, 3.
+    """
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts if names[0] != "stage"}
+    arms = [box(x, (60, 100), (0, 30)) for x in ((0, 30), (70, 100))]
+    parts["stage"] = fused(*arms, box((0, 100), (60, 72), (0, 30)))
+    loop = Sheet("cross sheet", ("stage", "stage"), (30, 90, 15), (70, 90, 15), Z, 30, 0.5)
+    parts[loop.name] = solid_of(loop)
+    truth = replace(made.truth, flexures=(*made.truth.flexures, loop), over=4)
+    return design(parts, truth)
+
+
+@case("guide, nothing says what stands still")
+def guide_small_base() -> Design:
+    """The larger body moves, and no name tells: `--ground` or a choice has to."""
+    made = guide_german()
+    parts = {("A", "Schlitten")[0] if n[-1] == "Schlitten" else n[-1]: s for n, s in made.parts}
+    parts = {("B" if n == "Grundplatte" else n): s for n, s in parts.items()}
+    truth = replace(
+        made.truth,
+        ground="B",
+        bodies={"B": (50, 16, 15), "A": (50, 75, 15)},
+        flexures=tuple(replace(f, between=("B", "A")) for f in made.truth.flexures),
+        must_name_ground=True,
+    )
+    return design(parts, truth)
+
+
+# What is thin and neither sheet nor wire
+
+
+def wavy_strip() -> TopoDS_Shape:
+    """A strip whose outline is by splines, as of a water jet, 12 mm high, about 0.6 mm thick."""
+    sides = [
+        [
+            (30, 20 + 5 * k, 0) if k in (0, 8) else (30 + d + (k % 3), 20 + 5 * k, 0)
+            for k in range(9)
+        ]
+        for d in (0.0, 0.7)
+    ]
+    sides[1] = [(p[0] + 0.6 if k in (0, 8) else p[0], *p[1:]) for k, p in enumerate(sides[1])]
+    edges = [
+        shapes.spline(sides[0]),
+        shapes.line(sides[0][-1], sides[1][-1]),
+        shapes.spline(sides[1][::-1]),
+        shapes.line(sides[1][0], sides[0][0]),
+    ]
+    return shapes.swept(edges, (0, 0, 12))
+
+
+@case("guide with a part by a water jet")
+def guide_water_jet() -> Design:
+    """Between base and stage besides the sheets a thin part whose outline is two splines.
+
+    It is no sheet: it becomes a body, which ties the stage to the base, and is told. Without it the
+    counts are those of the guide; what is asked here is that it is told.
+    """
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["jet part"] = wavy_strip()
+    truth = replace(made.truth, told=("jet part",), motions=-1, over=-1)
+    return design(parts, truth)
+
+
+@case("guide with a free-form part")
+def guide_free_form() -> Design:
+    """The same with a surface by B-splines that is curved both ways, 0.5 mm thick."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    surface = shapes.spline_surface(
+        [
+            [(45 + 4 * np.sin(k / 2) * np.cos(n / 2) * (0 < k < 6), 20 + k * 40 / 6, 5 + 4 * n)
+             for n in range(6)]
+            for k in range(7)
+        ]
+    )  # fmt: skip
+    face = BRepBuilderAPI_MakeFace(surface, 1e-6).Face()
+    parts["spring foil"] = BRepPrimAPI_MakePrism(face, shapes.vector((0.5, 0, 0))).Shape()
+    truth = replace(made.truth, told=("spring foil",), motions=-1, over=-1)
+    return design(parts, truth)

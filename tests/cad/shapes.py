@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from OCP.Bnd import Bnd_Box
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepBuilderAPI import (
@@ -20,7 +21,10 @@ from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism
-from OCP.collections import List_TopoDS_Shape
+from OCP.collections import Array1_gp_Pnt, Array2_gp_Pnt, List_TopoDS_Shape
+from OCP.GC import GC_MakeArcOfCircle
+from OCP.Geom import Geom_BSplineSurface
+from OCP.GeomAPI import GeomAPI_PointsToBSpline, GeomAPI_PointsToBSplineSurface
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
@@ -55,7 +59,7 @@ def vector(v: Vector) -> gp_Vec:
 
 def box(x: Vector, y: Vector, z: Vector) -> TopoDS_Shape:
     """A box between two values of each coordinate."""
-    low, high = zip(x, y, z)
+    low, high = zip(x, y, z, strict=True)
     return BRepPrimAPI_MakeBox(point(low), point(high)).Shape()
 
 
@@ -108,11 +112,26 @@ def line(p: Vector, q: Vector) -> TopoDS_Shape:
 
 def arc(p: Vector, via: Vector, q: Vector) -> TopoDS_Shape:
     """The arc of a circle from p through `via` to q."""
-    from OCP.GC import GC_MakeArcOfCircle
-
     return BRepBuilderAPI_MakeEdge(
         GC_MakeArcOfCircle(point(p), point(via), point(q)).Value()
     ).Edge()
+
+
+def spline(places: Sequence[Vector]) -> TopoDS_Shape:
+    """A B-spline through points."""
+    array = Array1_gp_Pnt(1, len(places))
+    for k, place in enumerate(places, 1):
+        array.SetValue(k, point(place))
+    return BRepBuilderAPI_MakeEdge(GeomAPI_PointsToBSpline(array).Curve()).Edge()
+
+
+def spline_surface(places: Sequence[Sequence[Vector]]) -> Geom_BSplineSurface:
+    """A B-spline surface through rows of points."""
+    array = Array2_gp_Pnt(1, len(places), 1, len(places[0]))
+    for i, row in enumerate(places, 1):
+        for j, place in enumerate(row, 1):
+            array.SetValue(i, j, point(place))
+    return GeomAPI_PointsToBSplineSurface(array).Surface()
 
 
 def fused(*shapes: TopoDS_Shape, unified: bool = True) -> TopoDS_Shape:
@@ -198,8 +217,6 @@ def is_valid(shape: TopoDS_Shape) -> bool:
 
 def bounds(shape: TopoDS_Shape) -> np.ndarray:
     """Lowest and highest coordinates, shape (2, 3)."""
-    from OCP.Bnd import Bnd_Box
-
     around = Bnd_Box()
     BRepBndLib.AddOptimal_s(shape, around, True, False)
     low, high = around.CornerMin(), around.CornerMax()

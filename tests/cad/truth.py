@@ -16,8 +16,8 @@ class Sheet:
     """A leaf that is free to bend between `p` and `q`, where bodies or folds begin [mm].
 
     `p` and `q` are on the middle of the sheet; at a fold it is where the middle planes meet. A
-    fillet belongs to the free length. `middle` is the stiff part of a reinforced sheet: its share of
-    the length, and its thickness.
+    fillet belongs to the free length. `middle` is the stiff part of a reinforced sheet: its share
+    of the length, and its thickness.
     """
 
     name: str
@@ -54,7 +54,7 @@ class Bent:
 
 @dataclass(frozen=True)
 class Wire:
-    """A wire that is free to bend between `p` and `q` [mm]; `sides` is its diameter, or two sides."""
+    """A wire that is free to bend between `p` and `q` [mm]; `sides`: diameter, or two sides."""
 
     name: str
     between: tuple[str, str]
@@ -92,14 +92,16 @@ class Truth:
         bodies: Of each body, the ground among them, a point inside it [mm]. Folds and the stiff
             middles of reinforced sheets are none.
         flexures: All of them.
-        motions: Motions of the bodies, with those that the bodies do not see left out.
-        over: Over-constrained by.
+        motions: Motions of the bodies, with those that the bodies do not see left out; -1 where it
+            is not known, as what a part holds is not.
+        over: Over-constrained by; -1 likewise.
         inner: Motions that no body sees: one at each fold, which turns about itself. Where the
             stiff middle of a reinforced sheet is made a body, each has three more.
         told: Names of what must be told before the verdict, as a doubt.
         is_named: Whether the CAD calls bodies and flexures as they are called here.
         must_name_ground: Whether the file does not say which the ground is, and it is not the
             largest: `--ground` or a choice has to.
+        more_grounds: Bodies that stand still besides.
         loose: Bodies that hang on nothing: each has six motions besides, if it is kept.
         why: The counts in words, with their source.
     """
@@ -114,6 +116,7 @@ class Truth:
     is_named: bool = True
     must_name_ground: bool = False
     loose: tuple[str, ...] = ()
+    more_grounds: tuple[str, ...] = ()
     why: str = field(default="", compare=False)
 
     def count(self, kind: type) -> int:
@@ -159,7 +162,8 @@ def counts(truth: Truth) -> tuple[int, int]:
 
     Under-constrained counts the turning folds; loose bodies are left out.
     """
-    names = {name for each in truth.flexures for name in each.between} - {truth.ground}
+    names = {name for each in truth.flexures for name in each.between}
+    names -= {truth.ground, *truth.more_grounds}
     column = {name: 6 * k for k, name in enumerate(sorted(names))}
     rows = []
     for each in truth.flexures:
@@ -167,8 +171,8 @@ def counts(truth: Truth) -> tuple[int, int]:
         # Moments in units of 50 mm, so that they weigh like forces.
         held = held / np.array([1, 1, 1, 50, 50, 50])
         row = np.zeros((len(held), 6 * len(column)))
-        for name, sign in zip(each.between, (1, -1)):
-            if name != truth.ground:
+        for name, sign in zip(each.between, (1, -1), strict=True):
+            if name in column:
                 row[:, column[name] : column[name] + 6] += sign * held
         rows.append(row)
     matrix = np.vstack(rows)
