@@ -38,10 +38,12 @@ class Design:
     truth: Truth
     unit: str = "MM"
     root: str = "mechanism"
+    #: Assemblies that stand there once more: name, names of the first, how it is turned and put.
+    copies: tuple[tuple[str, tuple[str, ...], gp_Trsf], ...] = ()
 
     def write(self, path: Path | str) -> Truth:
         """Write the STEP file; what is true of it."""
-        shapes.write(path, self.parts, self.unit, self.root)
+        shapes.write(path, self.parts, self.unit, self.root, self.copies)
         return self.truth
 
 
@@ -336,6 +338,18 @@ def guide_dutch() -> Design:
     return Design(parts, truth, root="rechtgeleiding")
 
 
+@case("guide, one assembly twice")
+def guide_twice() -> Design:
+    """A sheet between clamp plates is one assembly, which stands there twice, once turned."""
+    made = guide_lapped()
+    parts = {names[0]: shape for names, shape in made.parts[:2]}
+    parts["leaf set/blade"] = solid_of(guide_sheets((-0.25, 100.25))[0], 12)
+    for n, y in enumerate((14, 66), 1):
+        parts[f"leaf set/clamp {n}"] = box((-4.5, -0.5), (y - 6, y + 6), (0, 30))
+    whole = design(parts, replace(made.truth, is_named=False))
+    return replace(whole, copies=(("leaf set", ("leaf set",), turning(Y, 180, (50, 0, 15))),))
+
+
 # The cross hinge
 
 
@@ -447,9 +461,8 @@ def strip(corners: Sequence[Vector], across: Vector, width: float, thickness: fl
     """A strip through corners; `inner` is the inside radius of its bends, 0 for sharp ones."""
     places = [np.asarray(p, float) for p in corners]
     across = np.asarray(across, float)
-    normal = [
-        np.cross(across, q - p) / np.linalg.norm(q - p) for p, q in itertools.pairwise(places)
-    ]
+    steps = [(q - p) / np.linalg.norm(q - p) for p, q in itertools.pairwise(places)]
+    normal = [np.cross(across, step) for step in steps]
     sides: list[list[np.ndarray]] = []
     for s in (-1, 1):
         side = [places[0] + s * thickness / 2 * normal[0]]
@@ -789,12 +802,9 @@ def assembly() -> Design:
     bought parts are instances of one shape each, as CAD writes them.
     """
     sheets = guide_sheets((-0.25, 100.25))
-    base = fused(
-        *(box(x, (8, 20), (0, 30)) for x in ((0, 8), (92, 100))), box((0, 100), (0, 8), (0, 30))
-    )
-    stage = fused(
-        *(box(x, (60, 72), (0, 30)) for x in ((0, 8), (92, 100))), box((0, 100), (72, 80), (0, 30))
-    )
+    flanges = [[box(x, y, (0, 30)) for x in ((0, 8), (92, 100))] for y in ((8, 20), (60, 72))]
+    base = fused(*flanges[0], box((0, 100), (-8, 8), (0, 30)))
+    stage = fused(*flanges[1], box((0, 100), (72, 80), (0, 30)))
     bolt = screw((0, 0, 0), X, 16.5)
     washer = cut(cylinder((0, 0, 0), (0.5, 0, 0), 7), cylinder((-1, 0, 0), (1, 0, 0), 3.2))
     hexagon = [(0, 3 * np.cos(a), 3 * np.sin(a)) for a in np.radians(np.arange(0, 360, 60))]
@@ -812,18 +822,17 @@ def assembly() -> Design:
                 blade, clamp = cut(blade, hole), cut(clamp, hole)
                 base, stage = (base, cut(stage, hole)) if n else (cut(base, hole), stage)
                 for words, part, x in (
-                    ("ISO 4762 M3x16", bolt, -5.5 - 3),
-                    ("ISO 7089 washer 3", washer, -5.5),
+                    ("ISO 4762 M3x16", bolt, -9.0),
+                    ("ISO 7089 washer 3", washer, -6.0),
                     ("ISO 4032 nut M3", nut, 8.0),
                 ):
                     turn = gp_Trsf() if side > 0 else turning(Z, 180)
                     turn.SetTranslationPart(shapes.vector((x if side > 0 else 100 - x, y, z)))
-                    # What was cut for x = 0 sits at 0.5 mm from the side of the flange.
                     bought[f"fasteners/{words}:{number}"] = part.Located(TopLoc_Location(turn))
             parts[f"guide/clamp plate {2 * k - 1 + n}"] = clamp
         parts[f"guide/{sheet.name}"] = blade
     parts = {"fixed/base": base, "guide/stage": stage, **parts, **bought}
-    truth = guide_truth(sheets, base=(50, 4, 15), stage=(50, 76, 15))
+    truth = guide_truth(sheets, base=(50, 0, 15), stage=(50, 76, 15))
     return design(parts, truth, root="linear guide")
 
 
@@ -834,7 +843,7 @@ def assembly_turned() -> Design:
 
 @case("folded sheets between clamps")
 def folded_clamped() -> Design:
-    """The five folded sheets, each in a clamp with a dowel and a screw at both ends: 47 solids."""
+    """The five folded sheets, each in a clamp with a dowel and a screw at both ends: 37 solids."""
     made = folded()
     base, stage = made.parts[0][1], made.parts[1][1]
     parts: dict[str, TopoDS_Shape] = {}
@@ -882,7 +891,7 @@ def guide_split() -> Design:
     parts = {names[0]: shape for names, shape in made.parts[:2]}
     for each in sheets:
         halves = [
-            plate((each.p[0], *y, 15)[:1] + (y[0], 15), (each.p[0], y[1], 15), Z, 30, 0.5)
+            plate((each.p[0], y[0], 15), (each.p[0], y[1], 15), Z, 30, 0.5)
             for y in ((20, 33), (33, 60))
         ]
         parts[each.name] = fused(*halves, unified=False)
@@ -1014,14 +1023,8 @@ def guide_small_base() -> Design:
 
 def wavy_strip() -> TopoDS_Shape:
     """A strip whose outline is by splines, as of a water jet, 12 mm high, about 0.6 mm thick."""
-    sides = [
-        [
-            (30, 20 + 5 * k, 0) if k in (0, 8) else (30 + d + (k % 3), 20 + 5 * k, 0)
-            for k in range(9)
-        ]
-        for d in (0.0, 0.7)
-    ]
-    sides[1] = [(p[0] + 0.6 if k in (0, 8) else p[0], *p[1:]) for k, p in enumerate(sides[1])]
+    wave = [0 if k in (0, 8) else k % 3 for k in range(9)]
+    sides = [[(30 + d + x, 20 + 5 * k, 0) for k, x in enumerate(wave)] for d in (0.0, 0.6)]
     edges = [
         shapes.spline(sides[0]),
         shapes.line(sides[0][-1], sides[1][-1]),

@@ -238,6 +238,7 @@ def write(
     parts: Sequence[tuple[tuple[str, ...], TopoDS_Shape]],
     unit: str = "MM",
     root: str = "assembly",
+    copies: Sequence[tuple[str, tuple[str, ...], gp_Trsf]] = (),
 ) -> None:
     """Write a STEP file with names and the structure of the assembly.
 
@@ -247,6 +248,7 @@ def write(
             its solid. The same solid (`IsPartner`) is written once, as an instance each time.
         unit: "MM", "INCH" or "M": of the file; the shapes are in mm.
         root: What the whole is called. A single part with a path of one name is no assembly.
+        copies: Assemblies that stand there once more: name, path of names, how turned and put.
     """
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     XCAFDoc_DocumentTool.SetLengthUnit_s(document, 0.001)
@@ -284,6 +286,8 @@ def write(
                 shapes.append((plain, label))
             component = tool.AddComponent(assemblies[path_names[:-1]], label, place)
             name(component, path_names[-1])
+        for words, names, turn in copies:
+            name(tool.AddComponent(top, assemblies[names], TopLoc_Location(turn)), words)
         tool.UpdateAssemblies()
     writer = STEPCAFControl_Writer()
     writer.SetNameMode(True)
