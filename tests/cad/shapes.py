@@ -18,6 +18,7 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_Transform,
 )
 from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepClass3d import BRepClass3d_SolidClassifier
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism
@@ -36,7 +37,7 @@ from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_EDGE, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_IN, TopAbs_ON, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Shape
@@ -215,6 +216,12 @@ def is_valid(shape: TopoDS_Shape) -> bool:
     return BRepCheck_Analyzer(shape).IsValid()
 
 
+def is_inside(shape: TopoDS_Shape, place: Vector) -> bool:
+    inside = BRepClass3d_SolidClassifier(shape)
+    inside.Perform(point(place), 1e-7)
+    return inside.State() in (TopAbs_IN, TopAbs_ON)
+
+
 def bounds(shape: TopoDS_Shape) -> np.ndarray:
     """Lowest and highest coordinates, shape (2, 3)."""
     around = Bnd_Box()
@@ -289,6 +296,25 @@ def write(
         for words, names, turn in copies:
             name(tool.AddComponent(top, assemblies[names], TopLoc_Location(turn)), words)
         tool.UpdateAssemblies()
+    _put(path, document, unit)
+
+
+def write_nested(path: Path | str, shape: TopoDS_Shape, places: Sequence[gp_Trsf], n: int) -> None:
+    """Write assemblies in assemblies, n deep, each with the one below at all these places."""
+    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    XCAFDoc_DocumentTool.SetLengthUnit_s(document, 0.001)
+    tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    below = tool.AddShape(shape, False)
+    for _ in range(n):
+        label = tool.NewShape()
+        for place in places:
+            tool.AddComponent(label, below, TopLoc_Location(place))
+        below = label
+    tool.UpdateAssemblies()
+    _put(path, document, "MM")
+
+
+def _put(path: Path | str, document: TDocStd_Document, unit: str) -> None:
     writer = STEPCAFControl_Writer()
     writer.SetNameMode(True)
     before = Interface_Static.CVal_s("write.step.unit")
