@@ -8,6 +8,7 @@ constraint (`tests/python/test_cad_truth.py`). All lengths are in mm.
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -53,7 +54,7 @@ CASES: dict[str, Callable[[], Design]] = {}
 
 def case(name: str) -> Callable[[Callable[[], Design]], Callable[[], Design]]:
     def known(make: Callable[[], Design]) -> Callable[[], Design]:
-        CASES[name] = make
+        CASES[name] = functools.cache(make)
         return make
 
     return known
