@@ -21,7 +21,7 @@ class Kind(Word):
     SHEET = "sheet"
     WIRE = "wire"
     NOTCH = "notch"
-    BEND = "bend"
+    BENT = "bent sheet"
 
 
 @dataclass(frozen=True)
@@ -76,8 +76,8 @@ class Solid(Frozen):
         volume: [m3].
         centre: Centre of its volume [m].
         colour: Red, green and blue from 0 to 1, or () where the file has none.
-        material: Name of its material in the file, or "".
-        density: In the file [kg/m3], or 0.
+        material: What it is taken to be made of, a name that Flexact knows.
+        density: [kg/m3].
         is_purchased: Whether it is a screw, nut, washer, pin or bearing.
     """
 
@@ -103,13 +103,17 @@ class Flexure(Frozen):
         q: Middle of the other.
         width: Unit vector from edge to edge, of a notch along its axis (3,).
         normal: Unit vector across the thickness (3,).
-        length: Free length [m].
+        length: Free length, of a bent sheet the developed one [m].
         breadth: Along the width [m]; of a round wire its diameter.
         thickness: [m]; of a round wire its diameter.
-        radius: Of a bend at mid thickness, of a notch that of its contour [m]; else 0.
-        angle: Of a bend [rad]; else 0.
+        radius: Of the bends of a bent sheet at mid thickness, of a notch that of its contour, of
+            a sheet or wire that of its fillets [m]; else 0.
+        corners: p, where the mid planes of the pieces of a bent sheet meet, and q (n, 3) [m]; of
+            others p and q.
+        angle: By which a bent sheet turns in all [rad]; else 0.
         contour: Of a notch, as `flexact.NotchContour` has it; "round" of a round wire; else "".
-        between: Names of what its ends are fastened to, of p first.
+        between: Names of what its ends are fastened to, of p first: of bodies, or of a fold, which
+            two flexures share and which is no body.
         outline: Closed polygon of its mid plane, for drawing (n, 3) [m].
         doubt: Why it may be meant otherwise; "" where there is no doubt.
         is_taken: Whether it is a flexure of the model; a candidate that became a body is not.
@@ -120,6 +124,7 @@ class Flexure(Frozen):
     solid: int
     p: FloatArray
     q: FloatArray
+    corners: FloatArray
     width: FloatArray
     normal: FloatArray
     length: float
@@ -145,13 +150,14 @@ class Body(Frozen):
     """What is left of solids beside their flexures, and touches.
 
     Attributes:
-        name: Of its largest solid, or "body 1", ...
+        name: Of its largest solid; "ground", "body 1", ... of pieces of one solid.
         solids: Rows of the solids of which it has something, the largest first.
         volume: [m3].
         mass: [kg].
         centre: Centre of mass (3,) [m].
         inertia: About that, Jxx, Jxy, Jxz, Jyy, Jyz, Jzz as tensor entries (6,) [kg m2].
         is_ground: Whether it stands still.
+        is_middle: Whether it is the stiff middle of a reinforced sheet.
         flexures: Names of the flexures that end at it.
     """
 
@@ -162,6 +168,7 @@ class Body(Frozen):
     centre: FloatArray
     inertia: FloatArray
     is_ground: bool
+    is_middle: bool
     flexures: tuple[str, ...]
 
 
