@@ -34,7 +34,7 @@ def body(name: str, solids: tuple[int, ...], x: float, volume: float, ground: bo
     """A cube, so that its radii of gyration are those of its side."""
     moment = volume * volume ** (2 / 3) / 6
     inertia = np.array([moment, 0, 0, moment, 0, moment])
-    return Body(name, solids, volume, volume, np.array([x, 0, 0]), inertia, ground, ())
+    return Body(name, solids, volume, volume, np.array([x, 0, 0]), inertia, ground, False, ())
 
 
 def sheet(name: str, x: float, thickness: float = 0.5e-3) -> Flexure:
@@ -44,7 +44,22 @@ def sheet(name: str, x: float, thickness: float = 0.5e-3) -> Flexure:
     ends = ("base", "stage")
     none = np.zeros((0, 3))
     return Flexure(
-        Kind.SHEET, name, 2, p, q, way[2], way[0], *sizes, 0.0, 0.0, "", ends, none, "", True
+        Kind.SHEET,
+        name,
+        2,
+        p,
+        q,
+        np.stack((p, q)),
+        way[2],
+        way[0],
+        *sizes,
+        0.0,
+        0.0,
+        "",
+        ends,
+        none,
+        "",
+        True,
     )
 
 

@@ -14,6 +14,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from cad.designs import CASES
 from cad.truth import Bent, Notch, Sheet, Truth, Wire
+
 from flexact.apps.convert.cad.assembly import Assembly, Choices, Flexure, Kind
 from flexact.apps.convert.cad.mechanism import CadMechanism, mechanism_of
 
@@ -64,7 +65,7 @@ def bodies_of(assembly: Assembly, truth: Truth) -> dict[str, str]:
             if not piece.is_flexure
             and encloses(piece.vertices[piece.triangles], np.asarray(place) / 1e3)
         }
-        if name in truth.loose and not owners:
+        if name in truth.loose and not owners & {body.name for body in assembly.bodies}:
             continue
         (owner,) = owners
         if name in truth.more_grounds:
@@ -77,8 +78,9 @@ def bodies_of(assembly: Assembly, truth: Truth) -> dict[str, str]:
     middles = sum(isinstance(each, Sheet) and each.middle is not None for each in truth.flexures)
     assert len(assembly.bodies) in (len(found), len(found) + middles)
     if truth.is_named:
+        rows = {body.name: body.solids for body in assembly.bodies}
         for owner, name in found.items():
-            assert name in owner or truth.more_grounds
+            assert {name, owner} <= {assembly.solids[row].name for row in rows[owner]}
     return found
 
 
@@ -169,19 +171,16 @@ def parallel(one: object, other: object) -> None:
 
 
 def bent_is(left: list[Flexure], bent: Bent) -> None:
-    """Leaves and bends of a bent sheet, whose lengths make up the developed one."""
-    corners = [np.asarray(corner) for corner in bent.corners]
-    # Half circles have the two corners of their square around them.
-    bends = [corners[1]] if len(corners) == 3 else [(corners[1] + corners[2]) / 2]
-    total = 0.0
-    for place in bends:
-        bend = taken(left, place, Kind.BEND)
-        assert bend.radius * 1e3 == pytest.approx(bent.radius, rel=NEAR)
-        parallel(bend.width, bent.across)
-        total += bend.length
-    for a, b in ((corners[0], corners[1]), (corners[-1], corners[-2])):
-        leaf = taken(left, (a + b) / 2, Kind.SHEET)
-        assert leaf.breadth * 1e3 == pytest.approx(bent.width, rel=NEAR)
-        assert leaf.thickness * 1e3 == pytest.approx(bent.thickness, rel=NEAR)
-        total += leaf.length
-    assert total * 1e3 == pytest.approx(bent.length, rel=NEAR)
+    """Its developed length, radius and corners."""
+    corners = np.asarray(bent.corners)
+    part = taken(left, (corners[0] + corners[-1]) / 2, Kind.BENT)
+    assert part.length * 1e3 == pytest.approx(bent.length, rel=NEAR)
+    assert part.radius * 1e3 == pytest.approx(bent.radius, rel=NEAR)
+    assert part.breadth * 1e3 == pytest.approx(bent.width, rel=NEAR)
+    assert part.thickness * 1e3 == pytest.approx(bent.thickness, rel=NEAR)
+    parallel(part.width, bent.across)
+    ends = part.corners[[0, -1]] * 1e3
+    near = NEAR * bent.length
+    assert any(np.allclose(ends[::s], corners[[0, -1]], rtol=0, atol=near) for s in (1, -1))
+    if len(corners) == 3:
+        assert np.allclose(part.corners[1] * 1e3, corners[1], rtol=0, atol=near)
