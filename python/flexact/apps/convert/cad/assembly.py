@@ -183,6 +183,7 @@ class Assembly(Frozen):
         flexures: Those that are taken, in the order of their names.
         candidates: Thin parts that are taken as bodies.
         bodies: Ground first.
+        declared: Bodies and names of their coordinates that are degrees of freedom.
         doubts: What the verdict depends on, the gravest first, as sentences.
         remarks: What else is worth knowing: the ground, materials, units, as sentences.
     """
@@ -193,5 +194,6 @@ class Assembly(Frozen):
     flexures: tuple[Flexure, ...]
     candidates: tuple[Flexure, ...]
     bodies: tuple[Body, ...]
+    declared: tuple[tuple[str, tuple[str, ...]], ...]
     doubts: tuple[str, ...]
     remarks: tuple[str, ...]

@@ -538,8 +538,11 @@ class _Recognition:
             for k, part in enumerate(self.parts)
         )
         pieces = tuple(self._pieces()) if drawing else ()
+        declared = tuple(
+            (self._group_of(choice).name, tuple(names)) for choice, names in self.choices.declared
+        )
         return Assembly(
-            *(self.name, solids, pieces, tuple(flexures), left, tuple(made)),
+            *(self.name, solids, pieces, tuple(flexures), left, tuple(made), declared),
             *(tuple(_sentence(d) for d in self.doubts), tuple(_sentence(r) for r in self.remarks)),
         )
 
