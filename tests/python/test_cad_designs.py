@@ -15,6 +15,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from cad.designs import CASES
 from cad.truth import Bent, Notch, Sheet, Truth, Wire
 
+import flexact
 from flexact.apps.convert.cad.assembly import Assembly, Choices, Flexure, Kind
 from flexact.apps.convert.cad.mechanism import CadMechanism, mechanism_of
 
@@ -42,7 +43,7 @@ def test_mechanism_is_that_of_the_design(name: str, tmp_path: Path) -> None:
         return
     bodies = bodies_of(found.assembly, truth)
     flexures_are(found.assembly, truth, bodies)
-    analysis = found.model.analyse()
+    analysis = flexact.analyse(found.model)
     motions = analysis.under_constrained + analysis.degrees_of_freedom
     loose = 6 * len(set(truth.loose) & set(bodies.values()))
     middles = sum(isinstance(each, Sheet) and each.middle is not None for each in truth.flexures)

@@ -84,7 +84,8 @@ def place_scenery(data: dict[str, Any], parts: Parts, frame: Frame, scenery: Sce
     room = MOST_TRIANGLES
     for mesh in sorted(scenery.meshes, key=lambda each: _box(each.triangles), reverse=True):
         if (room := room - len(mesh.triangles)) < 0 and chosen:
-            words = f"Of {len(scenery.meshes)} bodies the solids of the largest {len(chosen)} are drawn."
+            drawn_too = f"the solids of the largest {len(chosen)} are drawn"
+            words = f"Of {len(scenery.meshes)} bodies {drawn_too}."
             data.setdefault("missing", []).append(words)
             break
         chosen.append(mesh)
