@@ -27,7 +27,7 @@ if sys.version_info < (3, 11):
 
 
 def solid(name: str, volume: float, *path: str) -> Solid:
-    return Solid(name, ("all", *path), volume, np.zeros(3), (), "", 0.0, False)
+    return Solid(name, path, volume, np.zeros(3), (), "", 0.0, False)
 
 
 def body(name: str, solids: tuple[int, ...], x: float, volume: float, ground: bool = False) -> Body:
@@ -74,7 +74,7 @@ def assembly(*flexures: Flexure, one_piece: bool = False) -> Assembly:
         bodies = tuple(replace(each, solids=(0,)) for each in bodies)
         owners = [(0, "base"), (0, "stage")]
     pieces = tuple(Piece(row, name, False, corners, triangle) for row, name in owners)
-    return Assembly("x.step", solids, pieces, flexures, (), bodies, (), ())
+    return Assembly("x.step", solids, pieces, flexures, (), bodies, (), (), ())
 
 
 def test_choices_are_kept_and_read(tmp_path: Path) -> None:
@@ -162,8 +162,8 @@ def test_parts_are_known_by_their_shapes() -> None:
     """After an export in which all have other names, and other numbers."""
     before = assembly(sheet("sheet 1", 0.0), sheet("sheet 2", 0.1, 0.3e-3))
     said = (
-        replace(said_of(before, before.bodies[1]), taken_as="ground"),
-        replace(said_of(before, before.flexures[1]), taken_as="body"),
+        replace(said_of(before, before.bodies[1], before), taken_as="ground"),
+        replace(said_of(before, before.flexures[1], before), taken_as="body"),
     )
     now = assembly(sheet("sheet 1", 0.1, 0.3e-3), sheet("sheet 2", 0.0))
     solids = tuple(replace(each, name=f"Body{k}") for k, each in enumerate(now.solids))
@@ -175,12 +175,12 @@ def test_parts_are_known_by_their_shapes() -> None:
     assert choices.ground == ("Body1",)
     assert choices.bodies == ((0.1, 0.02, 0.0),)
     assert len(told) == 2
-    assert "'moving/stage' is called 'moving/Body1' now" in told[0]
+    assert "'moving/stage' is taken for 'moving/Body1'" in told[0]
 
 
 def test_bodies_of_one_piece_are_known_by_their_place() -> None:
     before = assembly(one_piece=True)
-    said = replace(said_of(before, before.bodies[1]), taken_as="ground")
+    said = replace(said_of(before, before.bodies[1], before), taken_as="ground")
     choices, told = choices_for(Kept((said,)), before)
     # Just below the triangle, within the material.
     assert np.allclose(choices.ground, [[0.01 / 3, 0.01 / 3, -1e-5]], atol=1e-6)

@@ -16,7 +16,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,9 @@ from ....util.errors import BatchError, reason_of
 from ....util.loading import load
 from ....util.outputs import write_together
 from ....util.text import harmless, in_short
-from .assembly import Assembly, Body, Choices, Flexure
+from .assembly import Assembly, Body, Choices, Flexure, Kind
+from .mechanism import CadMechanism, model_of_assembly
+from .reader import recognised
 
 #: What a part may be taken as.
 GROUND, FLEXURE, BODY = "ground", "flexure", "body"
@@ -41,6 +43,8 @@ _ALIKE = 0.01
 #: A file of choices is no larger.
 _LARGEST = 1_000_000
 _MM = 1e3
+#: x, y, z [m].
+Place = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -246,49 +250,79 @@ def _string(words: str) -> str:
 class _Thing:
     """What a choice may be about: a flexure, a candidate or a body of an assembly."""
 
+    of: Flexure | Body
     names: tuple[str, ...]
     at: FloatArray
     shape: FloatArray
-    reference: str | tuple[float, float, float]
 
 
-def said_of(assembly: Assembly, of: Flexure | Body) -> Said:
-    """What a part of an assembly is known again by; nothing is said of it yet."""
+def said_of(assembly: Assembly, of: Flexure | Body, plain: Assembly) -> Said:
+    """What a part of an assembly is known again by; nothing is said of it yet.
+
+    Args:
+        assembly: What it is a part of, read with choices.
+        of: The part.
+        plain: The same file, read without choices, whose names do not depend on them.
+    """
     thing = _thing(assembly, of)
+    kind = (plain.flexures, plain.candidates) if isinstance(of, Flexure) else (plain.bodies,)
+    things = [_thing(plain, each) for group in kind for each in group]
+    same = (each for each in things if _is_alike(each, thing.shape) and _is_at(each, thing.at))
+    thing = next(same, thing)
     return Said(thing.names[0], at=tuple(thing.at.tolist()), shape=tuple(thing.shape.tolist()))
 
 
 def _thing(assembly: Assembly, of: Flexure | Body) -> _Thing:
     if isinstance(of, Flexure):
         sizes = np.array([of.length, of.breadth, of.thickness]) * _MM
-        x, y, z = of.place.tolist()
-        return _Thing((of.name,), of.place * _MM, sizes, (x, y, z))
+        return _Thing(of, names_of_flexure(assembly, of), _in_flexure(of) * _MM, sizes)
     xx, xy, xz, yy, yz, zz = of.inertia
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     radii = np.sqrt(np.clip(np.linalg.eigvalsh(tensor), 0.0, None) / max(of.mass, 1e-30))
     shape = np.array([of.volume * _MM**3, *radii * _MM])
-    names = [full_name(assembly, row) for row in of.solids]
-    names += [assembly.solids[row].name for row in of.solids]
-    is_whole = {row: True for row in of.solids}
-    for piece in assembly.pieces:
-        if piece.solid in is_whole and piece.owner != of.name:
-            is_whole[piece.solid] = False
-    first = of.solids[0]
-    reference: str | tuple[float, float, float] = assembly.solids[first].name
-    if not reference or not is_whole[first]:
-        reference = _inside(assembly, of)
-        # Bodies of one piece of material are told apart by their own names.
-        names = [of.name, *names]
-    return _Thing(tuple(filter(None, names)) or (of.name,), of.centre * _MM, shape, reference)
+    names = [name for row in of.solids for name in _solid_names(assembly, row)]
+    # Bodies of one piece of material are told apart by their own names.
+    shared = any(of.solids[0] in each.solids for each in assembly.bodies if each is not of)
+    names = [of.name, *names] if shared or not names else [*names, of.name]
+    return _Thing(of, tuple(names), of.centre * _MM, shape)
 
 
-def full_name(assembly: Assembly, row: int) -> str:
-    """Names of the assemblies around a solid and its own; without that of the whole."""
+def names_of_flexure(assembly: Assembly, of: Flexure) -> tuple[str, ...]:
+    """What a thin part is called: its name, or, of one that is taken as a body, its solid's."""
+    if of.name:
+        return (of.name,)
+    same = [each for each in assembly.candidates if each.solid == of.solid]
+    names = _solid_names(assembly, of.solid) or (f"solid {of.solid + 1}",)
+    if len(same) == 1 and not any(each.solid == of.solid for each in assembly.flexures):
+        return names
+    number = next(k for k, each in enumerate(same, start=1) if each is of)
+    return (f"{names[0]}, thin part {number}",)
+
+
+def _solid_names(assembly: Assembly, row: int) -> tuple[str, ...]:
+    """Names of the assemblies around a solid and its own; its own alone; or none."""
     solid = assembly.solids[row]
-    return "/".join(filter(None, (*solid.path[1:], solid.name))) if solid.name else ""
+    if not solid.name:
+        return ()
+    return tuple(dict.fromkeys(("/".join((*solid.path, solid.name)), solid.name)))
 
 
-def _inside(assembly: Assembly, body: Body) -> tuple[float, float, float]:
+def _in_flexure(of: Flexure) -> FloatArray:
+    """A place in the material of a flexure [m]: in the middle, of a bent one in its first leaf."""
+    ends = of.corners[:2] if of.kind is Kind.BENT else np.stack((of.p, of.q))
+    made: FloatArray = np.asarray(ends.mean(axis=0))
+    return made
+
+
+def _is_alike(thing: _Thing, shape: FloatArray) -> bool:
+    return shape.size == thing.shape.size and np.allclose(thing.shape, shape, rtol=_ALIKE)
+
+
+def _is_at(thing: _Thing, at: FloatArray) -> bool:
+    return bool(at.size) and float(np.linalg.norm(thing.at - at)) < _ALIKE * thing.shape[-3:].max()
+
+
+def _inside(assembly: Assembly, body: Body) -> Place:
     """A place in the material of a body: just below its largest triangle [m]."""
     pieces = [each for each in assembly.pieces if each.owner == body.name and not each.is_flexure]
     if not pieces:
@@ -303,62 +337,95 @@ def _inside(assembly: Assembly, body: Body) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-def choices_for(kept: Kept, assembly: Assembly) -> tuple[Choices, tuple[str, ...]]:
-    """What was said, of the parts of an assembly that was read without it.
+def choices_for(kept: Kept, plain: Assembly) -> tuple[Choices, tuple[str, ...]]:
+    """What was said, of the parts of an assembly that was read without it, with its pieces.
 
     Returns:
         The choices, and sentences on parts that are gone, or are known by their shape alone.
     """
-    flexures = [_thing(assembly, each) for each in (*assembly.flexures, *assembly.candidates)]
-    bodies = [_thing(assembly, each) for each in assembly.bodies]
+    flexures = [_thing(plain, each) for each in (*plain.flexures, *plain.candidates)]
+    bodies = [_thing(plain, each) for each in plain.bodies]
     told: list[str] = []
-    found: dict[str, list[str | tuple[float, float, float]]] = {each: [] for each in TAKEN_AS}
+    found: dict[str, list[str | Place]] = {each: [] for each in TAKEN_AS}
     declared = []
     for said in kept.parts:
-        thing = _found(said, flexures, bodies)
+        # Ground, and what moves, is a body; a flexure may have its name.
+        is_of_body = said.taken_as == GROUND or bool(said.declared)
+        thing = _found(said, [*bodies, *flexures] if is_of_body else [*flexures, *bodies])
         if thing is None:
             told.append(
-                f"{in_short(said.name)}, of which something is said in the file of choices, is not "
-                "there any more: nothing has its name or its shape"
+                f"{in_short(said.name)}, of which the file of choices says something, is not there "
+                "any more: nothing has its name or its shape"
             )
             continue
         if said.name not in thing.names:
             told.append(
-                f"{in_short(said.name)} is called {in_short(thing.names[0])} now: what was said of "
-                "it is kept by its shape"
+                f"what the file of choices says of {in_short(said.name)} is taken for "
+                f"{in_short(thing.names[0])}, which has its shape"
             )
         if said.taken_as:
-            found[said.taken_as].append(thing.reference)
+            found[said.taken_as].append(_reference(plain, thing))
         if said.declared:
-            declared.append((thing.reference, said.declared))
+            declared.append((_reference(plain, thing), said.declared))
     ground, flexible, rigid = (tuple(found[each]) for each in TAKEN_AS)
     return Choices(ground, flexible, rigid, tuple(declared), kept.material), tuple(told)
 
 
-def _found(said: Said, flexures: list[_Thing], bodies: list[_Thing]) -> _Thing | None:
+def _found(said: Said, things: list[_Thing]) -> _Thing | None:
     """The part that was meant: by shape and place, else by name, else by shape."""
     at, shape = np.array(said.at), np.array(said.shape)
-    things = [*flexures, *bodies]
-    # Ground, and what moves, is a body; a flexure may have its name.
-    if said.taken_as == GROUND or said.declared:
-        things = [*bodies, *flexures]
-
-    def is_alike(thing: _Thing) -> bool:
-        return shape.size == thing.shape.size and np.allclose(thing.shape, shape, rtol=_ALIKE)
-
-    def away(thing: _Thing) -> float:
-        return float(np.linalg.norm(thing.at - at)) if at.size else 0.0
-
-    def in_place(thing: _Thing) -> bool:
-        return bool(at.size) and away(thing) < _ALIKE * float(np.max(thing.shape[-3:]))
-
     tries: tuple[Callable[[_Thing], bool], ...] = (
-        lambda thing: is_alike(thing) and in_place(thing),
+        lambda thing: _is_alike(thing, shape) and _is_at(thing, at),
         lambda thing: said.name in thing.names,
-        is_alike,
+        lambda thing: _is_alike(thing, shape),
     )
     for fits in tries:
-        fitting: Iterator[_Thing] = (thing for thing in things if fits(thing))
-        if (best := min(fitting, key=away, default=None)) is not None:
-            return best
+        if fitting := [thing for thing in things if fits(thing)]:
+            return min(fitting, key=lambda thing: np.linalg.norm(thing.at - at) if at.size else 0)
     return None
+
+
+def _reference(assembly: Assembly, thing: _Thing) -> str | Place:
+    """The part as choices name it: a whole solid by its name, else a place in it."""
+    if isinstance(thing.of, Flexure):
+        x, y, z = _in_flexure(thing.of).tolist()
+        return x, y, z
+    first = thing.of.solids[0]
+    name, owners = assembly.solids[first].name, set()
+    for piece in assembly.pieces:
+        if piece.solid == first:
+            owners.add(piece.owner)
+    return name if name and owners == {thing.of.name} else _inside(assembly, thing.of)
+
+
+# With them
+
+
+def mechanism_as_said(
+    step: Path, given: Choices, known: Callable[[], Assembly] | None = None
+) -> tuple[CadMechanism, Assembly]:
+    """The mechanism in a STEP file, with what is kept beside it.
+
+    Args:
+        step: The file.
+        given: What is said besides, in the place of what is kept.
+        known: Gives the file as it is read without choices, with its pieces.
+
+    Returns:
+        The mechanism, and the assembly without choices.
+
+    Raises:
+        BatchError: As of `mechanism_of` and `read_choices`.
+        ModelError: What was found makes no model.
+    """
+    kept = read_choices(step)
+    plain = known() if known else recognised(step)
+    said, told = choices_for(kept, plain)
+    choices = Choices(
+        *(given.ground or said.ground, given.flexures or said.flexures),
+        *(given.bodies or said.bodies, given.declared or said.declared),
+        given.material or said.material,
+    )
+    assembly = plain if choices == Choices() else recognised(step, choices)
+    assembly = replace(assembly, doubts=(*told, *assembly.doubts))
+    return CadMechanism(assembly, model_of_assembly(assembly), choices), plain
