@@ -65,7 +65,7 @@ from .assets import (
 )
 from .controls import choices_part, keys, layers, toolbar
 from .drawing import drawing_part, frames_of
-from .scenery import Scenery, place_scenery
+from .scenery import Scenery, place_scenery, preface
 from .viewer import body_named, left_out, stuck_in, viewer_data
 
 #: A deck of so many lines is shown at once.
@@ -524,7 +524,9 @@ def content_of(
     raw, is_written = (
         (as_bytes(deck_of(analysis.given)), True) if source is None else (source.text, False)
     )
-    warnings = [item for item in every if item.line == 0]
+    # What stands before the verdict is not said again.
+    before_it = () if scenery is None else scenery.doubts
+    warnings = [item for item in every if item.line == 0 and item.message not in before_it]
     in_deck = [item for item in every if item.line > 0]
     advice = attempted("What can be done", lambda: advised(analysis), Advised(), told)
     held = made("How often each body is held", lambda: held_part(analysis))
@@ -555,7 +557,7 @@ def content_of(
         kind, choices = "pair tried", ""
         drawing = _beside(analysis, datas, before, " ".join(told))
     body = (
-        "" if scenery is None else scenery.preface,
+        "" if scenery is None else preface(scenery),
         verdict(analysis, name, advice, held),
         f'<main class="{kind}">',
         drawing,

@@ -12,7 +12,7 @@ from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind, Parts
 from ...util.records import Frozen
 from ...util.text import harmless
-from .assets import MOST_MEMBERS, flags, floats, integers
+from .assets import MOST_MEMBERS, flags, floats, integers, text
 from .drawing import Frame
 
 #: So many triangles are drawn; those of the smallest solids are left out.
@@ -52,12 +52,25 @@ class Scenery(Frozen):
     Attributes:
         meshes: Its bodies.
         doubtful: Names of flexures that are drawn as being in doubt.
-        preface: HTML that stands before the verdict.
+        head: What was found, in a sentence.
+        doubts: What the verdict depends on, sentences that stand before it.
     """
 
     meshes: tuple[Mesh, ...]
     doubtful: frozenset[str]
-    preface: str
+    head: str
+    doubts: tuple[str, ...]
+
+
+def preface(scenery: Scenery) -> str:
+    """What stands before the verdict."""
+    doubts = "".join(f"<li>{text(each)}</li>" for each in scenery.doubts)
+    in_doubt = f"<p><b>In doubt, and the verdict depends on it:</b></p><ul>{doubts}</ul>"
+    drawn = " Flexures in doubt are drawn in orange." * bool(scenery.doubtful)
+    return (
+        f'<section class="from-cad" aria-label="From the CAD"><p>{text(scenery.head)}'
+        f"{drawn}</p>{in_doubt if doubts else ''}</section>"
+    )
 
 
 def edges_of(vertices: FloatArray, triangles: np.ndarray) -> FloatArray:

@@ -115,8 +115,9 @@ const Switches = (() => {
 
     hear(event) {
       if (event.type === "flexact-click") {
-        const { element: number, node } = event.detail || {};
-        if (number !== undefined && number !== null) this.look({ element: number });
+        const { element: number, node, body } = event.detail || {};
+        if (body !== undefined) this.look({ name: body });
+        else if (number !== undefined && number !== null) this.look({ element: number });
         else if (node !== undefined && node !== null) this.look({ node });
         return;
       }
@@ -149,8 +150,10 @@ const Switches = (() => {
         return;
       }
       // A name is looked up once.
-      const { element: number, node } = answer.panel;
+      const { element: number, node, body } = answer.panel;
       this.target = number === undefined ? { node } : { element: number };
+      // Read from CAD again, a part may have another number.
+      if (body !== undefined || answer.panel.kept) this.target = { name: answer.panel.name };
       this.card(answer.panel);
       if (again) return this.refocus();
       this.say("");
@@ -483,7 +486,8 @@ const Switches = (() => {
     return number === undefined ? { node } : { element: number };
   }
 
-  function keyOf({ element: number, deformation, node, coordinate }) {
+  function keyOf({ element: number, deformation, node, coordinate, part: name, what }) {
+    if (name !== undefined) return `${name} ${what}`;
     return number === undefined ? `node ${node} ${coordinate}` : `element ${number} ${deformation}`;
   }
 

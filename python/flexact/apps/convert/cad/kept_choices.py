@@ -172,6 +172,7 @@ def say(step: Path, said: Said) -> None:
     Raises:
         BatchError: The file that is there cannot be read, or a new one not be written.
     """
+    said = replace(said, at=_rounded(said.at), shape=_rounded(said.shape))
     path, before = choices_beside(step), read_choices(step)
     parts = [each for each in before.parts if each.name != said.name]
     if said.taken_as or said.declared:
@@ -188,7 +189,8 @@ def say(step: Path, said: Said) -> None:
         is_said = False
     if not is_said:
         # By hand it can be written in other ways, which are not kept line by line.
-        text = _START.replace("[parts]\n", f"material = {_string(wanted.material)}\n\n[parts]\n")
+        made_of = f"material = {_string(wanted.material)}\n\n" * bool(wanted.material)
+        text = _START.replace("[parts]\n", f"{made_of}[parts]\n")
         text += "".join(map(_line, parts))
     write_together({path: text.encode()})
 
@@ -225,6 +227,11 @@ def _edited(text: str, said: Said) -> str:
 
 
 _TABLE = re.compile(r"\s*\[\s*parts\s*\]")
+
+
+def _rounded(numbers: tuple[float, ...]) -> tuple[float, ...]:
+    """Numbers as they are written."""
+    return tuple(float(f"{each:.7g}") for each in numbers)
 
 
 def _line(said: Said) -> str:
