@@ -110,7 +110,7 @@ def scenery_of(mechanism: CadMechanism) -> Scenery:
 
 
 def target_in_cad(parts: CadParts, board: Board, name: str) -> Json:
-    """The part, the point or the body of a name; of a bent sheet its first leaf.
+    """The part, the point or the body of a name; of a thin part the body that it is taken as.
 
     Raises:
         RefusedError: There is none; the nearest names are told.
@@ -121,8 +121,13 @@ def target_in_cad(parts: CadParts, board: Board, name: str) -> Json:
         for part in board.parts.all:
             if part.name.startswith(f"{name}, "):
                 return {"element": part.number}
-        if any(each.name == name for each in parts.now.bodies):
-            return {"body": name}
+        thin = (
+            each.solid for each in parts.now.candidates if name in names_of_flexure(parts.now, each)
+        )
+        row = next(thin, None)
+        for body in parts.now.bodies:
+            if body.name == name or row in body.solids:
+                return target_named(board, body.name) if not body.is_ground else {"body": body.name}
         raise
 
 
