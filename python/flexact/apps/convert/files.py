@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models from and to files: decks, meshes, and tables as JSON or YAML; the suffix says which."""
+"""Models from and to files: decks, meshes, tables, STEP; the suffix says which."""
 
 from __future__ import annotations
 
@@ -17,6 +17,9 @@ from ...model.model import Model
 from ...model.reading import read, read_text
 from ...util.decks import SUFFIX
 from ...util.errors import BatchError, reason_of
+from .cad.assembly import Choices
+from .cad.mechanism import doubts_in_comments, mechanism_of
+from .cad.reader import SUFFIXES
 from .mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh, read_mesh, suffixes
 from .table_input import TablesError, Text
 from .tables import model_of, tables_of
@@ -279,7 +282,7 @@ _PIECE = 2**20
 
 
 #: What a file holds.
-DECK, TABLES, MESH = "deck", "tables", "mesh"
+DECK, TABLES, MESH, CAD = "deck", "tables", "mesh", "CAD"
 
 
 def format_of(path: Path) -> str:
@@ -293,19 +296,26 @@ def format_of(path: Path) -> str:
         return DECK
     if suffix in (*JSON, *YAML):
         return TABLES
+    if suffix in SUFFIXES:
+        return CAD
     try:
         if suffix in suffixes():
             return MESH
     except MeshError as error:
         raise BatchError(f"{path}: {error}") from error
     raise BatchError(
-        f"the suffix of {path} says no format: decks are .dat, tables .json or .yaml, "
+        f"the suffix of {path} says no format: decks are .dat, tables .json or .yaml, CAD .step, "
         "meshes .vtu, .vtk, .msh and others that meshio knows"
     )
 
 
 def read_any(
-    path: Path, *, flexible: str = "independent", kind: str = "beam", fixed: Iterable[int] = ()
+    path: Path,
+    *,
+    flexible: str = "independent",
+    kind: str = "beam",
+    fixed: Iterable[int] = (),
+    choices: Choices | None = None,
 ) -> Model:
     """The model in a file; what it does not hold stands in `Model.diagnostics`.
 
@@ -314,6 +324,7 @@ def read_any(
         flexible: Of tables, see `flexact.apps.convert.tables.model_of`.
         kind: Of meshes, see `flexact.apps.convert.mesh_files.model_of_mesh`.
         fixed: Likewise.
+        choices: Of STEP files, see `flexact.apps.convert.cad.mechanism.mechanism_of`.
 
     Raises:
         FlexactError: anything is wrong with the file; all of it, each with its place.
@@ -321,6 +332,8 @@ def read_any(
     form = format_of(path)
     if form is DECK:
         return read(path)
+    if form is CAD:
+        return mechanism_of(path, choices, drawing=False).model
     if form is MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
     try:
@@ -375,7 +388,10 @@ def bytes_of(model: Model, path: Path) -> tuple[bytes, tuple[Diagnostic, ...]]:
     """
     form = format_of(path)
     if form is DECK:
-        return model.to_deck().encode("utf-8"), ()
+        doubts = "".join(f"% {words}\n" for words in doubts_in_comments(model.diagnostics))
+        return (doubts + model.to_deck()).encode("utf-8"), ()
+    if form is CAD:
+        raise BatchError(f"{path}: STEP files are written by flexact export")
     if form is TABLES:
         remarks: list[Diagnostic] = []
         made = text_of(tables_of(model, remarks), path.suffix.lower())

@@ -21,8 +21,8 @@ from ....model.sections import MATERIALS
 from ....util.errors import BatchError
 from . import brep
 from .assembly import Assembly, Body, Choices, Flexure, Kind, Piece, Solid
-from .brep import Part, are_parallel, unit
-from .flexures import Scene, Thin, necks, walls, wires
+from .brep import Face, Part, are_parallel, unit
+from .flexures import Region, Scene, Thin, necks, regions, rounds, walls, wires
 
 #: Solids that are no further apart touch [mm].
 TOUCHING = 0.02
@@ -123,7 +123,7 @@ class _Group:
     ends: list[_End] = field(default_factory=list)
     role: str = "body"
     name: str = ""
-    corner: FloatArray | None = None
+    corners: list[FloatArray] = field(default_factory=list)
     bend: tuple[float, float] = (0.0, 0.0)
 
 
@@ -173,19 +173,28 @@ class _Recognition:
             off = np.linalg.norm(away - away @ axis * axis)
             if not are_parallel(face.axis, axis, 1e-3) or off > 1e-2:
                 return False
-        convex = [f for f in round_ if f.is_convex]
-        return len({round(f.radius, 3) for f in round_}) > 1 or not convex
+        if len({round(f.radius, 3) for f in round_}) == 1 and round_[0].is_convex:
+            return False
+        return any(_is_full(part, group) for c in (False, True) for group in rounds(part, convex=c))
 
     # Which thin parts are flexures -----------------------------------------------------
 
     def result(self, drawing: bool) -> Assembly:
         """All of it."""
         found: list[Thin] = []
+        rods: list[Thin] = []
+        places: list[Region] = []
         for row, part in enumerate(self.parts):
             if part.is_purchased or self._is_chosen(row, self.choices.bodies):
                 continue
             found += necks(self.scene, row)
-            found += self._apart([*walls(self.scene, row), *wires(self.scene, row)])
+            rods += wires(self.scene, row)
+            places += regions(self.scene, row)
+        slim: dict[int, list[Thin]] = defaultdict(list)
+        for thin in (*walls(self.scene, places), *rods):
+            slim[thin.part].append(thin)
+        for each in slim.values():
+            found += self._apart(each)
         self._taken(found)
         self._cut()
         self._join()
@@ -237,7 +246,7 @@ class _Recognition:
             stiff = thin.bending / usual if usual else 1.0
             words = f"{thin.length:.3g} mm long and {thin.thickness:.3g} mm thick"
             if stiff > 1000 and slender >= 20:
-                thin.doubts.append(
+                thin.why.append(
                     f"{words}, it is {stiff:.0f} times as stiff in bending as the usual flexure here"
                 )
                 is_flexure = False
@@ -246,16 +255,17 @@ class _Recognition:
             elif slender >= 15:
                 is_flexure = stiff < 30 and thick < 6
                 if thick < 8:
-                    thin.doubts.append(f"{words}, it is {thick:.2g} times as thick as the thinnest")
+                    thin.why.append(f"{words}, it is {thick:.2g} times as thick as the thinnest")
             else:
                 is_flexure = thick < 1.5 and slender >= 5
                 if thick < 3:
-                    thin.doubts.append(f"{words}, it is short for a flexure")
+                    thin.why.append(f"{words}, it is short for a flexure")
             (self.taken if is_flexure else self.candidates).append(thin)
         for thin in webs:
             near = thin.thickness < 3 * least or not least
             cut_up = any(each.part == thin.part for each in self.taken)
             if near and thin.length > 20 * thin.thickness and not cut_up:
+                thin.why += thin.doubts
                 self.candidates.append(thin)
 
     def _says(self, thin: Thin, chosen: Sequence[object]) -> bool:
@@ -288,7 +298,7 @@ class _Recognition:
                 if self._claim(thin, lumps):
                     kept.append(thin)
                 else:
-                    thin.doubts.append("it could not be cut from what is around it")
+                    thin.why.append("it could not be cut from what is around it")
                     self.candidates.append(thin)
             self.lumps += lumps
         self.taken = kept
@@ -372,7 +382,7 @@ class _Recognition:
         """Make groups of lumps; leave out flexures with a free end; find folds and middles."""
         loose = {id(end.thin) for end in self.ends if end.lump is None}
         for thin in [t for t in self.taken if id(t) in loose]:
-            thin.doubts.append("one of its ends is fastened to nothing")
+            thin.why.append("one of its ends is fastened to nothing")
             self.taken.remove(thin)
             self.candidates.append(thin)
             for k, lump in enumerate(self.lumps):
@@ -413,6 +423,12 @@ class _Recognition:
         own = {self.lumps[k].solid for k in group.lumps} <= {a.part, b.part}
         volume = sum(self.lumps[k].part.volume for k in group.lumps)
         ends = [(end.thin.p, end.thin.q)[end.side] for end in group.ends]
+        bend = self._bend(group, a) if own else None
+        if bend is not None:
+            group.role, group.bend = "bend", bend[:2]
+            out = (a.axis, -a.axis)[1 - group.ends[0].side]
+            group.corners = _bend_corners(a.cuts[group.ends[0].side], out, a.width, *bend)
+            return
         if are_parallel(a.normal, b.normal, 0.02):
             flat = abs((ends[1] - ends[0]) @ a.normal) < 0.2 * a.thickness
             if flat and a.part == b.part and are_parallel(a.axis, b.axis, 0.02):
@@ -420,15 +436,11 @@ class _Recognition:
             return
         if not own:
             return
-        corner = _crossing(ends, (a, b))
-        bend = self._bend(group, a)
-        if bend is not None:
-            group.role, group.corner, group.bend = "bend", corner, bend
-        elif volume < 40 * a.thickness**2 * max(a.breadth, b.breadth):
-            group.role, group.corner = "fold", corner
+        if volume < 40 * a.thickness**2 * max(a.breadth, b.breadth):
+            group.role, group.corners = "fold", [_crossing(ends, (a, b))]
 
-    def _bend(self, group: _Group, leaf: Thin) -> tuple[float, float] | None:
-        """Radius at mid thickness and angle of a cylindrical bend."""
+    def _bend(self, group: _Group, leaf: Thin) -> tuple[float, float, FloatArray] | None:
+        """Radius at mid thickness, angle, and a point of the axis of a cylindrical bend."""
         for k in group.lumps:
             faces = [
                 face
@@ -443,7 +455,7 @@ class _Recognition:
                     if off < 0.02 and abs(step - leaf.thickness) < 0.02 * leaf.thickness:
                         radius = (a.radius + b.radius) / 2
                         angle = a.area / (a.radius * leaf.breadth)
-                        return radius, float(angle)
+                        return radius, float(angle), a.at
         return None
 
     def _grounds(self) -> list[_Group]:
@@ -665,7 +677,8 @@ class _Recognition:
         chains = self._chains()
         per_solid: dict[int, int] = defaultdict(int)
         for row, _ in chains:
-            per_solid[row[0].part] += 1
+            for solid in {thin.part for thin in row}:
+                per_solid[solid] += 1
         made: list[Flexure] = []
         for row, joints in chains:
             solid = row[0].part
@@ -678,7 +691,12 @@ class _Recognition:
             )  # fmt: skip
             own = self.parts[solid].name
             sole = per_solid[solid] == 1 and solid not in self.main_solids
-            if sole and own and not _NAMELESS.match(own):
+            owners = [thin.part for thin in row]
+            apart = len(set(owners)) == len(row) > 1 and all(
+                per_solid[k] <= 1 and self.parts[k].name and k not in self.main_solids
+                for k in owners
+            )
+            if sole and own and not _NAMELESS.match(own) and not apart:
                 name = self._once(own)
             else:
                 name = self._numbered(what)
@@ -691,13 +709,14 @@ class _Recognition:
             for k, thin in enumerate(row):
                 for side, k_ in ((0, k - 1), (1, k)):
                     if 0 <= k_ < len(joints) and joints[k_].role == "fold":
-                        corner = joints[k_].corner
-                        assert corner is not None
+                        (corner,) = joints[k_].corners
                         if side == 0:
                             thin.p = corner
                         else:
                             thin.q = corner
                 own_name = name if len(row) == 1 else f"{name}, leaf {k + 1}"
+                if apart:
+                    own_name = self._once(self.parts[thin.part].name)
                 between = self.at[id(thin), 0].name, self.at[id(thin), 1].name
                 if between[0] == between[1]:
                     thin.doubts.append(f"both its ends are on {between[0]}")
@@ -706,8 +725,8 @@ class _Recognition:
 
     def _bent(self, row: list[Thin], joints: list[_Group], name: str) -> Flexure:
         """A bent sheet: its leaves and bends as one flexure."""
-        corners = [row[0].p, *(group.corner for group in joints), row[-1].q]
-        places = np.array([corner for corner in corners if corner is not None])
+        inner = [self._in_order(group, thin) for group, thin in zip(joints, row, strict=False)]
+        places = np.array([row[0].p, *itertools.chain(*inner), row[-1].q])
         length = sum(float(np.linalg.norm(t.cuts[1] - t.cuts[0])) for t in row)
         # The ends are nominal, the rest is between the cuts.
         length += abs((row[0].cuts[0] - row[0].p) @ row[0].axis)
@@ -718,12 +737,14 @@ class _Recognition:
             angle += group.bend[1]
         between = self.at[id(row[0]), 0].name, self.at[id(row[-1]), 1].name
         first = row[0]
-        doubts = [doubt for thin in row for doubt in thin.doubts]
+        doubts = [doubt for thin in row for doubt in (*thin.why, *thin.doubts)]
         radius = max(group.bend[0] for group in joints)
         if len(joints) > 1:
             doubts.append(
                 f"it is bent {len(joints)} times, and what it holds depends on how each bend is taken"
             )
+        elif len(places) > 3:
+            doubts.append("it turns back, and what it holds depends on how its bend is taken")
         elif radius * angle > 0.2 * length:
             doubts.append(
                 f"its bend of {radius:.3g} mm radius is taken as a fold where its leaves would meet"
@@ -741,6 +762,10 @@ class _Recognition:
             *(1e-3 * np.concatenate([thin.outline for thin in row]), "; ".join(doubts), True),
         )
 
+    def _in_order(self, group: _Group, before: Thin) -> list[FloatArray]:
+        """The corners of a bend behind a leaf, that nearest to it first."""
+        return sorted(group.corners, key=lambda place: float(np.linalg.norm(place - before.q)))
+
     def _doubt(self, name: str, doubts: Sequence[str]) -> None:
         self.doubts += [f"{name}: {doubt}" for doubt in doubts]
 
@@ -748,14 +773,14 @@ class _Recognition:
         self, thin: Thin, name: str, between: tuple[str, str], is_taken: bool
     ) -> Flexure:
         if is_taken:
-            self._doubt(name, thin.doubts)
+            self._doubt(name, [*thin.why, *thin.doubts])
             self.owner[id(thin)] = name
         ends = np.array([thin.p, thin.q])
         return Flexure(
             *(thin.kind, name or self._solid_name(thin.part), thin.part, 1e-3 * thin.p),
             *(1e-3 * thin.q, 1e-3 * ends, thin.width, thin.normal, 1e-3 * thin.length),
             *(1e-3 * thin.breadth, 1e-3 * thin.thickness, 1e-3 * thin.radius, 0.0),
-            *(thin.contour, between, 1e-3 * thin.outline, "; ".join(thin.doubts), is_taken),
+            *(thin.contour, between, 1e-3 * thin.outline, "; ".join([*thin.why, *thin.doubts]), is_taken),
         )
 
     def _body(self, group: _Group, flexures: Sequence[Flexure]) -> Body:
@@ -803,10 +828,10 @@ class _Recognition:
             if words:
                 grave.append(words)
         for thin in self.candidates:
-            if thin.doubts:
+            if thin.why:
                 grave.append(
                     f"{self._solid_name(thin.part)} has a thin part at {_place(thin.middle)} that is "
-                    f"taken as a body: {'; '.join(thin.doubts)}"
+                    f"taken as a body: {'; '.join(thin.why)}"
                 )
         for name in self.loose:
             grave.append(f"{name} touches nothing that is part of the mechanism and is left out")
@@ -882,6 +907,31 @@ def _outside(thin: Thin) -> tuple[FloatArray, FloatArray]:
     return thin.cuts[0] - step, thin.cuts[1] + step
 
 
+def _bend_corners(
+    end: FloatArray, out: FloatArray, width: FloatArray, radius: float, angle: float, at: FloatArray
+) -> list[FloatArray]:
+    """Where tangents at a cylindrical bend meet: one place for every 100 degrees of it.
+
+    Args:
+        end: Where the bend begins, in the middle of the sheet.
+        out: The direction in which the sheet comes.
+        width: Of the sheet, along the axis.
+        radius: At mid thickness.
+        angle: Of the bend.
+        at: A point of the axis.
+    """
+    count = max(1, int(np.ceil(angle / np.radians(100) - 1e-6)))
+    centre = at + (end - at) @ width * width
+    spoke = end - centre
+    turn = width if np.cross(width, spoke) @ out > 0 else -width
+    first = spoke + radius * np.tan(angle / count / 2) * out
+    made = []
+    for k in range(count):
+        phi = k * angle / count
+        made.append(centre + np.cos(phi) * first + np.sin(phi) * np.cross(turn, first))
+    return made
+
+
 def _crossing(ends: Sequence[FloatArray], leaves: tuple[Thin, Thin]) -> FloatArray:
     """Where the mid planes of two sheets meet, in the middle of both."""
     a, b = leaves
@@ -914,17 +964,17 @@ def _bounding_cylinder(part: Part) -> brep.TopoDS_Shape | None:
 
 def contact(a: Part, b: Part) -> str:
     """How two solids touch: "face", "line" (or in a point), or "" where they do not."""
-    if brep.distance(a.shape, b.shape) > TOUCHING:
-        return ""
-    near_a = [f for f in a.faces if brep.boxes_meet(f.box - [[TOUCHING] * 3, [-TOUCHING] * 3], b.box)]
-    near_b = [f for f in b.faces if brep.boxes_meet(f.box - [[TOUCHING] * 3, [-TOUCHING] * 3], a.box)]
+    gap = np.array([[-TOUCHING] * 3, [TOUCHING] * 3])
+    near_a = [face for face in a.faces if brep.boxes_meet(face.box + gap, b.box)]
+    near_b = [face for face in b.faces if brep.boxes_meet(face.box + gap, a.box)]
+    if not near_a or not near_b:
+        return "face" if _contains(a, b) else ""
     for one, other in itertools.product(near_a, near_b):
         if one.kind != other.kind or one.kind not in ("plane", "cylinder"):
             continue
         if not are_parallel(one.axis, other.axis, 1e-3):
             continue
-        gap = TOUCHING + 1e-3
-        if not brep.boxes_meet(one.box - [[gap] * 3, [-gap] * 3], other.box):
+        if not brep.boxes_meet(one.box + 2 * gap, other.box):
             continue
         away = other.at - one.at
         if one.kind == "plane":
@@ -938,8 +988,36 @@ def contact(a: Part, b: Part) -> str:
             off = float(np.linalg.norm(away - away @ one.axis * one.axis))
             if off < TOUCHING and abs(one.radius - other.radius) < 2 * TOUCHING:
                 return "face"
+    far = brep.distance(brep.compound(f.shape for f in near_a), brep.compound(f.shape for f in near_b))
+    if far > TOUCHING:
+        return "face" if _contains(a, b) else ""
+    return "face" if far < TOUCHING / 4 and _overlap(a, b) else "line"
+
+
+def _is_full(part: Part, group: Sequence[Face]) -> bool:
+    """Whether the faces of one cylinder go all around it."""
+    levels = np.concatenate([part.edges[k].ends for f in group for k in f.edges]) @ group[0].axis
+    return sum(f.area for f in group) > 0.9 * 2 * np.pi * group[0].radius * np.ptp(levels)
+
+
+def _contains(a: Part, b: Part) -> bool:
+    """Whether one of two solids whose surfaces do not meet lies in the other."""
+    return any(
+        one.edges and other.holds(one.edges[0].ends[0]) for one, other in ((a, b), (b, a))
+    )
+
+
+def _overlap(a: Part, b: Part) -> bool:
+    """Whether two solids have something of their inside in common."""
+    if any(
+        other.holds(place)
+        for one, other in ((a, b), (b, a))
+        for edge in one.edges
+        for place in (*edge.ends, edge.ends.mean(0))
+        if np.all(place > other.box[0]) and np.all(place < other.box[1])
+    ):
+        return True
     shape = BRepAlgoAPI_Common(a.shape, b.shape).Shape()
-    if shape is not None and not shape.IsNull():
-        if Part(shape).volume > 1e-6 * min(a.volume, b.volume):
-            return "face"
-    return "line"
+    if shape is None or shape.IsNull():
+        return False
+    return Part(shape).volume > 1e-6 * min(a.volume, b.volume)

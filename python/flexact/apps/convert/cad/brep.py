@@ -46,6 +46,7 @@ from OCP.TopAbs import (
     TopAbs_REVERSED,
     TopAbs_ShapeEnum,
     TopAbs_SOLID,
+    TopAbs_VERTEX,
 )
 from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
@@ -434,6 +435,22 @@ def split(shape: TopoDS_Shape, cuts: Sequence[TopoDS_Shape]) -> list[TopoDS_Shap
     if not splitter.IsDone():
         return [shape]
     return list(each(splitter.Shape(), TopAbs_SOLID)) or [shape]
+
+
+def split_face(shape: TopoDS_Shape, cuts: Sequence[TopoDS_Shape]) -> list[TopoDS_Shape]:
+    """The faces into which a plane face falls where others cross it."""
+    splitter = BRepAlgoAPI_Splitter()
+    splitter.SetArguments(listed([shape]))
+    splitter.SetTools(listed(cuts))
+    splitter.Build()
+    if not splitter.IsDone():
+        return [shape]
+    return list(each(splitter.Shape(), TopAbs_FACE)) or [shape]
+
+
+def corner(shape: TopoDS_Shape) -> FloatArray:
+    """Some vertex of a shape."""
+    return xyz(BRep_Tool.Pnt_s(TopoDS.Vertex(next(each(shape, TopAbs_VERTEX)))))
 
 
 def distance(a: TopoDS_Shape, b: TopoDS_Shape) -> float:

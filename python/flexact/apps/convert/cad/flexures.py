@@ -46,7 +46,8 @@ class Thin:
         outline: Of its mid plane (n, 3).
         radius: Of a notch, or of the fillets of a sheet.
         contour: See `Flexure`.
-        doubts: Why it may be meant otherwise.
+        doubts: What is odd in its shape.
+        why: Why it is taken as a flexure or as a body, where that is in doubt.
     """
 
     part: int
@@ -63,6 +64,7 @@ class Thin:
     radius: float = 0.0
     contour: str = ""
     doubts: list[str] = field(default_factory=list)
+    why: list[str] = field(default_factory=list)
 
     @property
     def length(self) -> float:
@@ -150,29 +152,62 @@ def _planes(part: Part) -> list[_Plane]:
     return found
 
 
-def walls(scene: Scene, row: int) -> list[Thin]:
-    """The walls of a solid that may be sheets or bars, the thinnest first."""
+@dataclass(eq=False)
+class Region:
+    """What two parallel planes of a solid have in common, seen along their normal.
+
+    Attributes:
+        part: Row of the solid.
+        face: In the middle between both.
+        planes: Both.
+        thickness: Their distance.
+        extent: Diagonal of its box.
+    """
+
+    part: int
+    face: TopoDS_Shape
+    planes: tuple[_Plane, _Plane]
+    thickness: float
+    extent: float
+
+
+def regions(scene: Scene, row: int) -> list[Region]:
+    """Where a solid may have walls."""
     part = scene.parts[row]
-    planes = _planes(part)
-    pairs = []
-    for a, b in itertools.combinations(planes, 2):
+    found = []
+    for a, b in itertools.combinations(_planes(part), 2):
         if float(a.normal @ b.normal) > -0.5 or not are_parallel(a.normal, b.normal):
             continue
         thickness = float((a.at - b.at) @ a.normal)
-        if thickness > NEAR and _overlap(a, b) >= LEAST_SLENDER * thickness:
-            pairs.append((thickness, a, b))
-    pairs.sort(key=lambda pair: pair[0])
-    found: list[Thin] = []
-    for thickness, a, b in pairs:
+        if thickness < NEAR or _overlap(a, b) < LEAST_SLENDER * thickness:
+            continue
         half = thickness / 2 * a.normal
         # Seen from far away a plane may be a little off; moved by its distance both are one.
         top = [brep.moved(part.faces[k].shape, -half) for k in a.rows]
         shift = float((a.at - half - b.at) @ a.normal)
         bottom = [brep.moved(part.faces[k].shape, shift * a.normal) for k in b.rows]
-        for region in brep.common(top, bottom):
-            if _extent(region) >= LEAST_SLENDER * thickness:
-                found += _walls_of(scene, row, region, thickness, a, b, found)
+        for face in brep.common(top, bottom):
+            extent = _extent(face)
+            if extent >= LEAST_SLENDER * thickness:
+                found.append(Region(row, face, (a, b), thickness, extent))
     return found
+
+
+def walls(scene: Scene, found: Sequence[Region]) -> list[Thin]:
+    """The walls in some regions that may be sheets or bars, the thinnest first.
+
+    Once slender ones are found, what is much thicker and not slender is not looked at.
+    """
+    made: list[Thin] = []
+    least = 0.0
+    for region in sorted(found, key=lambda each: each.thickness):
+        if least and region.thickness > 8 * least and region.extent < 40 * region.thickness:
+            continue
+        new = _walls_of(scene, region, [thin for thin in made if thin.part == region.part])
+        made += new
+        if not least and any(t.contour != "web" and t.length > 20 * t.thickness for t in new):
+            least = region.thickness
+    return made
 
 
 def _overlap(a: _Plane, b: _Plane) -> float:
@@ -189,28 +224,20 @@ def _extent(face: TopoDS_Shape) -> float:
     return float(np.linalg.norm(box[1] - box[0]))
 
 
-def _walls_of(
-    scene: Scene,
-    row: int,
-    region: TopoDS_Shape,
-    thickness: float,
-    a: _Plane,
-    b: _Plane,
-    before: Sequence[Thin],
-) -> list[Thin]:
-    """The walls in one region between two planes; those of thinner walls are passed over."""
+def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin]:
+    """The walls in one region; those of thinner walls are passed over."""
+    row, thickness, planes = region.part, region.thickness, region.planes
     part = scene.parts[row]
-    normal = a.normal
+    normal = planes[0].normal
     gap = min(0.02, 0.05 * thickness)
-    box = brep.box_of(region, thickness / 2 + 2 * gap)
+    box = brep.box_of(region.face, thickness / 2 + 2 * gap)
     others = scene.near(box, row)
     clamps: list[TopoDS_Shape] = []
     for side in (0.0, -1.0, 1.0) if others else ():
         shift = side * (thickness / 2 + gap) * normal
-        solids = [scene.shown(k).shape for k in others]
-        for clamp in brep.common([brep.moved(region, shift)], solids):
+        for clamp in _held(scene, brep.moved(region.face, shift), normal, others):
             clamps.append(brep.filled(brep.moved(clamp, -shift), _HOLES))
-    free = without([region], clamps) if clamps else [region]
+    free = without([region.face], clamps) if clamps else [region.face]
     found = []
     for face in free:
         if _extent(face) < LEAST_SLENDER * thickness or brep.area_of(face) < thickness**2:
@@ -231,12 +258,40 @@ def _walls_of(
 
         chains = outline.chains(goes_on, 0.05 * thickness, thickness / 2)
         if len(chains) == 2:
-            made = _wall(part, row, outline, chains, thickness, (a, b), is_held)
+            made = _wall(part, row, outline, chains, thickness, planes, is_held)
             if made is not None:
                 found.append(made)
         elif len(chains) > 2:
             found.append(_web(row, outline, thickness, len(chains)))
     return found
+
+
+def _held(
+    scene: Scene, face: TopoDS_Shape, normal: FloatArray, others: Sequence[int]
+) -> list[TopoDS_Shape]:
+    """What of a plane face lies in other solids."""
+    box = brep.box_of(face, NEAR)
+    at = brep.corner(face)
+    cuts = []
+    for row in others:
+        part = scene.shown(row)
+        for each in part.faces:
+            if not brep.boxes_meet(each.box, box):
+                continue
+            if each.kind == "plane":
+                levels = [(part.edges[k].ends - at) @ normal for k in each.edges]
+                straight = all(part.edges[k].kind == "line" for k in each.edges)
+                if are_parallel(each.axis, normal, 1e-6) or (
+                    straight and (np.min(levels) > NEAR or np.max(levels) < -NEAR)
+                ):
+                    continue
+            cuts.append(each.shape)
+    made = []
+    for piece in brep.split_face(face, cuts) if cuts else [face]:
+        inner = _Outline(brep.loops(piece), normal).samples(3)[0]
+        if scene.where(inner, others) is not None:
+            made.append(piece)
+    return made
 
 
 #: Of an outline: from, to, and whether it is straight.
@@ -470,7 +525,8 @@ def _wall(
         if not part.holds(outside):
             more, radius = _end_face(part, planes, m, out, width, thickness), 0.0
         elif is_held(outside):
-            more, radius = 0.0, 0.0
+            # Beyond a slanted end the solid goes on, and the other one is there already.
+            more, radius = _end_face(part, planes, m, out, width, thickness, slanted=True), 0.0
         else:
             more, radius = _to_the_body(part, planes, m, out, width, thickness, breadth)
         ends.append(m + more * out)
@@ -579,6 +635,7 @@ def _end_face(
     out: FloatArray,
     width: FloatArray,
     thickness: float,
+    slanted: bool = False,
 ) -> float:
     """How far an end that touches something is from where its end face meets the mid plane."""
     for plane in planes:
@@ -587,7 +644,9 @@ def _end_face(
                 edge = part.edges[k]
                 if edge.is_along(width) and abs((edge.ends[0] - middle) @ out) < thickness:
                     face = part.beyond(row, k)
-                    if face is not None and face.kind == "plane":
+                    if face is None or face.kind != "plane":
+                        continue
+                    if not slanted or 0.1 < abs(face.axis @ out) < 0.999:
                         return _meets(face, middle, out, 0.0, thickness)
     return 0.0
 
@@ -598,9 +657,17 @@ def _end_face(
 def wires(scene: Scene, row: int) -> list[Thin]:
     """The round wires of a solid."""
     part = scene.parts[row]
+    found = []
+    for group in rounds(part, convex=True):
+        found += _wires_of(scene, row, group)
+    return found
+
+
+def rounds(part: Part, *, convex: bool) -> list[list[Face]]:
+    """The cylindrical faces of a solid, those of one axis and radius together."""
     groups: list[list[Face]] = []
     for face in part.faces:
-        if face.kind != "cylinder" or not face.is_convex:
+        if face.kind != "cylinder" or face.is_convex != convex:
             continue
         for group in groups:
             if _coaxial(group[0], face) and abs(group[0].radius - face.radius) < NEAR:
@@ -608,10 +675,7 @@ def wires(scene: Scene, row: int) -> list[Thin]:
                 break
         else:
             groups.append([face])
-    found = []
-    for group in groups:
-        found += _wires_of(scene, row, group)
-    return found
+    return groups
 
 
 def _coaxial(a: Face, b: Face) -> bool:
@@ -714,7 +778,7 @@ def _free_wires(
                 )
                 if not fastened:
                     break
-                more = _fillet_round(part, place, axis, radius)
+                more = _filletrounds(part, place, axis, radius)
             made.append(place + sign * more * axis)
             radii.append(more)
         if len(made) < 2:
@@ -732,7 +796,7 @@ def _free_wires(
     return found
 
 
-def _fillet_round(part: Part, end: FloatArray, axis: FloatArray, radius: float) -> float:
+def _filletrounds(part: Part, end: FloatArray, axis: FloatArray, radius: float) -> float:
     """Radius of the fillet at the end of a round wire, or 0."""
     for face in part.faces:
         if face.kind == "torus" and not face.is_convex and are_parallel(face.axis, axis, 1e-3):
@@ -746,17 +810,30 @@ def _fillet_round(part: Part, end: FloatArray, axis: FloatArray, radius: float) 
 # Necks between two bores
 
 
+def _has_arc(group: Sequence[Face], centre: FloatArray, towards: FloatArray) -> bool:
+    """Whether a bore is there on both sides of a direction: where a fillet begins, it is not."""
+    along = np.cross(group[0].axis, towards)
+    places = [
+        centre + group[0].radius * (np.cos(turn) * towards + np.sin(turn) * along)
+        for turn in (-0.15, 0.15)
+    ]
+    return all(
+        any(brep.distance(brep.vertex(place), face.shape) < 1e-3 for face in group)
+        for place in places
+    )
+
+
 def necks(scene: Scene, row: int) -> list[Thin]:
     """The circular notches of a solid: what is left between two bores side by side."""
     part = scene.parts[row]
-    bores: list[tuple[int, Face, float, float]] = []
-    for k, face in enumerate(part.faces):
-        if face.kind == "cylinder" and not face.is_convex:
-            ends = np.concatenate([part.edges[e].ends for e in face.edges])
-            levels = ends @ face.axis
-            bores.append((k, face, float(levels.min()), float(levels.max())))
+    bores: list[tuple[list[Face], float, float]] = []
+    for group in rounds(part, convex=False):
+        ends = np.concatenate([part.edges[e].ends for face in group for e in face.edges])
+        levels = ends @ group[0].axis
+        bores.append((group, float(levels.min()), float(levels.max())))
     found: list[Thin] = []
-    for (_, a, low_a, high_a), (_, b, low_b, high_b) in itertools.combinations(bores, 2):
+    for (as_, low_a, high_a), (bs, low_b, high_b) in itertools.combinations(bores, 2):
+        a, b = as_[0], bs[0]
         if not are_parallel(a.axis, b.axis):
             continue
         away = b.at - a.at
@@ -780,21 +857,16 @@ def necks(scene: Scene, row: int) -> list[Thin]:
         open_ = not part.holds(faces[0] - 0.05 * neck * normal) and not part.holds(
             faces[1] + 0.05 * neck * normal
         )
-        on = all(
-            brep.distance(brep.vertex(place), face.shape) < 1e-3
-            for place, face in zip(faces, (a, b), strict=True)
-        )
-        # A fillet beside another one begins there: a notch is curved on both sides of the neck.
-        for side, face, sign in ((0, a, 1.0), (1, b, -1.0)):
-            for turn in (-0.15, 0.15):
-                along = np.cross(face.axis, sign * normal)
-                centre = faces[side] - sign * face.radius * normal
-                place = centre + face.radius * (
-                    np.cos(turn) * sign * normal + np.sin(turn) * along
-                )
-                on = on and brep.distance(brep.vertex(place), face.shape) < 1e-3
-        if not (inside and open_ and on) or any(
+        if not (inside and open_) or any(
             np.linalg.norm(each.middle - middle) < NEAR for each in found
+        ):
+            continue
+        if not all(
+            _has_arc(group, on_axis_, sign * normal)
+            for group, on_axis_, sign in (
+                (as_, on_axis, 1.0),
+                (bs, faces[1] + b.radius * normal, -1.0),
+            )
         ):
             continue
         axis = np.cross(a.axis, normal)

@@ -13,9 +13,11 @@ from ....core.arrays import FloatArray
 from ....deck.diagnostics import Diagnostic, Severity
 from ....model.handles import Node
 from ....model.model import Model
+from ....model.names import one_line
 from ....util.errors import BatchError
-from ....util.text import wrapped
-from .assembly import Assembly, Choices, Flexure, Kind
+from ....util.loading import load
+from ....util.text import harmless, wrapped
+from .assembly import Assembly, Body, Choices, Flexure, Kind
 from .reader import recognised
 
 #: Codes of diagnostics: what the verdict depends on, and what else is worth knowing.
@@ -43,6 +45,17 @@ class CadMechanism:
     def describe(self) -> str:
         """What was recognised, and then what is in doubt, in words."""
         return described(self.assembly)
+
+    def verdict(self) -> str:
+        """The analysis of the model, in words.
+
+        Raises:
+            AnalysisError: it could not be analysed.
+        """
+        # The doubts are told already.
+        plain = Model.from_data(replace(self.model.data, besides=()))
+        words: str = load("flexact.api").analyse(plain).describe()
+        return words
 
 
 def mechanism_of(
@@ -83,8 +96,9 @@ def model_of_assembly(assembly: Assembly) -> Model:
         if body.is_ground:
             model.fix(*points.of(body.name))
         else:
-            centre = model.node(*_mm(body.centre), name=f"{body.name} centre")
-            inertia = [1e6 * float(value) for value in body.inertia]
+            centre = model.node(*_mm(body.centre))
+            least = 1e-12 * np.abs(body.inertia).max()
+            inertia = [1e6 * float(v) if abs(v) > least else 0.0 for v in body.inertia]
             carried = [centre, *points.of(body.name)]
             model.body(carried, name=body.name, mass=body.mass, inertia=inertia)
     for body_name, names in assembly.declared:
@@ -104,22 +118,25 @@ class _Points:
         """None yet."""
         self._model = model
         self._bodies = {body.name for body in assembly.bodies}
-        self._grounds = {body.name for body in assembly.bodies if body.is_ground}
         self._made: dict[str, list[tuple[FloatArray, Node]]] = {}
+
+    def is_fold(self, carrier: str) -> bool:
+        """Whether that is a fold of two flexures, and no body."""
+        return carrier not in self._bodies
 
     def of(self, name: str) -> list[Node]:
         """Those of a body."""
         return [node for _, node in self._made.get(name, [])]
 
-    def at(self, carrier: str, place: FloatArray, flexure: str) -> Node:
+    def at(self, carrier: str, place: FloatArray) -> Node:
         """The point of a body, or of a fold, at a place [m]; a new one where there is none."""
         made = self._made.setdefault(carrier, [])
         for where, node in made:
             # A fold is one point, whatever place its leaves give it.
             if carrier not in self._bodies or np.abs(where - 1e3 * place).max() < _SAME:
                 return node
-        name = carrier if carrier not in self._bodies else f"{carrier} at {flexure}"
-        node = self._model.node(*_mm(place), name=name)
+        # Points of bodies and clamps are called by what they belong to.
+        node = self._model.node(*_mm(place), name="" if carrier in self._bodies else carrier)
         made.append((1e3 * place, node))
         return node
 
@@ -143,8 +160,8 @@ def _add(
 ) -> None:
     """Give a model one flexure."""
     name = flexure.name
-    p = points.at(flexure.between[0], flexure.p, name)
-    q = points.at(flexure.between[1], flexure.q, name)
+    p = points.at(flexure.between[0], flexure.p)
+    q = points.at(flexure.between[1], flexure.q)
     width = _direction(flexure.width)
     thickness, breadth = _length(flexure.thickness), _length(flexure.breadth)
     fillet = _length(flexure.radius) or None
@@ -166,7 +183,7 @@ def _add(
         if flexure.between[0] in middles:
             # How the middle of a reinforced sheet moves while both ends stand still.
             model.independent(name, "twist", "out-of-plane bending")
-        elif flexure.between[1] not in middles and _is_fold(flexure.between[1], points):
+        elif points.is_fold(flexure.between[1]):
             model.independent(name, "out-of-plane bending", at=q)
     else:
         ends = [p]
@@ -181,11 +198,6 @@ def _add(
             )
             if b is not q:
                 model.independent(leaf, "out-of-plane bending", at=b)
-
-
-def _is_fold(name: str, points: _Points) -> bool:
-    """Whether a flexure ends at a fold and not at a body."""
-    return name not in points._bodies
 
 
 def _no_flexures(assembly: Assembly) -> str:
@@ -207,10 +219,12 @@ def described(assembly: Assembly, width: int = 100) -> str:
     first = min(max((len(name) for name, _ in rows), default=0), 32)
     lines = [_head(assembly)]
     for name, words in rows:
-        lines.append(wrapped(f"{name:<{first}}  {words}", width, " " * (first + 2)))
+        row = harmless(f"{name:<{first}}  {words}")
+        lines.append(wrapped(row, width, " " * (first + 2)))
     if assembly.doubts:
         lines += ["", "In doubt, and the verdict depends on it:"]
-        lines += [wrapped(f"  - {words}", width, "    ") for words in assembly.doubts]
+        lines += [wrapped(harmless(f"  - {words}"), width, "    ") for words in assembly.doubts]
+    lines += ["", *(wrapped(harmless(f"Note: {words}."), width, "  ") for words in assembly.remarks)]
     return "\n".join(lines)
 
 
@@ -226,13 +240,12 @@ def _many(count: int, one: str, several: str = "") -> str:
     return f"{count} {one if count == 1 else several or one + 's'}"
 
 
-def _body_words(body: object, assembly: Assembly) -> str:
-    from .assembly import Body
-
-    assert isinstance(body, Body)
+def _body_words(body: Body, assembly: Assembly) -> str:
     what = "ground" if body.is_ground else "stiff middle" if body.is_middle else "body"
     size = f"{body.mass:.3g} kg"
-    names = [assembly.solids[k].name for k in body.solids if not assembly.solids[k].is_purchased]
+    cut = {flexure.solid for flexure in assembly.flexures}
+    whole = (k for k in body.solids if k not in cut and not assembly.solids[k].is_purchased)
+    names = [assembly.solids[k].name for k in whole]
     others = [name for name in names if name and name != body.name]
     more = f", with {', '.join(others[:4])}" if others else ""
     left = f" and {len(others) - 4} more" if len(others) > 4 else ""
@@ -254,6 +267,7 @@ def _flexure_words(flexure: Flexure) -> str:
     return f"{what}, {where}"
 
 
-def doubts_of(diagnostics: Iterable[Diagnostic]) -> list[str]:
-    """What was in doubt when a STEP file became a model."""
-    return [each.message for each in diagnostics if each.code == DOUBT]
+def doubts_in_comments(diagnostics: Iterable[Diagnostic]) -> list[str]:
+    """What was in doubt when a STEP file became a model, to stand at the top of its deck."""
+    doubts = [one_line(each.message) for each in diagnostics if each.code == DOUBT]
+    return [f"in doubt: {words}" for words in doubts]
