@@ -164,11 +164,6 @@ def groups_of(parts: CadParts, name: str, beside: Path) -> Iterator[Json]:
     title = f"Kept in {harmless(choices_beside(beside).name)}"
     flexure = _flexure_called(parts.now, name)
     body = next((each for each in parts.now.bodies if each.name == name), None)
-    if body is None:
-        # Points of a body are called "base at sheet 1".
-        body = next(
-            (each for each in parts.now.bodies if name.startswith(f"{each.name} at ")), None
-        )
     if flexure is not None:
         yield {"title": title, "rows": [_row_of_flexure(parts, flexure)]}
     elif body is not None:

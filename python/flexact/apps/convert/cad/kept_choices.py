@@ -30,7 +30,7 @@ from ....util.loading import load
 from ....util.outputs import write_together
 from ....util.text import harmless, in_short
 from .assembly import Assembly, Body, Choices, Flexure, Kind
-from .mechanism import CadMechanism, model_of_assembly
+from .mechanism import CadMechanism, mechanism_of, model_of_assembly
 from .reader import recognised
 
 #: What a part may be taken as.
@@ -419,13 +419,17 @@ def mechanism_as_said(
         known: Gives the file as it is read without choices, with its pieces.
 
     Returns:
-        The mechanism, and the assembly without choices.
+        The mechanism, and the assembly without choices; without pieces where nothing is kept and
+        the file is not known.
 
     Raises:
         BatchError: As of `mechanism_of` and `read_choices`.
         ModelError: What was found makes no model.
     """
     kept = read_choices(step)
+    if known is None and kept == Kept():
+        mechanism = mechanism_of(step, given, drawing=False)
+        return mechanism, mechanism.assembly
     plain = known() if known else recognised(step)
     said, told = choices_for(kept, plain)
     choices = Choices(
@@ -434,5 +438,8 @@ def mechanism_as_said(
         given.material or said.material,
     )
     assembly = plain if choices == Choices() else recognised(step, choices)
-    assembly = replace(assembly, doubts=(*told, *assembly.doubts))
+    remarks = assembly.remarks
+    if kept != Kept():
+        remarks = (f"what {choices_beside(step).name} says of parts is taken", *remarks)
+    assembly = replace(assembly, doubts=(*told, *assembly.doubts), remarks=remarks)
     return CadMechanism(assembly, model_of_assembly(assembly), choices), plain
