@@ -170,7 +170,7 @@ def long_name(path: Path, size: int) -> None:
     path.write_text(good_text().replace("'stage'", f"'{'stage' * (size // 5)}'"), "latin-1")
 
 
-@hostile("chain of references")
+@hostile("chain of references", borderline=True)
 def chain(path: Path, size: int) -> None:
     """Each surface is an offset of the next one."""
     data = [f"#{k}=OFFSET_SURFACE('',#{k + 1},1.,.F.);\n" for k in range(20, 20 + size)]

@@ -498,6 +498,9 @@ class Session:
         edits, made = self.history.now, {"lines": [], "calls": [], "copy": "", "note": ""}
         if not edits:
             return made
+        if self._file is not None and self._file.cad is not None:
+            note = "A STEP file does not hold these changes: save them as a new deck."
+            return {**made, "note": note}
         if self.board.given.source is None:
             calls = self.boards.calls(edits, self.model_name)
             return {**made, "calls": calls, "copy": "\n".join(calls)}

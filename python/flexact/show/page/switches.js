@@ -316,6 +316,9 @@ const Switches = (() => {
       const count = edits.length;
       this.part("count").textContent = count === 1 ? "1 change" : `${count} changes`;
       this.part("how").textContent = is === "deck" ? "In the deck" : "In Python";
+      // Of CAD there are neither lines nor calls.
+      const none = !(lines || []).length && !(calls || []).length;
+      for (const name of ["how", "lines", "copy"]) this.part(name).hidden = none;
       this.part("lines").replaceChildren(...(lines || []).flatMap(lineOf),
         ...(calls || []).map((call) => element("div", call, "plus")));
       this.part("note").textContent = note || "";
@@ -432,7 +435,7 @@ const Switches = (() => {
       box.setAttribute("aria-label", "To copy");
       box.dataset.key = "to copy";
       const copy = button("Copy", () => this.copy());
-      copy.dataset.key = "copy";
+      copy.dataset.key = copy.dataset.part = "copy";
       const form = element("form", "", "save");
       const label = element("label", "Save as a new deck ");
       const name = part("input", "name");

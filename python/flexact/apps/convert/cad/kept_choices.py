@@ -275,14 +275,15 @@ def said_of(assembly: Assembly, of: Flexure | Body, plain: Assembly) -> Said:
     kind = (plain.flexures, plain.candidates) if isinstance(of, Flexure) else (plain.bodies,)
     things = [_thing(plain, each) for group in kind for each in group]
     same = (each for each in things if _is_alike(each, thing.shape) and _is_at(each, thing.at))
-    thing = next(same, thing)
+    whole = (each for each in things if _is_leaf(thing, each))
+    thing = next(same, None) or next(whole, thing)
     return Said(thing.names[0], at=tuple(thing.at.tolist()), shape=tuple(thing.shape.tolist()))
 
 
 def _thing(assembly: Assembly, of: Flexure | Body) -> _Thing:
     if isinstance(of, Flexure):
         sizes = np.array([of.length, of.breadth, of.thickness]) * _MM
-        return _Thing(of, names_of_flexure(assembly, of), _in_flexure(of) * _MM, sizes)
+        return _Thing(of, names_of_flexure(assembly, of), _leaves(of)[0] * _MM, sizes)
     xx, xy, xz, yy, yz, zz = of.inertia
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     radii = np.sqrt(np.clip(np.linalg.eigvalsh(tensor), 0.0, None) / max(of.mass, 1e-30))
@@ -314,11 +315,19 @@ def _solid_names(assembly: Assembly, row: int) -> tuple[str, ...]:
     return tuple(dict.fromkeys(("/".join((*solid.path, solid.name)), solid.name)))
 
 
-def _in_flexure(of: Flexure) -> FloatArray:
-    """A place in the material of a flexure [m]: in the middle, of a bent one in its first leaf."""
-    ends = of.corners[:2] if of.kind is Kind.BENT else np.stack((of.p, of.q))
-    made: FloatArray = np.asarray(ends.mean(axis=0))
-    return made
+def _leaves(of: Flexure) -> FloatArray:
+    """Places in the material of a flexure (n, 3) [m]: its middle, of a bent one those of leaves."""
+    ends = of.corners if of.kind is Kind.BENT else np.stack((of.p, of.q))
+    return np.asarray((ends[:-1] + ends[1:]) / 2.0)
+
+
+def _is_leaf(thing: _Thing, whole: _Thing) -> bool:
+    """Whether a thin part is a leaf of a bent sheet, which is said of as a whole."""
+    if not isinstance(whole.of, Flexure) or whole.of.kind is not Kind.BENT:
+        return False
+    away = np.linalg.norm(_leaves(whole.of) * _MM - thing.at, axis=1).min()
+    same = thing.shape.size == 3 and np.allclose(thing.shape[1:], whole.shape[1:], rtol=_ALIKE)
+    return same and float(away) < 0.1 * whole.shape[0]
 
 
 def _is_alike(thing: _Thing, shape: FloatArray) -> bool:
@@ -371,9 +380,9 @@ def choices_for(kept: Kept, plain: Assembly) -> tuple[Choices, tuple[str, ...]]:
                 f"{in_short(thing.names[0])}, which has its shape"
             )
         if said.taken_as:
-            found[said.taken_as].append(_reference(plain, thing))
+            found[said.taken_as] += _references(plain, thing)
         if said.declared:
-            declared.append((_reference(plain, thing), said.declared))
+            declared.append((_references(plain, thing)[0], said.declared))
     ground, flexible, rigid = (tuple(found[each]) for each in TAKEN_AS)
     return Choices(ground, flexible, rigid, tuple(declared), kept.material), tuple(told)
 
@@ -392,17 +401,16 @@ def _found(said: Said, things: list[_Thing]) -> _Thing | None:
     return None
 
 
-def _reference(assembly: Assembly, thing: _Thing) -> str | Place:
-    """The part as choices name it: a whole solid by its name, else a place in it."""
+def _references(assembly: Assembly, thing: _Thing) -> list[str | Place]:
+    """The part as choices name it: a whole solid by its name, else by places in it."""
     if isinstance(thing.of, Flexure):
-        x, y, z = _in_flexure(thing.of).tolist()
-        return x, y, z
+        return [(x, y, z) for x, y, z in _leaves(thing.of).tolist()]
     first = thing.of.solids[0]
     name, owners = assembly.solids[first].name, set()
     for piece in assembly.pieces:
         if piece.solid == first:
             owners.add(piece.owner)
-    return name if name and owners == {thing.of.name} else _inside(assembly, thing.of)
+    return [name if name and owners == {thing.of.name} else _inside(assembly, thing.of)]
 
 
 # With them
