@@ -17,11 +17,14 @@ import pytest
 pytest.importorskip("OCP")
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
+from browser import Browser
 from cad import shapes
 from cad.designs import CASES, without_names
+from test_watched_edits import Page as EditedPage
+from watched import until, watching
 
 from flexact.apps.convert.cad.kept_choices import names_of_flexure
-from flexact.apps.watch import watch as watching
+from flexact.apps.watch import watch as watch_module
 from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.scene import Broken, Shown
 from flexact.apps.watch.watch import Saved
@@ -199,7 +202,7 @@ def test_switches_are_there_as_of_a_deck(page: Page) -> None:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[float]]:
     now = [0.0]
-    monkeypatch.setattr(watching.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(watch_module.time, "monotonic", lambda: now[0])
     yield now
 
 
@@ -221,5 +224,40 @@ def test_what_is_half_written_is_waited_for(tmp_path: Path, clock: list[float]) 
     # One that stays so is told of in the end.
     path.write_text(text[: len(text) // 2])
     saved.is_renewed()
-    clock[0] += watching.WRITING + 1.0
+    clock[0] += watch_module.WRITING + 1.0
     assert saved.is_renewed()
+
+
+def test_a_solid_is_clicked_and_the_page_follows(browser: Browser, tmp_path: Path) -> None:
+    """In the drawing, on a face of the base, which is no part of the model; then a new export."""
+    path = tmp_path / "guide.step"
+    CASES["guide"]().write(path)
+    with watching(path, tmp_path / "state", "--no-browser") as watched:
+        until(lambda: len(watched.out) > 1)
+        page = EditedPage(browser, watched)
+        x, y = browser.run(
+            "const {bodies, stage, pointing} = flexact, {left, top} ="
+            " stage.canvas.getBoundingClientRect();"
+            "for (let at = 0; at < bodies.corner.array.length; at += 9) {"
+            "const middle = [0, 1, 2].map((k) => [0, 3, 6].reduce((sum, i) =>"
+            "sum + bodies.corner.array[at + i + k] / 3, 0));"
+            "const [px, py] = stage.project(...middle), found = pointing.look(px, py);"
+            "if (found && found.kind === 'body' && bodies.data.bodies.names[found.row] === 'base')"
+            "return [left + px, top + py]; }"
+        )
+        page.press(x, y)
+        page.sees("card", "stands still")
+        page.find("stage")
+        page.sees("card", "stage as a whole")
+        page.click("stage x declared")
+        page.sees("said", "Kept in guide.flexact.toml")
+        until(lambda: "over-constrained by 1" in page.text("verdict"))
+        page.sees("card", "was free")
+        # What is not opaque lets what is behind it be seen.
+        assert browser.run("return PageData.array(flexact.data.bodies.opacity).every((o) => o < 1)")
+        lines = len(watched.out)
+        CASES["cross hinge of two"]().write(path)
+        until(lambda: len(watched.out) > lines)
+        # The stage of the new export has the name, and its motion is declared there.
+        until(lambda: "4 solids" in str(browser.run("return document.body.innerText")))
+        assert not [each for each in browser.console() if "SEVERE" in each and "422" not in each]

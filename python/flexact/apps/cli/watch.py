@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact watch``: the page of a deck or a script, renewed whenever it is saved."""
+"""``flexact watch``: the page of a deck, a script or a STEP file, renewed whenever it is saved."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Watches a deck or a script: whenever it is saved, what it gives is shown anew."""
+"""Watches a deck, a script or a STEP file: whenever it is saved, what it gives is shown anew."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ class Watch:
         """Start the server; nothing is analysed yet.
 
         Args:
-            path: The deck, or the script (.py).
+            path: The deck, the script (.py), or the STEP file (.step, .stp).
             renewed: Called with what a save has changed, and the answer.
             printed: Called with what a script prints.
             port: The port; by default a free one.
