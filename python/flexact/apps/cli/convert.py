@@ -14,7 +14,8 @@ from ...util.errors import BatchError, FlexactError
 from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
 from ..convert.cad.assembly import Choices
-from ..convert.cad.mechanism import CadMechanism, mechanism_of
+from ..convert.cad.kept_choices import mechanism_as_said
+from ..convert.cad.mechanism import CadMechanism
 from ..convert.files import (
     CAD,
     DECK,
@@ -112,7 +113,7 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     found: CadMechanism | None = None
     try:
         if given is CAD:
-            found = mechanism_of(chosen.file, **options, drawing=False)
+            found, _ = mechanism_as_said(chosen.file, options.get("choices", Choices()))
             model = found.model
         elif source.content is None:
             model = read_any(chosen.file, **options)

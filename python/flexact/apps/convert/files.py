@@ -18,7 +18,8 @@ from ...model.reading import read, read_text
 from ...util.decks import SUFFIX
 from ...util.errors import BatchError, reason_of
 from .cad.assembly import Choices
-from .cad.mechanism import doubts_in_comments, mechanism_of
+from .cad.kept_choices import mechanism_as_said
+from .cad.mechanism import doubts_in_comments
 from .cad.reader import SUFFIXES
 from .mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh, read_mesh, suffixes
 from .table_input import TablesError, Text
@@ -324,7 +325,8 @@ def read_any(
         flexible: Of tables, see `flexact.apps.convert.tables.model_of`.
         kind: Of meshes, see `flexact.apps.convert.mesh_files.model_of_mesh`.
         fixed: Likewise.
-        choices: Of STEP files, see `flexact.apps.convert.cad.mechanism.mechanism_of`.
+        choices: Of STEP files, in the place of what is kept beside them, see
+            `flexact.apps.convert.cad.kept_choices.mechanism_as_said`.
 
     Raises:
         FlexactError: anything is wrong with the file; all of it, each with its place.
@@ -333,7 +335,7 @@ def read_any(
     if form is DECK:
         return read(path)
     if form is CAD:
-        return mechanism_of(path, choices, drawing=False).model
+        return mechanism_as_said(path, choices or Choices())[0].model
     if form is MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
     try:

@@ -212,13 +212,8 @@ class _Recognition:
         return self._assembly(drawing)
 
     def _is_chosen(self, row: int, chosen: Sequence[object]) -> bool:
-        part = self.parts[row]
-        return any(
-            choice == part.name
-            if isinstance(choice, str)
-            else part.holds(1000.0 * np.asarray(choice, float), edge=True)
-            for choice in chosen
-        )
+        # A place means the thin part that is there: see `_says`.
+        return self.parts[row].name in chosen
 
     def _apart(self, found: list[Thin]) -> list[Thin]:
         """Of thin parts that are the same material, the thinnest."""

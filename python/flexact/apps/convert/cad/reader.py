@@ -48,7 +48,7 @@ def recognised(
         BatchError: it cannot be read, is no STEP file, holds no solids, or takes too much; or
             OpenCASCADE is missing, or a choice names what is not there.
     """
-    _require_step(path)
+    require_step(path)
     if find_spec("OCP") is None:
         raise BatchError(
             "STEP files need OpenCASCADE: pip install flexact[cad], which brings cadquery-ocp-novtk"
@@ -78,7 +78,7 @@ def recognised(
     return made
 
 
-def _require_step(path: Path) -> None:
+def require_step(path: Path) -> None:
     """Raise unless a file begins as STEP files do.
 
     Raises:
