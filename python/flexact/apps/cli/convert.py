@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact convert``: decks, tables in the style of SPACAR Light, and meshes of lines."""
+"""``flexact convert``: decks, tables in the style of SPACAR Light, meshes of lines, STEP files."""
 
 from __future__ import annotations
 
@@ -7,12 +7,17 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ...model.sections import MATERIALS
 from ...deck.rendering import ProblemsError, render
 from ...util.decks import STDIN, DeckFile, find_decks
 from ...util.errors import BatchError, FlexactError
 from ...util.outputs import STDOUT, plan_file
 from ...util.text import harmless
+from ..convert.cad.assembly import Choices
+from ..convert.cad.kept_choices import mechanism_as_said
+from ..convert.cad.mechanism import CadMechanism
 from ..convert.files import (
+    CAD,
     DECK,
     MESH,
     TABLES,
@@ -54,7 +59,10 @@ def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
         BatchError: an option is for files of another format.
     """
     made: dict[str, Any] = {}
+    choices = Choices(ground=tuple(chosen.ground), material=chosen.material or "")
     for option, name, value, wanted in (
+        ("--ground", "choices", choices if chosen.ground else None, CAD),
+        ("--material", "choices", choices if chosen.material else None, CAD),
         ("--as", "kind", chosen.kind, MESH),
         ("--fix", "fixed", chosen.fix or None, MESH),
         ("--flexible", "flexible", chosen.flexible, TABLES),
@@ -62,7 +70,7 @@ def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
         if value is None:
             continue
         if form is not wanted:
-            kind = {MESH: "a mesh", TABLES: "tables"}[wanted]
+            kind = {MESH: "a mesh", TABLES: "tables", CAD: "a STEP file"}[wanted]
             raise BatchError(f"{option} is for {kind}, and {chosen.file} is none")
         made[name] = value
     return made
@@ -102,8 +110,12 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     options = _options(chosen, given)
     if target != STDOUT:
         plan_file(source, target)
+    found: CadMechanism | None = None
     try:
-        if source.content is None:
+        if given is CAD:
+            found, _ = mechanism_as_said(chosen.file, options.get("choices", Choices()))
+            model = found.model
+        elif source.content is None:
             model = read_any(chosen.file, **options)
         else:
             model = read_content(source.content, source.name, **options)
@@ -113,7 +125,11 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
         content, notes = bytes_of(model, named)
     except FlexactError as error:
         return _failed(error, ExitCode.OTHER)
-    report_problems(model.data)
+    tell = complain if target == STDOUT else say
+    if found is None:
+        report_problems(model.data)
+    else:
+        tell(found.describe())
     name = "<stdout>" if target == STDOUT else harmless(str(target))
     for note in notes:
         complain(render(note, name))
@@ -122,7 +138,9 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     elements, nodes = a.element_number.size, a.node_number.size
     size = f"{elements} element{'s' * (elements != 1)}, {nodes} node{'s' * (nodes != 1)}"
     text = f"{harmless(source.path)}: written to {name}, {size}"
-    complain(text) if target == STDOUT else say(text)
+    tell(text)
+    if found is not None:
+        tell("\n" + found.verdict())
     return ExitCode.ANALYSED
 
 
@@ -130,9 +148,10 @@ VERB = Verb(
     run=convert_file,
     description=(
         "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
-        "tables of flexures (.csv, .xlsx), and meshes of lines (.vtu, .vtk, .msh, ...); the "
-        "suffixes say which. What comes by - from stdin is tables if it begins with a brace, else "
-        "a deck; to stdout goes a deck, or of a deck its tables as JSON."
+        "tables of flexures (.csv, .xlsx), meshes of lines (.vtu, .vtk, .msh, ...), and from STEP "
+        "files, whose flexures and bodies are recognised and whose verdict is told; the suffixes "
+        "say which. What comes by - from stdin is tables if it begins with a brace, else a deck; "
+        "to stdout goes a deck, or of a deck its tables as JSON."
     ),
     examples=(
         (
@@ -163,6 +182,19 @@ VERB = Verb(
             default=(),
             metavar="POINTS",
             help="points of a mesh that are fixed, from 1, such as 1,4-6",
+        ),
+        argument(
+            "--ground",
+            action="append",
+            default=[],
+            metavar="NAME",
+            help="of a STEP file a solid that stands still; may be repeated (default: by name)",
+        ),
+        argument(
+            "--material",
+            choices=tuple(MATERIALS),
+            metavar="NAME",
+            help="of what solids of a STEP file are made that says it not (default: steel)",
         ),
         argument(
             "--flexible",

@@ -33,7 +33,7 @@ VERBS = {
     "export": "a deck's mechanism with its modes as a mesh, for ParaView",
     "trace": "the path of a motion, both ways, with its dead points",
     "view": "a deck's page in the browser",
-    "watch": "the page of a deck or a script in the browser, renewed whenever it is saved",
+    "watch": "the page of a deck, script or STEP file in the browser, renewed at each save",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
     "spacarlight": "verdict and results of a script for SPACAR Light, for MATLAB and Octave",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact watch``: the page of a deck or a script, renewed whenever it is saved."""
+"""``flexact watch``: the page of a deck, a script or a STEP file, renewed whenever it is saved."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from ...util.decks import STDIN, DeckFile, FolderError
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.text import harmless
+from ..convert.cad.reader import require_step
+from ..watch.cad import is_step
 from ..watch.scene import SCRIPT, Answer, Broken
 from ..watch.watch import Watch
 from .decks import ACCURACY, DECISION, report
@@ -40,14 +42,17 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
     path = chosen.deck
     if path == STDIN:
         raise BatchError("what comes from stdin is not saved anew; name a file to watch")
-    is_script = path.lower().endswith(SCRIPT)
-    deck = DeckFile(path, Path(path)) if is_script else one_deck(chosen)
+    is_own = path.lower().endswith(SCRIPT) or is_step(path)
+    deck = DeckFile(path, Path(path)) if is_own else one_deck(chosen)
     path = deck.path
     try:
         if deck.error is not None:
             raise deck.error
         # What cannot be read now is more likely to be a slip than a deck to come.
-        file_bytes(path)
+        if is_step(path):
+            require_step(Path(path))
+        else:
+            file_bytes(path)
     except (DeckError, FolderError) as error:
         return report(deck, error, as_json=False).code
     name = harmless(path)
@@ -80,18 +85,21 @@ def harmless_lines(text: str) -> str:
 VERB = Verb(
     run=watch,
     description=(
-        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
-        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
+        "Serve the page of a deck, of what a Python script shows, or of the mechanism in a STEP "
+        "file, to the browser of this machine, and renew it whenever the file is saved. Ctrl-C "
+        "ends it."
     ),
     examples=(
         ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
+        ("CAD, with what is said of its parts", "flexact watch guide.step"),
         ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
     ),
     arguments=(
         argument(
             "deck",
             metavar="FILE",
-            help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
+            help="a deck, a script (*.py): its last .show(), else its last model or analysis, or "
+            "a STEP file (*.step, *.stp)",
         ),
         argument("--port", type=port, metavar="N", help="the port of this machine (a free one)"),
         NO_BROWSER,

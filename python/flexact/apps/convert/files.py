@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models from and to files: decks, meshes, and tables as JSON or YAML; the suffix says which."""
+"""Models from and to files: decks, meshes, tables, STEP; the suffix says which."""
 
 from __future__ import annotations
 
@@ -17,6 +17,10 @@ from ...model.model import Model
 from ...model.reading import read, read_text
 from ...util.decks import SUFFIX
 from ...util.errors import BatchError, reason_of
+from .cad.assembly import Choices
+from .cad.kept_choices import mechanism_as_said
+from .cad.mechanism import doubts_in_comments
+from .cad.reader import SUFFIXES
 from .flexure_table import SUFFIXES as FLEXURE_SUFFIXES
 from .flexure_table import bytes_of_flexures, model_of_flexures
 from .mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh, read_mesh, suffixes
@@ -281,7 +285,7 @@ _PIECE = 2**20
 
 
 #: What a file holds.
-DECK, TABLES, MESH, FLEXURES = "deck", "tables", "mesh", "flexures"
+DECK, TABLES, MESH, FLEXURES, CAD = "deck", "tables", "mesh", "flexures", "CAD"
 
 
 def format_of(path: Path) -> str:
@@ -297,19 +301,26 @@ def format_of(path: Path) -> str:
         return TABLES
     if suffix in FLEXURE_SUFFIXES:
         return FLEXURES
+    if suffix in SUFFIXES:
+        return CAD
     try:
         if suffix in suffixes():
             return MESH
     except MeshError as error:
         raise BatchError(f"{path}: {error}") from error
     raise BatchError(
-        f"the suffix of {path} says no format: decks are .dat, tables .json or .yaml, "
-        "tables of flexures .csv or .xlsx, meshes .vtu, .vtk, .msh and others that meshio knows"
+        f"the suffix of {path} says no format: decks are .dat, tables .json or .yaml, tables of "
+        "flexures .csv or .xlsx, CAD .step, meshes .vtu, .vtk, .msh and others that meshio knows"
     )
 
 
 def read_any(
-    path: Path, *, flexible: str | None = None, kind: str = "beam", fixed: Iterable[int] = ()
+    path: Path,
+    *,
+    flexible: str | None = None,
+    kind: str = "beam",
+    fixed: Iterable[int] = (),
+    choices: Choices | None = None,
 ) -> Model:
     """The model in a file; what it does not hold stands in `Model.diagnostics`.
 
@@ -318,6 +329,8 @@ def read_any(
         flexible: Of tables, see `flexact.apps.convert.tables.model_of`.
         kind: Of meshes, see `flexact.apps.convert.mesh_files.model_of_mesh`.
         fixed: Likewise.
+        choices: Of STEP files, in the place of what is kept beside them, see
+            `flexact.apps.convert.cad.kept_choices.mechanism_as_said`.
 
     Raises:
         FlexactError: anything is wrong with the file; all of it, each with its place.
@@ -325,6 +338,8 @@ def read_any(
     form = format_of(path)
     if form is DECK:
         return read(path)
+    if form is CAD:
+        return mechanism_as_said(path, choices or Choices())[0].model
     if form is MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
     if form is FLEXURES:
@@ -390,7 +405,10 @@ def bytes_of(model: Model, path: Path) -> tuple[bytes, tuple[Diagnostic, ...]]:
     """
     form = format_of(path)
     if form is DECK:
-        return model.to_deck().encode("utf-8"), ()
+        doubts = "".join(f"% {words}\n" for words in doubts_in_comments(model.diagnostics))
+        return (doubts + model.to_deck()).encode("utf-8"), ()
+    if form is CAD:
+        raise BatchError(f"{path}: STEP files are written by flexact export")
     if form is TABLES:
         remarks: list[Diagnostic] = []
         made = text_of(tables_of(model, remarks), path.suffix.lower())

@@ -22,6 +22,8 @@ from ...show.page.content import STEPS, kind_of
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import why
 from ...util.text import harmless
+from ..convert.cad.kept_choices import choices_beside
+from .cad import choose, groups_of, panel_of_body, target_in_cad
 from .editable_model import (
     AllEdits,
     Board,
@@ -323,7 +325,14 @@ class Session:
         count = len(self.history.now)
         changes = f"with {count} change{'s' * (count > 1)} that the file does not have"
         which = f"{self._file.which}, {changes}" if self._file.which else changes
-        return shown_of(now, summary, which, self._file.files, is_edited=True, before=before)
+        file = self._file
+        return shown_of(
+            *(now, summary, which, file.files),
+            is_edited=True,
+            before=before,
+            scenery=file.scenery,
+            cad=file.cad,
+        )
 
     def answered(self, body: bytes) -> tuple[HTTPStatus, Json]:
         """Do what the body of a request says; what it cannot is told in words, as "error"."""
@@ -377,6 +386,13 @@ class Session:
         given = request.get("set")
         if not isinstance(given, list) or len(given) > _MOST_SWITCHES:
             raise RefusedError('"set" must be a list of what is switched')
+        cad = None if self._file is None else self._file.cad
+        if cad is not None and any(isinstance(each, Mapping) and "part" in each for each in given):
+            for each in given:
+                choose(cad, self.watched, each)
+            kept = harmless(choices_beside(self.watched).name)
+            self._said = (f"Kept in {kept}; the page follows.",)
+            return {"told": self.told()}
         new = [self._edit(each) for each in given]
         below, top = self.boards.split(self.history.now)
         self.history = self.history.taken((*below, *self.board.edited(top, new)))
@@ -392,18 +408,29 @@ class Session:
 
     def _look(self, request: Mapping[str, Any]) -> Json:
         """What is offered of a part or a point."""
+        cad = None if self._file is None else self._file.cad
         if "name" in request:
             name = request["name"]
             if not isinstance(name, str):
                 raise RefusedError('"name" must be text')
-            request = target_named(self.board, name)
+            request = (
+                target_named(self.board, name)
+                if cad is None
+                else target_in_cad(cad, self.board, name)
+            )
         items = (item for each in self.proposals() for item in each["items"])
         wanted = [edit for item in items for choice in item["choices"] for edit in choice["set"]]
+        if cad is not None and "body" in request:
+            return {"panel": panel_of_body(cad, self.board, str(request["body"]), self.watched)}
         for key, panel in (("element", panel_of_element), ("node", panel_of_node)):
             if key in request:
                 number = _number(request, key)
                 _, top = self.boards.split(self.history.now)
-                return {"panel": panel(self.board, top, number, wanted)}
+                made = panel(self.board, top, number, wanted)
+                if cad is not None:
+                    groups = list(groups_of(cad, made["name"], self.watched))
+                    made = {**made, "groups": [*groups, *made["groups"]], "kept": bool(groups)}
+                return {"panel": made}
         raise RefusedError('"element", "node" or "name" is wanted')
 
     def _save(self, request: Mapping[str, Any]) -> Json:
@@ -471,6 +498,9 @@ class Session:
         edits, made = self.history.now, {"lines": [], "calls": [], "copy": "", "note": ""}
         if not edits:
             return made
+        if self._file is not None and self._file.cad is not None:
+            note = "A STEP file does not hold these changes: save them as a new deck."
+            return {**made, "note": note}
         if self.board.given.source is None:
             calls = self.boards.calls(edits, self.model_name)
             return {**made, "calls": calls, "copy": "\n".join(calls)}

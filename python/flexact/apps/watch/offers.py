@@ -247,6 +247,7 @@ def panel_of_element(board: Board, edits: Edits, element: int, wanted: Collectio
         groups = [*_of_body(board, edits, wanted, part), *groups]
     return {
         "element": places[0].element if is_whole else element,
+        "name": part.name,
         "title": _capital(element_title(board, index)),
         "kind": part.kind.value,
         "about": ", ".join(elements),
@@ -264,6 +265,7 @@ def panel_of_node(board: Board, edits: Edits, node: int, wanted: Collection[Json
     numbers = [str(board.given.arrays.node_number[node]) for node in _nodes_at(board, index)]
     return {
         "node": int(board.given.arrays.node_number[index]),
+        "name": board.parts.name_of_point(index),
         "title": _capital(node_title(board, index)),
         "kind": "point",
         "about": f"node{'s' * (len(numbers) > 1)} {', '.join(numbers)}",

@@ -22,8 +22,10 @@ from ...deck.diagnostics import Diagnostic, Source
 from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
 from ...show.page.assets import text
 from ...show.page.content import content_of
+from ...show.page.scenery import Scenery
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
+from .cad import CadParts
 from .editable_model import StepEdit
 
 #: What a script ends with; anything else is a deck.
@@ -108,6 +110,8 @@ class Shown:
         files: What it was made of, besides the file that is watched.
         result: The result itself, pickled.
         model: The name of the model in a script; empty for a deck.
+        scenery: The solids that it was read from, where it was.
+        cad: What may be said of their parts.
     """
 
     title: str
@@ -118,6 +122,8 @@ class Shown:
     files: tuple[str, ...]
     result: bytes = b""
     model: str = ""
+    scenery: Scenery | None = None
+    cad: CadParts | None = None
 
 
 def steps_in(steps: Sequence[Step]) -> tuple[StepEdit, ...]:
@@ -140,6 +146,8 @@ def shown_of(
     *,
     is_edited: bool = False,
     before: tuple[Result, str] | None = None,
+    scenery: Scenery | None = None,
+    cad: CadParts | None = None,
 ) -> Shown:
     """A result as the page shows it.
 
@@ -150,14 +158,22 @@ def shown_of(
         files: What it was made of.
         is_edited: Whether it is not that of the file.
         before: The result before the last step of the advice, and the step in words.
+        scenery: The solids that it was read from.
+        cad: What may be said of their parts.
     """
     misaligned = attempted("", lambda: quick_curve(result), None, None)
-    content = content_of(result, has_origin=not is_edited, before=before, misaligned=misaligned)
+    content = content_of(
+        result,
+        has_origin=not is_edited,
+        before=before,
+        misaligned=misaligned,
+        scenery=scenery,
+    )
     title = verdict_word(result)
     given = result.given
     problems = given.problems
     words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, content.body, summary, which, words, files)
+    return Shown(title, content.body, summary, which, words, files, scenery=scenery, cad=cad)
 
 
 @dataclass(frozen=True)

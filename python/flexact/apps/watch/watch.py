@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Watches a deck or a script: whenever it is saved, what it gives is shown anew."""
+"""Watches a deck, a script or a STEP file: whenever it is saved, what it gives is shown anew."""
 
 from __future__ import annotations
 
+import math
 import os
 import stat
 import threading
@@ -12,6 +13,7 @@ from pathlib import Path
 
 from ...show.window import opens
 from ...util.errors import BatchError
+from .cad import is_step
 from .edit_session import Session
 from .scene import SCRIPT, Answer, Before, Broken, Stage, errors_part
 from .server import Server
@@ -21,6 +23,10 @@ from .worker_pool import Crew, Worker, WorkerError
 QUIET = 0.08
 #: The same of a file that is not there, is empty, or ends amid a line where it did not before.
 UNFINISHED = 0.6
+#: The same of a STEP file without its last words: CAD writes large ones bit by bit.
+WRITING = 10.0
+#: The last words of a STEP file, and how many blanks may follow.
+_LAST, _BLANKS = b"END-ISO-10303-21", 200
 #: A look at files that are saved without end does not wait for ever [s].
 _LONGEST = 3.0
 
@@ -39,7 +45,7 @@ class Saved:
         self._more: tuple[str, ...] = ()
         self._rest = self._seen = self._look()
         self._since = self._first = 0.0
-        self._was_whole = _is_whole(path)
+        self._was_whole, self._is_step = _is_whole(path), is_step(path)
 
     def also(self, paths: Iterable[str]) -> None:
         """Watch these files besides, as they are now, and no others."""
@@ -65,8 +71,10 @@ class Saved:
             return False
         is_whole = _is_whole(self.path)
         ends = is_whole or (is_whole is not None and not self._was_whole)
-        patience = QUIET if ends else UNFINISHED
-        if time_now - self._first < _LONGEST and time_now - self._since < patience:
+        patience, longest = QUIET if ends else UNFINISHED, _LONGEST
+        if self._is_step and not is_whole:
+            patience, longest = WRITING, math.inf
+        if time_now - self._first < longest and time_now - self._since < patience:
             return False
         self._rest, self._was_whole = now, is_whole
         return True
@@ -84,7 +92,7 @@ def _state(path: str) -> _State:
 
 
 def _is_whole(path: str) -> bool | None:
-    """Whether a file ends with a line; None where it is empty or not there."""
+    """Whether a file ends with a line, or as STEP files do; None where it is empty or not there."""
     try:
         # What is no file may keep whoever opens it waiting.
         if not stat.S_ISREG(os.stat(path).st_mode):
@@ -93,6 +101,9 @@ def _is_whole(path: str) -> bool | None:
             file.seek(0, os.SEEK_END)
             if not file.tell():
                 return None
+            if is_step(path):
+                file.seek(-min(file.tell(), len(_LAST) + _BLANKS), os.SEEK_END)
+                return _LAST in file.read()
             file.seek(-1, os.SEEK_END)
             return file.read(1) in b"\r\n"
     except OSError:
@@ -117,7 +128,7 @@ class Watch:
         """Start the server; nothing is analysed yet.
 
         Args:
-            path: The deck, or the script (.py).
+            path: The deck, the script (.py), or the STEP file (.step, .stp).
             renewed: Called with what a save has changed, and the answer.
             printed: Called with what a script prints.
             port: The port; by default a free one.
@@ -129,7 +140,8 @@ class Watch:
         self.name = os.path.basename(path)
         self.path, self._decision = path, decision
         is_script = path.lower().endswith(SCRIPT)
-        self._work = f"{self.name} is {'running' if is_script else 'being analysed'}"
+        doing = "running" if is_script else "being read" if is_step(path) else "being analysed"
+        self._work = f"{self.name} is {doing}"
         self._renewed, self._printed = renewed, printed
         self.stage = Stage(self.name)
         self.session = Session(Path(path), self.stage)

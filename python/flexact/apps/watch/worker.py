@@ -30,6 +30,8 @@ from ...show.page.content import broken_content
 from ...show.window import take_with
 from ...util.machine import prepare_libraries
 from ...util.partial import why
+from ..convert.cad.kept_choices import choices_beside
+from .cad import is_step, read_cad
 from .scene import SCRIPT, Answer, Broken, ResultSummary, errors_part, shown_of, summary_of
 from .worker_pool import receive, send
 
@@ -257,15 +259,21 @@ def answer_of(
     """What a deck or a script gives; what is wrong with it is an answer too.
 
     Args:
-        path: Where it is; a script ends with .py.
+        path: Where it is; a script ends with .py, a STEP file with .step or .stp.
         judged: Called with the summary, which is there before the scene.
         decision: Arguments of `flexact.analysis.decomposition.asked_for`.
     """
     script = Script(path) if path.lower().endswith(SCRIPT) else None
     which = model = ""
+    scenery = cad = None
+    # What is said of the parts of a STEP file is watched with it, also before there is anything.
+    files: tuple[str, ...] = (str(choices_beside(Path(path))),) if is_step(path) else ()
     result: Result
     try:
-        if script is None:
+        if is_step(path):
+            mechanism, scenery, cad = read_cad(path)
+            result = result_of(mechanism.model.data, asked_for(*decision), mechanism.assembly.name)
+        elif script is None:
             result = result_of(read_file(path), asked_for(*decision))
         else:
             found, name, which, model = script.run()
@@ -275,7 +283,8 @@ def answer_of(
                 result = result_of(found.data, asked_for(*decision), found.data.name or name)
         summary = summary_of(result)
         judged(summary)
-        shown = shown_of(result, summary, which, () if script is None else script.files())
+        files = files if script is None else script.files()
+        shown = shown_of(result, summary, which, files, scenery=scenery, cad=cad)
         kept = b""
         # A script may have put into it what cannot be kept for who switches.
         with contextlib.suppress(Exception):
@@ -283,7 +292,7 @@ def answer_of(
         return replace(shown, result=kept, model=model)
     except Exception as error:
         words = str(error) if isinstance(error, ProblemsError) else why(error)
-        files = () if script is None else script.files()
+        files = files if script is None else script.files()
         body = broken_content(error, path).body
         return Broken(errors_part(error, path), body, words, files)
 

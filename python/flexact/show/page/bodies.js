@@ -103,10 +103,17 @@ const Bodies = (() => {
     /** Compute the corners from the present shapes of the members. */
     move() {
       const { plan, shape } = this.members;
+      const { rows, carrier } = this.data.bodies;
       const turned = (out, local, at, f, k) => out + local[at] * shape.frame[f + k]
         + local[at + 1] * shape.frame[f + 3 + k] + local[at + 2] * shape.frame[f + 6 + k];
       for (let b = 0, at = 0; b < this.count; b++) {
-        const station = plan.station[this.data.bodies.rows[b][0]];
+        const [row, end] = carrier ? carrier[b] : [rows[b][0], 0];
+        if (row < 0) {
+          this.stand(at, this.counts[b]);
+          at += 3 * this.counts[b];
+          continue;
+        }
+        const station = plan.station[row] + (end ? plan.stations[row] - 1 : 0);
         const f = 9 * station, o = 3 * station;
         for (let c = 0; c < this.counts[b]; c++, at += 3) {
           for (let k = 0; k < 3; k++) {
@@ -116,6 +123,12 @@ const Bodies = (() => {
         }
       }
       this.corner.needsUpdate = this.normal.needsUpdate = true;
+    }
+
+    /** Of a body that moves with no member the corners are where they are. */
+    stand(at, count) {
+      this.corner.array.set(this.local.subarray(at, at + 3 * count), at);
+      this.normal.array.set(this.localNormal.subarray(at, at + 3 * count), at);
     }
 
     /** Keep the present places as the ghost. */

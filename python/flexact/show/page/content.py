@@ -65,6 +65,7 @@ from .assets import (
 )
 from .controls import choices_part, keys, layers, toolbar
 from .drawing import drawing_part, frames_of
+from .scenery import Scenery, place_scenery, preface
 from .viewer import body_named, left_out, stuck_in, viewer_data
 
 #: A deck of so many lines is shown at once.
@@ -474,6 +475,7 @@ def content_of(
     missing: Sequence[str] = (),
     before: tuple[Result, str] | None = None,
     misaligned: dict[str, Any] | None = None,
+    scenery: Scenery | None = None,
 ) -> Content:
     """What the page of a result holds; what of it cannot be made is left out, and told.
 
@@ -490,6 +492,7 @@ def content_of(
             "unit"; the "name" of what falls, in "hertz" or in parts; its "measure" at "values"
             [m, rad]; "elements" and the "peaks" of their stress [Pa] at an error of 1, and
             their "strengths" [Pa] where all have one.
+        scenery: The solids that the mechanism was read from.
     """
     require_kind(analysis, Result, "a page is that of a result")
     told = list(missing)
@@ -500,10 +503,16 @@ def content_of(
     shown = (analysis,) if before is None else (analysis, before[0])
 
     def drawn() -> list[dict[str, Any]]:
-        frames = frames_of(*(drawing_of(each.given) for each in shown))
+        solids = () if scenery is None else scenery.meshes
+        around = [mesh.triangles.reshape(-1, 3) for mesh in solids]
+        frames = frames_of(*(drawing_of(each.given) for each in shown), around=around)
         room = FEW_SHAPES if is_short else MOST_SHAPES
         every = zip(shown, frames, (spaces, None), strict=False)
-        return [viewer_data(each, frame, space, room) for each, frame, space in every]
+        datas = [viewer_data(each, frame, space, room) for each, frame, space in every]
+        for each, frame, data in zip(shown, frames, datas, strict=True):
+            if scenery is not None:
+                place_scenery(data, each.parts, frame, scenery)
+        return datas
 
     datas = attempted("The drawing", drawn, [], told)
     data = datas[0] if datas else None
@@ -515,7 +524,9 @@ def content_of(
     raw, is_written = (
         (as_bytes(deck_of(analysis.given)), True) if source is None else (source.text, False)
     )
-    warnings = [item for item in every if item.line == 0]
+    # What stands before the verdict is not said again.
+    before_it = () if scenery is None else scenery.doubts
+    warnings = [item for item in every if item.line == 0 and item.message not in before_it]
     in_deck = [item for item in every if item.line > 0]
     advice = attempted("What can be done", lambda: advised(analysis), Advised(), told)
     held = made("How often each body is held", lambda: held_part(analysis))
@@ -546,6 +557,7 @@ def content_of(
         kind, choices = "pair tried", ""
         drawing = _beside(analysis, datas, before, " ".join(told))
     body = (
+        "" if scenery is None else preface(scenery),
         verdict(analysis, name, advice, held),
         f'<main class="{kind}">',
         drawing,

@@ -8,6 +8,7 @@ precision is enough wherever the mechanism stands.
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,10 +70,14 @@ class Frame:
         return np.asarray((position - self.centre) / self.size)
 
 
-def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
-    """Of drawings that are seen side by side: one scale, one middle, one view, the first's."""
-    low = np.min([each.low for each in drawings], axis=0)
-    high = np.max([each.high for each in drawings], axis=0)
+def frames_of(*drawings: Drawing, around: Sequence[FloatArray] = ()) -> tuple[Frame, ...]:
+    """Of drawings that are seen side by side: one scale, one middle, one view, the first's.
+
+    What is drawn besides lies `around` them: (n, 3) [m] each.
+    """
+    boxes = [(each.min(axis=0), each.max(axis=0)) for each in around if len(each)]
+    low = np.min([*(each.low for each in drawings), *(each[0] for each in boxes)], axis=0)
+    high = np.max([*(each.high for each in drawings), *(each[1] for each in boxes)], axis=0)
     size = float(np.linalg.norm(high - low)) or 1.0
     planar = all(each.planar for each in drawings)
     towards = view_of(ISO, drawings[0]).axes[2]

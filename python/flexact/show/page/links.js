@@ -39,7 +39,8 @@ const Links = (() => {
         : { node: Number(dataset.node) };
     }
 
-    key({ element, node }) {
+    key({ element, node, body }) {
+      if (body !== undefined) return `body ${body}`;
       return element === undefined ? `node ${node}` : `element ${element}`;
     }
 

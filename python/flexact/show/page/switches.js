@@ -115,8 +115,9 @@ const Switches = (() => {
 
     hear(event) {
       if (event.type === "flexact-click") {
-        const { element: number, node } = event.detail || {};
-        if (number !== undefined && number !== null) this.look({ element: number });
+        const { element: number, node, body } = event.detail || {};
+        if (body !== undefined) this.look({ name: body });
+        else if (number !== undefined && number !== null) this.look({ element: number });
         else if (node !== undefined && node !== null) this.look({ node });
         return;
       }
@@ -149,8 +150,10 @@ const Switches = (() => {
         return;
       }
       // A name is looked up once.
-      const { element: number, node } = answer.panel;
+      const { element: number, node, body } = answer.panel;
       this.target = number === undefined ? { node } : { element: number };
+      // Read from CAD again, a part may have another number.
+      if (body !== undefined || answer.panel.kept) this.target = { name: answer.panel.name };
       this.card(answer.panel);
       if (again) return this.refocus();
       this.say("");
@@ -313,6 +316,9 @@ const Switches = (() => {
       const count = edits.length;
       this.part("count").textContent = count === 1 ? "1 change" : `${count} changes`;
       this.part("how").textContent = is === "deck" ? "In the deck" : "In Python";
+      // Of CAD there are neither lines nor calls.
+      const none = !(lines || []).length && !(calls || []).length;
+      for (const name of ["how", "lines", "copy"]) this.part(name).hidden = none;
       this.part("lines").replaceChildren(...(lines || []).flatMap(lineOf),
         ...(calls || []).map((call) => element("div", call, "plus")));
       this.part("note").textContent = note || "";
@@ -429,7 +435,7 @@ const Switches = (() => {
       box.setAttribute("aria-label", "To copy");
       box.dataset.key = "to copy";
       const copy = button("Copy", () => this.copy());
-      copy.dataset.key = "copy";
+      copy.dataset.key = copy.dataset.part = "copy";
       const form = element("form", "", "save");
       const label = element("label", "Save as a new deck ");
       const name = part("input", "name");
@@ -483,7 +489,8 @@ const Switches = (() => {
     return number === undefined ? { node } : { element: number };
   }
 
-  function keyOf({ element: number, deformation, node, coordinate }) {
+  function keyOf({ element: number, deformation, node, coordinate, part: name, what }) {
+    if (name !== undefined) return `${name} ${what}`;
     return number === undefined ? `node ${node} ${coordinate}` : `element ${number} ${deformation}`;
   }
 

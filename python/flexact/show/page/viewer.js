@@ -305,9 +305,11 @@ const Viewer = (() => {
 
     /** Mark an element or a node by its number; without either what is held. */
     mark(target) {
-      const named = target.element !== undefined || target.node !== undefined;
-      const { element, node } = named ? target : this.held || {};
-      const row = this.memberOf.get(element), body = this.bodies.bodyOf.get(row);
+      const named = ["element", "node", "body"].some((key) => target[key] !== undefined);
+      const { element, node, body: solid } = named ? target : this.held || {};
+      const row = this.memberOf.get(element);
+      const body = solid === undefined ? this.bodies.bodyOf.get(row)
+        : this.data.bodies.names.indexOf(solid);
       const held = this.holding({ element, node });
       const by = held ? held.by.map((number) => this.memberOf.get(number)) : [];
       this.members.mark([...by, ...(body === undefined ? [row] : [])]
@@ -349,7 +351,12 @@ const Viewer = (() => {
     /** The number by which the tables know what is pointed at. */
     targetOf({ kind, row }) {
       const { nodes, members, hinges, bodies } = this.data;
-      if (kind === "body") return this.targetOf({ kind: "member", row: bodies.rows[row][0] });
+      if (kind === "body") {
+        const [first] = bodies.rows[row];
+        // What is no member of the model is known by its name.
+        if (first === undefined) return { body: bodies.names[row] };
+        return this.targetOf({ kind: "member", row: first });
+      }
       const { number } = { node: nodes, member: members, hinge: hinges }[kind];
       const key = kind === "node" ? "node" : "element", found = PageData.array(number)[row];
       const held = this.holding({ [key]: found });

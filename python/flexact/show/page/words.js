@@ -38,7 +38,8 @@ const Words = (() => {
   }
 
   /** Lines about a body. */
-  const body = (data, row) => [data.bodies.names[row], "rigid body"];
+  const body = ({ bodies }, row) =>
+    [bodies.names[row], bodies.about ? bodies.about[row] : "rigid body"];
 
   function hinge(data, row, stress) {
     const told = stress ? quantities(data, stress.hinges, (values) => [values[row], values[row]]) : [];
