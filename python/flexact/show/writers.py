@@ -27,6 +27,7 @@ PICTURES = (*STILLS, *MOVING)
 #: Of pages, of tables, of solids, and of what plays in ParaView.
 PAGES = (".html", ".htm")
 TABLES = (".csv", ".jsonl", ".parquet")
+FLEXURES = (".csv", ".xlsx")
 SOLIDS = (".step", ".stp", ".3mf", ".stl", ".glb")
 PLAYING = ".pvd"
 

@@ -32,6 +32,7 @@ FEATURES = {
     "show": ("flexact.api", "show_model"),
     "html": ("flexact.show.notebook.output", "html_of_model"),
     "scatter": ("flexact.sweeps.scatter", "scatter_of"),
+    "flexures": ("flexact.apps.convert.flexure_table", "table_of_flexures"),
     "at_rest": ("flexact.costs.at_rest", "json_of"),
     "at_rest_in_words": ("flexact.costs.at_rest", "at_rest_in_words"),
 }

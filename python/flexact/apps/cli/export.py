@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact export``: a mechanism as solids or a mesh; and the files of `analyse -o`."""
+"""``flexact export``: a mechanism as solids, table or mesh; and the files of `analyse -o`."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from ...show.mesh import Meshes
 from ...show.mesh.collection import ENDINGS, MESHES, POSED
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.spacar_log import log_text, spacar_log
-from ...show.writers import SOLIDS, write
+from ...show.writers import FLEXURES, SOLIDS, write
 from ...util.decks import DeckFile
+from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import plan_files, write_together
 from ...util.partial import attempted
@@ -42,13 +43,15 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
             bar.show("writing")
             missing: list[str] = []
             wanted, suffix = (chosen.motion, chosen.freedom), target.suffix.lower()
-            if wanted == (None, None) and suffix in POSED:
+            if suffix in FLEXURES and wanted != (None, None):
+                raise BatchError(f"a table of flexures shows no motion; {target.name} is one")
+            if wanted == (None, None) and suffix in (*POSED, *FLEXURES):
                 shown = None
             elif wanted == (None, None):
                 shown = attempted("Its motion", lambda: select_motion(analysis), None, missing)
             else:
                 shown = select_motion(analysis, *wanted)
-            told: dict[str, Any] = {"notes": missing} if suffix in SOLIDS else {}
+            told: dict[str, Any] = {"notes": missing} if suffix in (*SOLIDS, *FLEXURES) else {}
             if chosen.stress is not None:
                 require_there(
                     chosen.stress, len(analysis.self_stresses), "self-stress", "self-stresses"
@@ -60,7 +63,7 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
         name = harmless(deck.name)
         for note in missing:
             complain(f"{name}: note: {harmless(note)}")
-        if shown is None and not missing and suffix not in SOLIDS:
+        if shown is None and not missing and suffix not in (*SOLIDS, *FLEXURES):
             complain(f"{name}: note: the mechanism does not move; displacements are zero")
         what = ""
         if shown is not None:
@@ -117,7 +120,7 @@ def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tup
 
 VERB = Verb(
     run=export_deck,
-    description="Write a mechanism as solids for CAD, or as a mesh with its motions and "
+    description="Write a mechanism as solids for CAD, as a table of its flexures, or as a mesh with its motions and "
     "self-stresses.",
     examples=(
         (
@@ -135,8 +138,9 @@ VERB = Verb(
     ),
     arguments=(
         *deck_arguments(
-            "solids: .step, .3mf, .stl, or .glb, in which the motion plays; a mesh: .vtu, .vtp, "
-            ".vtk, .xdmf, ...; or .pvd, the motion as a cycle that plays"
+            "solids: .step, .3mf, .stl, or .glb, in which the motion plays; a table of flexures: "
+            ".csv, .xlsx; a mesh: .vtu, .vtp, .vtk, .xdmf, ...; or .pvd, the motion as a cycle "
+            "that plays"
         ),
         Group(
             "what is shown",

@@ -33,13 +33,13 @@ from ...model.model import Model
 from ...model.names import nearest
 from ...model.parts.parts import Part as FoundPart
 from ...model.parts.parts import PartKind, Parts
+from ...show.writers import FLEXURES
 from ...util.errors import BatchError
 from ...util.text import in_short
 from ...util.units import METRES, MILLIMETRES
 from .table_input import Found, Remarks, density_of, is_ordinary, moduli_of
 
-CSV, XLSX = ".csv", ".xlsx"
-SUFFIXES = (CSV, XLSX)
+CSV, XLSX = SUFFIXES = FLEXURES
 KINDS = ("sheet", "wire", "bar", "beam", "hinge", "ball joint", "point")
 _HINGED = ("hinge", "ball joint")
 _TEXTS = ("kind", "name", "from", "to", "released", "declared", "fixed", "driven")
@@ -352,18 +352,28 @@ def bytes_of_flexures(model: Model, suffix: str) -> tuple[bytes, tuple[Diagnosti
         BatchError: a package is missing.
     """
     model.check()
-    writing = _Writing(model.data)
-    rows, units = writing.rows(), model.data.units
+    content, remarks = _table_of(model.data, suffix)
+    return content, remarks.diagnostics()
+
+
+def table_of_flexures(data: ModelData, suffix: str) -> tuple[bytes, list[str]]:
+    """The same of the data of a sound model, with what it does not hold in words."""
+    content, remarks = _table_of(data, suffix)
+    return content, [each.message for each in remarks.diagnostics()]
+
+
+def _table_of(data: ModelData, suffix: str) -> tuple[bytes, Remarks]:
+    writing = _Writing(data)
+    rows, units = writing.rows(), data.units
     shown = [name for name in _COLUMNS if any(row.get(name, "") != "" for row in rows)]
     heads = [
         f"{name} [{units.symbol(_COLUMNS[name])}]" if _COLUMNS[name] else name for name in shown
     ]
     lines: list[list[Any]] = [heads, *([row.get(name, "") for name in shown] for row in rows)]
-    notes = writing.remarks.diagnostics()
     if suffix == CSV:
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows(lines)
-        return text.getvalue().encode("utf-8", "backslashreplace"), notes
+        return text.getvalue().encode("utf-8", "backslashreplace"), writing.remarks
     book = _openpyxl().Workbook()
     sheet = book.active
     sheet.title = "flexures"
@@ -379,7 +389,7 @@ def bytes_of_flexures(model: Model, suffix: str) -> tuple[bytes, tuple[Diagnosti
                 cells[0].number_format = "0.######"
     made = io.BytesIO()
     book.save(made)
-    return made.getvalue(), notes
+    return made.getvalue(), writing.remarks
 
 
 def _openpyxl() -> ModuleType:

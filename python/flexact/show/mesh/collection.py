@@ -11,10 +11,11 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ...analysis.result import Result
+from ...util.loading import feature
 from ...util.outputs import OutputError
 from ..drawing import Moving, move
 from ..solids.files import STILL, solid_bytes
-from ..writers import PLAYING, Writers
+from ..writers import FLEXURES, PLAYING, Writers
 from .content import Mesh, Meshes, mesh_of
 from .file import (
     FORMATS,
@@ -143,3 +144,13 @@ POSED = tuple(STILL)
 @MESHES.register((".glb",), shows=("notes", "stress"))
 def _solids(drawn: tuple[Result, Moving | None], path: Path, **chosen: Any) -> bytes:
     return solid_bytes(*drawn, path.suffix.lower(), **chosen)
+
+
+@MESHES.register(FLEXURES, shows=("notes",))
+def _flexures(
+    drawn: tuple[Result, Moving | None], path: Path, notes: list[str] | None = None
+) -> bytes:
+    content, told = feature("flexures")(drawn[0].given, path.suffix.lower())
+    if notes is not None:
+        notes += told
+    return bytes(content)
