@@ -120,8 +120,10 @@ def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tup
 
 VERB = Verb(
     run=export_deck,
-    description="Write a mechanism as solids for CAD, as a table of its flexures, or as a mesh with its motions and "
-    "self-stresses.",
+    description=(
+        "Write a mechanism as solids for CAD, as a table of its flexures, or as a mesh with its "
+        "motions and self-stresses."
+    ),
     examples=(
         (
             "Solids for CAD, in mm",
