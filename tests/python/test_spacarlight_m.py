@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import flexact
+from flexact.apps.cli.main import main
 
 pytestmark = pytest.mark.dear(4)
 
@@ -258,9 +259,26 @@ def test_the_script_of_the_page_says_what_the_page_shows(tmp_path: Path) -> None
 
 
 def test_the_command_says_where_the_function_is(capsys: pytest.CaptureFixture[str]) -> None:
-    from flexact.apps.cli.main import main
-
     assert main(["spacarlight", "--path"]) == 0
     assert (Path(capsys.readouterr().out.strip()) / "spacarlight.m").is_file()
     assert main(["spacarlight"]) == 2
     assert "--path" in capsys.readouterr().err
+
+
+def test_tables_that_are_no_mechanism_are_refused_by_the_command(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    bar = '"nodes": [[0, 0, 0], [0, 0, 0]], "elements": [1, 2], "nprops": {"fix": true}'
+    for text, code, words in (
+        (f'{{{bar}, "eprops": {{"elems": 1, "type": "truss"}}}}', 1, "TRUSS 1 has zero length"),
+        ("{}", 1, "nodes: the table is missing"),
+        ("[1]", 1, "an object with nodes"),
+        ("{", 1, "this is no JSON"),
+    ):
+        Path("wrong.json").write_text(text)
+        assert main(["spacarlight", "wrong.json", "--page", "wrong.html"]) == code
+        assert words in capsys.readouterr().err
+    assert main(["spacarlight", "none.json"]) == 2
+    assert main(["spacarlight", "deck.dat"]) == 2
+    assert not Path("wrong.html").exists()
