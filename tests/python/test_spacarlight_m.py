@@ -216,6 +216,7 @@ REFUSED = (
     (f"{BEAM}eprops(1).elems = 7;\n{CALL}", "eprops(1).elems: there is no element 7"),
     (f"{BEAM}opt.customdyn = {{'XM 1 1'}};\n{CALL}", "opt.customdyn: statements for the dyn"),
     (f"{BEAM}opt.mode = 3;\n{CALL}", "opt.mode: only results of mode 10"),
+    (f"{BEAM}opt.loadsteps = 'ten';\n{CALL}", "opt.loadsteps: a number from 1 to 100000 is wanted"),
     (f"{BEAM}{CALL}h = out.fighandle;\n", "line 17, reads .fighandle: Flexact shows"),
     (f"{BEAM}{CALL}bode(out.statespace)\n", "reads .statespace: set opt.transfer"),
     (
