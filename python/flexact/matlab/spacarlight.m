@@ -83,7 +83,7 @@ said = regexprep(said, '(nodes|elements|nprops|eprops|rls)\[(\d+)\]', '$1($2)');
 if status ~= 0
     why = regexp(said, 'flexact: error: (.*)$', 'tokens', 'once');
     if ~isempty(why) && ~is_silent
-        fprintf('%s', said(1:strfind(said, 'flexact: error: ') - 1));
+        fprintf('%s', said(1:regexp(said, 'flexact: error: ', 'once') - 1));
     end
     places = regexp(said, '^error\[[^\]]+\]: ([^\n\r]+)', 'tokens', 'lineanchors');
     if ~isempty(why)
