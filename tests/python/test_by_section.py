@@ -15,6 +15,7 @@ from json_schema import schema
 
 import flexact
 from flexact.apps.cli.main import main
+from flexact.apps.convert.script_results import Script, results_of, text_of_results
 from flexact.apps.convert.tables import TablesError, model_of, tables_of
 from flexact.deck.diagnostics import Severity
 
@@ -203,6 +204,16 @@ def test_releases_for_the_solver_are_told_and_those_of_rigid_elements_are_joints
     )
 
 
+def test_one_modulus_is_enough_for_what_is_rigid() -> None:
+    tables = copy.deepcopy(GUIDE)
+    tables["eprops"][1]["emod"] = 70e9
+    assert counts(tables) == (1, 1)
+    said = [each.message for each in model_of(tables).diagnostics]
+    assert "eprops[2].emod without smod, of what is rigid (1)" in said
+    with pytest.raises(TablesError, match=r"eprops\[1\]: emod and smod belong together: smod is"):
+        model_of(changed(GUIDE, smod=None))
+
+
 def test_a_hinge_turns_about_its_axis_where_nothing_else_is_said() -> None:
     tables: dict[str, Any] = {
         "nodes": [[0, 0, 0], [1, 0, 0], [1, 0, 0], [2, 0, 0]],
@@ -265,6 +276,20 @@ def test_names_of_older_versions_are_those_of_today() -> None:
     twice = {**older, "Elem_props": [{**older["Elem_props"][0], "elems": [1]}]}
     with pytest.raises(TablesError, match=r"eprops\[1\]\.El_Nrs: this is elems by an older name"):
         model_of(twice)
+
+
+def test_results_of_rigid_directions_that_hold_twice_are_told() -> None:
+    """The stiffness of a guide, 24 E I/L^3, does not depend on it (Soemers, 2.3)."""
+    tables = moved(changed(GUIDE, flex=[2, 3, 4]), 2, displ_x=1e-6)
+    script = Script.of(tables)
+    found = results_of(script, flexact.analyse(script.designed))
+    (note,) = found["notes"]
+    assert "rigid, and over-constrained by 1: of reactions and stresses those of least" in note
+    stiffness = 24 * 200e9 * 0.04 * 0.0004**3 / 12 / 0.09**3
+    assert found["step"][-1]["node"][1]["Freac"][0] == pytest.approx(1e-6 * stiffness, rel=1e-4)
+    assert found["missing"] == {} and json.loads(text_of_results(found)) == found
+    script = Script.of(moved(GUIDE, 2, displ_x=1e-6))
+    assert "notes" not in results_of(script, flexact.analyse(script.designed))
 
 
 def test_the_command_says_what_is_taken_for_what(

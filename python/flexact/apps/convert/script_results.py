@@ -143,7 +143,7 @@ def results_of(script: Script, designed: Result) -> dict[str, Any]:
     rigid = Model.from_data(data_of(script.tables, RELEASED, Found(None, "")))
     if over := load("flexact.api").analyse(rigid).over_constrained:
         found.values["notes"] = [
-            f"what is not in flex is rigid and holds {over} times too often: of reactions and "
+            f"what is not in flex is rigid, and over-constrained by {over}: of reactions and "
             "stresses those of least norm are given"
         ]
     elastic = Elastic(script.simulated.data, "rigid", "locked", {}, 1)
