@@ -180,6 +180,12 @@ def test_parts_and_points_have_the_numbers_of_the_script() -> None:
     assert "sheet 1 and sheet 3 both hold body 2" in flexact.analyse(model).describe()
     assert model.element_names[4] == "sheet 3, part 1 of 3"
     assert "point 4" in model.to_deck()
+    # A name that is given stays that of what it was given to.
+    other = changed(GUIDE, nbeams=2)
+    other["eprops"][1]["name"], other["nprops"][3]["name"] = "sheet 1", "point 2"
+    names = model_of(other)
+    assert names.element_names[2] == "sheet 1" and names.element_names[0] == ""
+    assert [name for name in names.node_names if name] == ["point 1", "point 3", "point 2"]
     named = copy.deepcopy(GUIDE)
     named["eprops"][0]["name"], named["nprops"][1] = "leaf", {"name": "tip"}
     assert {"leaf 1, part 2 of 2", "tip"} <= {

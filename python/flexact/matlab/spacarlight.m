@@ -66,6 +66,9 @@ if wants_results
     command = [command ' -o ' quoted(output)];
 end
 if ~is_silent
+    if isempty(folder) && ~is_writable(pwd())
+        folder = tempdir();
+    end
     page = fullfile(folder, [stem '.flexact.html']);
     deck = fullfile(folder, [stem '.flexact.dat']);
     command = [command ' --page ' quoted(page) ' --deck ' quoted(deck)];
@@ -165,6 +168,12 @@ end
 
 function answer = is_off(opt, name)
 answer = isfield(opt, name) && ~isempty(opt.(name)) && ~any(opt.(name)(:));
+end
+
+
+function answer = is_writable(folder)
+[is_known, about] = fileattrib(folder);
+answer = ~is_known || ~isequal(about.UserWrite, 0) && ~isequal(about.UserWrite, false);
 end
 
 

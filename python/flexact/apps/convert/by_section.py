@@ -17,6 +17,7 @@ from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Severity
 from ...model.data import CrossSection
 from ...model.draft import Draft
+from ...model.names import part_name
 from ...model.parts.chains import Chain
 from ...model.sections import constants_of
 from ...util.records import Frozen
@@ -202,16 +203,18 @@ def name_by_rows(
         first: The element of the script that each beam is of.
         kinds: What each beam is, such as "sheet".
     """
+    given = set(map(part_name, draft.names.values()))
     alone = set(range(len(first)))
     for chain in chains:
         alone -= set(chain.elements)
         element = min(first[beam] for beam in chain.elements)
         for place, beam in enumerate(chain.elements, start=1):
-            if beam not in draft.names:
-                name = f"{kinds[beam]} {element}, part {place} of {len(chain.elements)}"
-                draft.name_element(beam, name)
+            part = f"{kinds[beam]} {element}"
+            if beam not in draft.names and part not in given:
+                draft.name_element(beam, f"{part}, part {place} of {len(chain.elements)}")
     for beam in alone - draft.names.keys():
-        draft.name_element(beam, f"{kinds[beam]} {first[beam]}")
+        if (part := f"{kinds[beam]} {first[beam]}") not in given:
+            draft.name_element(beam, part)
 
 
 def kind_in_words(released: Iterable[int]) -> str:
