@@ -197,7 +197,7 @@ def test_a_loop_and_a_guide_of_old_names_run_silently(tmp_path: Path) -> None:
     """Twice as thick is eight times as stiff; `x` and `rx_axang` are of versions before 0.7."""
     script = (
         BEAM.replace("cshape = 'rect'", "type = 'leafspring'")
-        + "nprops(2).force_initial = [0 0 0.01]; rls = [];\n"
+        + "opt.filename = 'results'; nprops(2).force_initial = [0 0 0.01]; rls = [];\n"
         + f"for t = [{T} {2 * T}]\n eprops(1).dim = [{B} t];\n"
         + " out = spacarlight(nodes, elements, nprops, eprops, rls, opt);\n"
         + " printf('%.15g ', out.step(1).node(2).x(3), out.step.node(2).rx_axang(1));\nend\n"

@@ -59,7 +59,7 @@ tidy = onCleanup(@() remove(work));
 [folder, stem, ending] = fileparts(name);
 stem = [stem ending];
 input = fullfile(work, [stem '.json']);
-output = fullfile(work, 'results.json');
+output = fullfile(work, [stem '.results.json']);
 write(input, json_of_tables(tables));
 command = [flexact() ' spacarlight ' quoted(input)];
 if wants_results
