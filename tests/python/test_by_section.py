@@ -15,6 +15,7 @@ from json_schema import schema
 
 import flexact
 from flexact.apps.cli.main import main
+from flexact.apps.convert.script_results import Script, results_of, text_of_results
 from flexact.apps.convert.tables import TablesError, model_of, tables_of
 from flexact.deck.diagnostics import Severity
 
@@ -179,6 +180,12 @@ def test_parts_and_points_have_the_numbers_of_the_script() -> None:
     assert "sheet 1 and sheet 3 both hold body 2" in flexact.analyse(model).describe()
     assert model.element_names[4] == "sheet 3, part 1 of 3"
     assert "point 4" in model.to_deck()
+    # A name that is given stays that of what it was given to.
+    other = changed(GUIDE, nbeams=2)
+    other["eprops"][1]["name"], other["nprops"][3]["name"] = "sheet 1", "point 2"
+    names = model_of(other)
+    assert names.element_names[2] == "sheet 1" and names.element_names[0] == ""
+    assert [name for name in names.node_names if name] == ["point 1", "point 3", "point 2"]
     named = copy.deepcopy(GUIDE)
     named["eprops"][0]["name"], named["nprops"][1] = "leaf", {"name": "tip"}
     assert {"leaf 1, part 2 of 2", "tip"} <= {
@@ -187,8 +194,9 @@ def test_parts_and_points_have_the_numbers_of_the_script() -> None:
     }
 
 
-def test_releases_for_the_solver_are_told_and_those_of_rigid_elements_are_joints() -> None:
-    """A pin in the body of a cross hinge lets its two sheets turn apart."""
+def test_releases_for_the_solver_are_told_and_not_taken_over() -> None:
+    """Also of rigid elements, which SPACAR Light asks for where they make a loop; a joint in the
+    body of the guide, that it twists, is said by its flex."""
     for place in ("rls", "opt"):
         rls: Any = [{"def": ALL}, {}, {"def": [3]}]
         tables = {**GUIDE, place: rls if place == "rls" else {"rls": rls}}
@@ -196,11 +204,25 @@ def test_releases_for_the_solver_are_told_and_those_of_rigid_elements_are_joints
         said = " ".join(each.message for each in model_of(tables).diagnostics)
         assert "rls, elements 1, 3: not taken over" in said
     assert counts({**GUIDE, "rls": rls[:1]}, flexible="independent") == (0, 0)
-    joint = {**GUIDE, "rls": [{}, {"def": [2]}]}
+    joint = {**copy.deepcopy(GUIDE), "rls": [{}, {"def": [2]}]}
+    assert counts(joint) == (1, 1)
+    (said,) = [
+        each.message for each in model_of(joint).diagnostics if each.severity is Severity.WARNING
+    ]
+    words = "it is rigid, and 2 stays held; if it is a joint, say so with flex"
+    assert said == f"rls[2], element 2: {words}"
+    joint["eprops"][1]["flex"] = 2
     assert counts(joint) == (1, 0)
-    assert "rls[2], element 2: it is rigid, and 2 released: a joint" in " ".join(
-        each.message for each in model_of(joint).diagnostics
-    )
+
+
+def test_one_modulus_is_enough_for_what_is_rigid() -> None:
+    tables = copy.deepcopy(GUIDE)
+    tables["eprops"][1]["emod"] = 70e9
+    assert counts(tables) == (1, 1)
+    said = [each.message for each in model_of(tables).diagnostics]
+    assert "eprops[2].emod without smod, of what is rigid (1)" in said
+    with pytest.raises(TablesError, match=r"eprops\[1\]: emod and smod belong together: smod is"):
+        model_of(changed(GUIDE, smod=None))
 
 
 def test_a_hinge_turns_about_its_axis_where_nothing_else_is_said() -> None:
@@ -265,6 +287,20 @@ def test_names_of_older_versions_are_those_of_today() -> None:
     twice = {**older, "Elem_props": [{**older["Elem_props"][0], "elems": [1]}]}
     with pytest.raises(TablesError, match=r"eprops\[1\]\.El_Nrs: this is elems by an older name"):
         model_of(twice)
+
+
+def test_results_of_rigid_directions_that_hold_twice_are_told() -> None:
+    """The stiffness of a guide, 24 E I/L^3, does not depend on it (Soemers, 2.3)."""
+    tables = moved(changed(GUIDE, flex=[2, 3, 4]), 2, displ_x=1e-6)
+    script = Script.of(tables)
+    found = results_of(script, flexact.analyse(script.designed))
+    (note,) = found["notes"]
+    assert "rigid, and over-constrained by 1: of reactions and stresses those of least" in note
+    stiffness = 24 * 200e9 * 0.04 * 0.0004**3 / 12 / 0.09**3
+    assert found["step"][-1]["node"][1]["Freac"][0] == pytest.approx(1e-6 * stiffness, rel=1e-4)
+    assert found["missing"] == {} and json.loads(text_of_results(found)) == found
+    script = Script.of(moved(GUIDE, 2, displ_x=1e-6))
+    assert "notes" not in results_of(script, flexact.analyse(script.designed))
 
 
 def test_the_command_says_what_is_taken_for_what(

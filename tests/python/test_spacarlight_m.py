@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import flexact
+from flexact.apps.cli.main import main
 
 pytestmark = pytest.mark.dear(4)
 
@@ -196,7 +197,7 @@ def test_a_loop_and_a_guide_of_old_names_run_silently(tmp_path: Path) -> None:
     """Twice as thick is eight times as stiff; `x` and `rx_axang` are of versions before 0.7."""
     script = (
         BEAM.replace("cshape = 'rect'", "type = 'leafspring'")
-        + "nprops(2).force_initial = [0 0 0.01]; rls = [];\n"
+        + "opt.filename = 'results'; nprops(2).force_initial = [0 0 0.01]; rls = [];\n"
         + f"for t = [{T} {2 * T}]\n eprops(1).dim = [{B} t];\n"
         + " out = spacarlight(nodes, elements, nprops, eprops, rls, opt);\n"
         + " printf('%.15g ', out.step(1).node(2).x(3), out.step.node(2).rx_axang(1));\nend\n"
@@ -215,6 +216,7 @@ REFUSED = (
     (f"{BEAM}eprops(1).elems = 7;\n{CALL}", "eprops(1).elems: there is no element 7"),
     (f"{BEAM}opt.customdyn = {{'XM 1 1'}};\n{CALL}", "opt.customdyn: statements for the dyn"),
     (f"{BEAM}opt.mode = 3;\n{CALL}", "opt.mode: only results of mode 10"),
+    (f"{BEAM}opt.loadsteps = 'ten';\n{CALL}", "opt.loadsteps: a number from 1 to 100000 is wanted"),
     (f"{BEAM}{CALL}h = out.fighandle;\n", "line 17, reads .fighandle: Flexact shows"),
     (f"{BEAM}{CALL}bode(out.statespace)\n", "reads .statespace: set opt.transfer"),
     (
@@ -258,9 +260,26 @@ def test_the_script_of_the_page_says_what_the_page_shows(tmp_path: Path) -> None
 
 
 def test_the_command_says_where_the_function_is(capsys: pytest.CaptureFixture[str]) -> None:
-    from flexact.apps.cli.main import main
-
     assert main(["spacarlight", "--path"]) == 0
     assert (Path(capsys.readouterr().out.strip()) / "spacarlight.m").is_file()
     assert main(["spacarlight"]) == 2
     assert "--path" in capsys.readouterr().err
+
+
+def test_tables_that_are_no_mechanism_are_refused_by_the_command(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    bar = '"nodes": [[0, 0, 0], [0, 0, 0]], "elements": [1, 2], "nprops": {"fix": true}'
+    for text, code, words in (
+        (f'{{{bar}, "eprops": {{"elems": 1, "type": "truss"}}}}', 1, "TRUSS 1 has zero length"),
+        ("{}", 1, "nodes: the table is missing"),
+        ("[1]", 1, "an object with nodes"),
+        ("{", 1, "this is no JSON"),
+    ):
+        Path("wrong.json").write_text(text)
+        assert main(["spacarlight", "wrong.json", "--page", "wrong.html"]) == code
+        assert words in capsys.readouterr().err
+    assert main(["spacarlight", "none.json"]) == 2
+    assert main(["spacarlight", "deck.dat"]) == 2
+    assert not Path("wrong.html").exists()

@@ -55,6 +55,7 @@ def check_files(decks: Path) -> None:
         assert content[: len(begins)].lower() == begins.lower(), words
         print(f"  {words[0]}: {words[-1]}, {len(content)} bytes")
     flexact("check", deck)
+    assert (Path(flexact("spacarlight", "--path").strip()) / "spacarlight.m").is_file()
 
 
 def least_time(*words: str | Path) -> float:

@@ -59,13 +59,16 @@ tidy = onCleanup(@() remove(work));
 [folder, stem, ending] = fileparts(name);
 stem = [stem ending];
 input = fullfile(work, [stem '.json']);
-output = fullfile(work, 'results.json');
+output = fullfile(work, [stem '.results.json']);
 write(input, json_of_tables(tables));
 command = [flexact() ' spacarlight ' quoted(input)];
 if wants_results
     command = [command ' -o ' quoted(output)];
 end
 if ~is_silent
+    if isempty(folder) && ~is_writable(pwd())
+        folder = tempdir();
+    end
     page = fullfile(folder, [stem '.flexact.html']);
     deck = fullfile(folder, [stem '.flexact.dat']);
     command = [command ' --page ' quoted(page) ' --deck ' quoted(deck)];
@@ -83,7 +86,7 @@ said = regexprep(said, '(nodes|elements|nprops|eprops|rls)\[(\d+)\]', '$1($2)');
 if status ~= 0
     why = regexp(said, 'flexact: error: (.*)$', 'tokens', 'once');
     if ~isempty(why) && ~is_silent
-        fprintf('%s', said(1:strfind(said, 'flexact: error: ') - 1));
+        fprintf('%s', said(1:regexp(said, 'flexact: error: ', 'once') - 1));
     end
     places = regexp(said, '^error\[[^\]]+\]: ([^\n\r]+)', 'tokens', 'lineanchors');
     if ~isempty(why)
@@ -165,6 +168,12 @@ end
 
 function answer = is_off(opt, name)
 answer = isfield(opt, name) && ~isempty(opt.(name)) && ~any(opt.(name)(:));
+end
+
+
+function answer = is_writable(folder)
+[is_known, about] = fileattrib(folder);
+answer = ~is_known || ~isequal(about.UserWrite, 0) && ~isequal(about.UserWrite, false);
 end
 
 

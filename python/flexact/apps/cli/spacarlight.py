@@ -53,12 +53,12 @@ def run_script(chosen: argparse.Namespace) -> ExitCode:
     try:
         tables, text = read_tables(bytes_in(path), str(path), path.suffix.lower())
         script = Script.of(tables, path.stem, text)
+        # What is said of the deck names its lines, and it is there to go on with.
+        deck = script.designed.to_deck()
     except ProblemsError as error:
         complain(str(error))
         return ExitCode.DECK_ERROR
     _say_remarks(script.designed.data)
-    # What is said of the deck names its lines, and it is there to go on with.
-    deck = script.designed.to_deck()
     name = path.stem if chosen.deck is None else str(chosen.deck)
     with unwinding():
         designed = load("flexact.api").analyse(read_text(deck, name))

@@ -17,6 +17,7 @@ from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Severity
 from ...model.data import CrossSection
 from ...model.draft import Draft
+from ...model.names import part_name
 from ...model.parts.chains import Chain
 from ...model.sections import constants_of
 from ...util.records import Frozen
@@ -72,8 +73,8 @@ def taken_by_section(tables: Tables) -> Taken:
 
     Where `flex` says all deformations, a rectangle of five thicknesses or more is a sheet, any
     other section a wire, and what is a thousand times as stiff in bending as the median of such
-    sets a body. What `flex` says of fewer is released. `rls` counts for elements that are not
-    flexible: of others it makes equations solvable, which nobody asks for here.
+    sets a body. What `flex` says of fewer is released. `rls` makes equations solvable, which says
+    nothing about the design: it is not taken over, and told.
     """
     bending = _bending_of(tables)
     # Of two sets the softer one: it is the flexure.
@@ -93,16 +94,14 @@ def taken_by_section(tables: Tables) -> Taken:
         if words:
             remarks.append(_remark(f"eprops[{number}]", entry["elems"], words, is_sure))
         released |= dict.fromkeys(entry.get("elems", ()), modes)
-    ignored = []
-    for element, modes in tables.released.items():
-        if not modes:
-            continue
-        if released.get(element):
-            ignored.append(element)
-        else:
-            released[element] = modes
-            words = f"it is rigid, and {_listed(modes)} released: a joint"
-            remarks.append(_remark(f"rls[{element}]", (element,), words, True))
+    ignored = [element for element, modes in tables.released.items() if modes]
+    for element in ignored:
+        if not released.get(element):
+            modes = tables.released[element]
+            words = (
+                f"it is rigid, and {_listed(modes)} stays held; if it is a joint, say so with flex"
+            )
+            remarks.append(_remark(f"rls[{element}]", (element,), words, False))
     if ignored:
         words = (
             "not taken over: releases that make the equations solvable say nothing about the "
@@ -202,16 +201,18 @@ def name_by_rows(
         first: The element of the script that each beam is of.
         kinds: What each beam is, such as "sheet".
     """
+    given = set(map(part_name, draft.names.values()))
     alone = set(range(len(first)))
     for chain in chains:
         alone -= set(chain.elements)
         element = min(first[beam] for beam in chain.elements)
         for place, beam in enumerate(chain.elements, start=1):
-            if beam not in draft.names:
-                name = f"{kinds[beam]} {element}, part {place} of {len(chain.elements)}"
-                draft.name_element(beam, name)
+            part = f"{kinds[beam]} {element}"
+            if beam not in draft.names and part not in given:
+                draft.name_element(beam, f"{part}, part {place} of {len(chain.elements)}")
     for beam in alone - draft.names.keys():
-        draft.name_element(beam, f"{kinds[beam]} {first[beam]}")
+        if (part := f"{kinds[beam]} {first[beam]}") not in given:
+            draft.name_element(beam, part)
 
 
 def kind_in_words(released: Iterable[int]) -> str:

@@ -27,6 +27,7 @@ from ...model.model import Model
 from ...util.errors import FlexactError
 from ...util.loading import VERSION, load
 from ...util.rotations import matrix_of_euler, vector_of_euler
+from ...util.text import in_short
 from .table_input import BY_SECTION, INDEPENDENT, LETTERS, RELEASED, Found, Tables, Text
 from .tables import (
     checked_tables,
@@ -36,8 +37,10 @@ from .tables import (
     numbers_of_points,
 )
 
-#: Load steps where opt.loadsteps does not say how many.
+#: Load steps where opt.loadsteps does not say how many; of version 0.5, by its `type`, one more.
 _STEPS = 10
+_OLD_TYPE = "type for cshape"
+_MOST_STEPS = 100_000
 #: Options that change what is computed, and that Flexact does not follow.
 _NOT_FOLLOWED = {
     "customkin": "statements for the kinematics of SPACAR",
@@ -140,7 +143,7 @@ def results_of(script: Script, designed: Result) -> dict[str, Any]:
     rigid = Model.from_data(data_of(script.tables, RELEASED, Found(None, "")))
     if over := load("flexact.api").analyse(rigid).over_constrained:
         found.values["notes"] = [
-            f"what is not in flex is rigid and holds {over} times too often: of reactions and "
+            f"what is not in flex is rigid, and over-constrained by {over}: of reactions and "
             "stresses those of least norm are given"
         ]
     elastic = Elastic(script.simulated.data, "rigid", "locked", {}, 1)
@@ -208,7 +211,11 @@ def _load_steps(
     if loads is not None:
         initial, gravity = np.array((loads.force, loads.increment)), np.array(loads.gravity)
     adds = bool(initial[1].any()) or any(more for _, _, more in motions)
-    many = max(int(options.get("loadsteps") or _STEPS), 1) if adds else 1
+    many = options.get("loadsteps") or _STEPS + (_OLD_TYPE in script.tables.renamed)
+    if not isinstance(many, (int, float)) or not 1 <= many <= _MOST_STEPS:
+        words = f"opt.loadsteps: a number from 1 to {_MOST_STEPS} is wanted"
+        raise ElasticError(f"{words}, not {in_short(many)}")
+    many = int(many) if adds else 1
     for step in range(many):
         share = step / (many - 1) if many > 1 else float(adds)
         target = here.way.target

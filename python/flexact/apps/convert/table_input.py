@@ -629,8 +629,12 @@ def _take_sets(made: Tables, found: Found) -> None:
             wanted = "width and thickness" if entry["cshape"] == "rect" else "one diameter"
             found.error(f"{place}.dim", f"of cshape {entry['cshape']!r} {wanted} is wanted")
         if ("emod" in entry) != ("smod" in entry):
-            missing = "smod" if "emod" in entry else "emod"
-            found.error(place, f"emod and smod belong together: {missing} is missing")
+            missing, given = ("smod", "emod") if "emod" in entry else ("emod", "smod")
+            if entry.get("flex") or "cshape" not in entry:
+                found.error(place, f"emod and smod belong together: {missing} is missing")
+            else:
+                made.left_out[f"{place}.{given} without {missing}, of what is rigid"] += 1
+                del entry[given]
         if "cshape" not in entry and {"emod", "dens"} & entry.keys():
             found.error(place, "emod and dens need a cross-section: give cshape and dim")
 

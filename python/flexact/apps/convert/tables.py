@@ -203,12 +203,13 @@ class _Making:
     def add_nodes(self) -> None:
         """Positions; orientations come with the elements that need them."""
         kind = NodeKind.PLANAR_POSITION if self.tables.planar else NodeKind.POSITION
+        given = {one_line(entry.get("name", "")) for entry in self.tables.nodes.values()}
         for point, place in enumerate(self.tables.places, start=1):
             number = self.position[point]
             self.draft.node_kind[number] = kind
             self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
             name = one_line(self.tables.nodes.get(point, {}).get("name", ""))
-            if not name and self.taken is not None:
+            if not name and self.taken is not None and f"point {point}" not in given:
                 # Nodes of the deck have other numbers than those of the script.
                 name = f"point {point}"
             if name:
