@@ -115,6 +115,38 @@ def turned(made: Design, *turns: gp_Trsf, shift: Vector = (0, 0, 0)) -> Design:
     return replace(made, parts=parts, truth=truth)
 
 
+def scaled(made: Design, factor: float) -> Design:
+    """The same, so many times as large."""
+    whole = gp_Trsf()
+    whole.SetScaleFactor(factor)
+
+    def times(values: Vector) -> tuple[float, ...]:
+        return tuple(float(factor * each) for each in values)
+
+    def flexure(each: Flexure) -> Flexure:
+        if isinstance(each, Wire):
+            return replace(each, p=times(each.p), q=times(each.q), sides=times(each.sides))
+        thickness = factor * each.thickness
+        if isinstance(each, Notch):
+            sizes = {"radius": factor * each.radius, "breadth": factor * each.breadth}
+            return replace(each, middle=times(each.middle), thickness=thickness, **sizes)
+        if isinstance(each, Bent):
+            sizes = {name: factor * getattr(each, name) for name in ("width", "radius", "length")}
+            corners = tuple(map(times, each.corners))
+            return replace(each, corners=corners, thickness=thickness, **sizes)
+        middle = each.middle and (each.middle[0], factor * each.middle[1])
+        ends = {"p": times(each.p), "q": times(each.q), "width": factor * each.width}
+        return replace(each, thickness=thickness, middle=middle, **ends)
+
+    truth = replace(
+        made.truth,
+        bodies={name: times(p) for name, p in made.truth.bodies.items()},
+        flexures=tuple(map(flexure, made.truth.flexures)),
+    )
+    parts = tuple((names, shapes.turned(shape, whole)) for names, shape in made.parts)
+    return replace(made, parts=parts, truth=truth)
+
+
 def skewed(made: Design) -> Design:
     """Turned by 13, 47 and 71 degrees about skew axes."""
     return turned(
@@ -398,6 +430,12 @@ def cross_ends() -> list[Vector]:
 @case("cross hinge, monolithic with fillets")
 def cross_hinge_filleted() -> Design:
     return as_one(cross_hinge(), cross_ends(), 0.5)
+
+
+@case("cross hinge, monolithic with fillets of 1.5 mm")
+def cross_hinge_more_filleted() -> Design:
+    """On the acute side of a slanted sheet the fillet reaches far along it: it is free there."""
+    return as_one(cross_hinge(), cross_ends(), 1.5)
 
 
 @case("cross hinge, turned")
