@@ -1065,3 +1065,164 @@ def guide_free_form() -> Design:
     parts["spring foil"] = BRepPrimAPI_MakePrism(face, shapes.vector((0.5, 0, 0))).Shape()
     truth = replace(made.truth, told=("spring foil",), motions=-1, over=-1)
     return design(parts, truth)
+
+
+# What lies about in real assemblies
+
+
+@case("cartwheel")
+def cartwheel() -> Design:
+    """Two sheets that cross in one plane, out of one piece with base and stage.
+
+    Four half sheets meet in the middle, where they have a piece of material of their own. Four hold
+    12 of the 12 freedoms of stage and middle. Both halves of a pair are in one plane; the middle
+    turns about its axis while both ends stand, and the stage turns about it: 2 motions, over by 2.
+    """
+    corner = 20.0
+    ends = {
+        "half 1": ("base", (-corner, 0, 6)), "half 2": ("base", (corner, 0, 6)),
+        "half 3": ("stage", (corner, 2 * corner, 6)), "half 4": ("stage", (-corner, 2 * corner, 6)),
+    }  # fmt: skip
+    middle = (0, corner, 6)
+    halves = [
+        Sheet(name, (body, "middle"), end, middle, Z, 12, 0.5) for name, (body, end) in ends.items()
+    ]
+    between = box((-50, 50), (0, 2 * corner), (-1, 13))
+    blades = [common(plate(halves[k].p, halves[k + 2].p, Z, 12, 0.5, 3), between) for k in (0, 1)]
+    base, stage = box((-30, 30), (-15, 0), (0, 12)), box((-28, 28), (40, 50), (0, 12))
+    bodies = {"base": (0, -8, 6), "stage": (0, 45, 6), "middle": middle}
+    truth = Truth(
+        "base", bodies, tuple(halves), motions=2, over=2,
+        why="12 held of 12 freedoms, rank 10.",
+    )  # fmt: skip
+    return as_one(design({"base": base, "stage": stage, "a": blades[0], "b": blades[1]}, truth))
+
+
+@case("guide in a frame, fillets at all corners")
+def framed_filleted() -> Design:
+    """As milled: every inner corner has a fillet of 1 mm."""
+    made = framed()
+    (shape,) = (shape for _, shape in made.parts)
+    fillets = ends_of([f for f in made.truth.flexures if isinstance(f, Sheet)])
+    corners = [(x, y, 6) for x in (-60, 60) for y in (-30, 30)]
+    whole = shapes.filleted(shape, [*fillets, *corners], 1.0)
+    return replace(made, parts=((("Frame plate",), whole),))
+
+
+@case("trapezoid guide")
+def trapezoid() -> Design:
+    """Two sheets that lean towards each other: the stage turns about where they meet."""
+    ends = (((20, 20, 15), (30, 60, 15)), ((80, 20, 15), (70, 60, 15)))
+    sheets = [
+        Sheet(f"sheet {k}", ("base", "stage"), p, q, Z, 30, 0.5) for k, (p, q) in enumerate(ends, 1)
+    ]
+    between = box((-50, 200), (20, 60), (-1, 40))
+    parts = {"base": box((0, 100), (0, 20), (0, 30)), "stage": box((10, 90), (60, 72), (0, 30))}
+    parts |= {each.name: common(solid_of(each, 3), between) for each in sheets}
+    return design(parts, guide_truth(sheets))
+
+
+@case("guide, sheets wider where they are clamped")
+def guide_dog_bone() -> Design:
+    """Lapped sheets of 16 mm between clamped ends of 30 mm."""
+    made = guide_lapped()
+    parts = {names[0]: shape for names, shape in made.parts}
+    sheets = [replace(each, width=16) for each in guide_sheets((-0.25, 100.25))]
+    for each in sheets:
+        x = each.p[0]
+        ends = [box((x - 0.25, x + 0.25), y, (0, 30)) for y in ((8, 20), (60, 72))]
+        parts[each.name] = fused(solid_of(each, 1), *ends)
+    return design(parts, guide_truth(sheets))
+
+
+@case("guide, sandwiched")
+def guide_sandwiched() -> Design:
+    """Each end of a sheet between two plates, of which the inner one stands on base or stage."""
+    sheets = guide_sheets()
+    parts = {"base": box((0, 100), (0, 10), (0, 30)), "stage": box((0, 100), (70, 80), (0, 30))}
+    for k, each in enumerate(sheets, 1):
+        x = each.p[0]
+        parts[each.name] = solid_of(each, 10)
+        for n, y in enumerate(((10, 20), (60, 70)), 1):
+            for side, letter in ((-1, "a"), (1, "b")):
+                faces = sorted((x + side * 0.25, x + side * 5.25))
+                parts[f"jaw {k}.{n}{letter}"] = box(faces, y, (0, 30))
+    return design(parts, guide_truth(sheets, base=(50, 5, 15), stage=(50, 75, 15)))
+
+
+@case("guide, with a shim, a cover and a flag")
+def guide_with_thin_parts() -> Design:
+    """Thin parts that are no flexures: a shim below the base, a plate flat on it, a flag.
+
+    The shim of 0.2 mm lies between base and foot over all its face; the cover of 1 mm lies on a
+    side of the base; the flag of 0.5 mm stands on the stage by one end, and its other end is free.
+    """
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["shim"] = box((0, 100), (-0.2, 0), (0, 30))
+    parts["foot"] = box((0, 100), (-6.2, -0.2), (0, 30))
+    parts["cover"] = box((0, 100), (2, 18), (30, 31))
+    parts["flag"] = box((49.75, 50.25), (72, 102), (5, 25))
+    return design(parts, made.truth)
+
+
+@case("guide on a thin-walled housing")
+def guide_on_housing() -> Design:
+    """The base is a box of 2 mm walls, open above: its walls lie between parallel faces too."""
+    sheets = [
+        replace(s, p=(s.p[0], 20, 15), q=(s.q[0], 60, 15)) for s in guide_sheets(thickness=0.3)
+    ]
+    shell = cut(box((0, 100), (-30, 20), (0, 30)), box((2, 98), (-28, 18), (2, 31)))
+    parts = {"housing": shell, "stage": box((0, 100), (60, 72), (0, 30))}
+    parts |= {each.name: solid_of(each) for each in sheets}
+    renamed = [replace(each, between=("housing", "stage")) for each in sheets]
+    bodies = {"housing": (50, -5, 1), "stage": (50, 65, 15)}
+    truth = replace(guide_truth(renamed), ground="housing", bodies=bodies)
+    return design(parts, truth)
+
+
+@case("guide, stiffened on one side")
+def guide_stiffened() -> Design:
+    """A plate of 2 mm on one face of each sheet alone."""
+    sheets = [replace(s, middle=(0.7, 2.5)) for s in guide_sheets(lengths=(20, 80))]
+    parts = {"base": box((0, 100), (0, 20), (0, 30)), "stage": box((0, 100), (80, 92), (0, 30))}
+    for k, each in enumerate(sheets, 1):
+        x = each.p[0]
+        parts[each.name] = solid_of(each)
+        parts[f"stiffener {k}"] = box((x + 0.25, x + 2.25), (29, 71), (0, 30))
+    return design(parts, guide_truth(sheets, stage=(50, 85, 15)))
+
+
+@case("guide, names as CAD gives them")
+def guide_cad_names() -> Design:
+    """Names with suffixes and numbers of instances, and an assembly of the same name as a part."""
+    made = guide_lapped()
+    words = {
+        "base": "Baseplate.SLDPRT",
+        "stage": "stage <2>",
+        "sheet 1": "Leaf-1",
+        "sheet 2": "Leaf-2",
+    }
+    parts = tuple(((f"{words[n[0]]}", words[n[0]]), shape) for n, shape in made.parts)
+    names = {"base": words["base"], "stage": words["stage"]}
+    truth = replace(
+        made.truth,
+        ground=names["base"],
+        bodies={names[name]: place for name, place in made.truth.bodies.items()},
+        flexures=tuple(
+            replace(each, name=words[each.name], between=tuple(names[b] for b in each.between))
+            for each in made.truth.flexures
+        ),
+    )
+    return Design(parts, truth, root="Assembly1.SLDASM")
+
+
+@case("six wires with fillets, monolithic")
+def six_wires_filleted() -> Design:
+    """Round wires of 0.8 mm with fillets of 0.5 mm at both ends."""
+    made = wired((0.8,), 0)
+    whole = as_one(made)
+    (shape,) = (shape for _, shape in whole.parts)
+    ends = [end for each in made.truth.flexures for end in (each.p, each.q)]  # type: ignore[union-attr]
+    filleted = shapes.filleted(shape, ends, 0.5)
+    return replace(whole, parts=((("part",), filleted),))
