@@ -7,8 +7,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ...model.sections import MATERIALS
 from ...deck.rendering import ProblemsError, render
+from ...model.sections import MATERIALS
 from ...util.decks import STDIN, DeckFile, find_decks
 from ...util.errors import BatchError, FlexactError
 from ...util.outputs import STDOUT, plan_file

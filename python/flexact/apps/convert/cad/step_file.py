@@ -211,9 +211,9 @@ class _Walk:
         material, density = _material(label)
         for solid in solids:
             colour = self._colour(label, solid)
-            made = Part(solid, name, path, colour, material, density)
+            made = Part(solid, name, name, path, colour, material, density)
             if made.volume < 0.0:
-                made = Part(solid.Reversed(), name, path, colour, material, density)
+                made = Part(solid.Reversed(), name, name, path, colour, material, density)
             self.parts.append(made)
             self.instances.append(instance)
 
