@@ -1293,7 +1293,7 @@ def links_filleted(share: float, thick: float, radius: float) -> Design:
 
 @case("guide with a sheet like a shell")
 def guide_shell() -> Design:
-    """Besides the sheets one that is a piece of a thin cylinder from end to end: it must be told."""
+    """Besides the sheets a piece of a thin cylinder from end to end: it must be told."""
     made = guide()
     parts = {names[0]: shape for names, shape in made.parts}
     outline = [
