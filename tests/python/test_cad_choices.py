@@ -20,6 +20,8 @@ from flexact.apps.convert.cad.kept_choices import (
     said_of,
     say,
 )
+from flexact.deck.rendering import DeckError
+from flexact.model.reading import read_bytes
 from flexact.util.errors import BatchError
 
 if sys.version_info < (3, 11):
@@ -75,6 +77,14 @@ def assembly(*flexures: Flexure, one_piece: bool = False) -> Assembly:
         owners = [(0, "base"), (0, "stage")]
     pieces = tuple(Piece(row, name, False, corners, triangle) for row, name in owners)
     return Assembly("x.step", solids, pieces, flexures, (), bodies, (), (), ())
+
+
+def test_a_step_file_that_is_taken_for_a_deck_is_told_in_one_error() -> None:
+    with pytest.raises(DeckError) as raised:
+        read_bytes(b"ISO-10303-21;\nHEADER;\nENDSEC;\n", "guide.step")
+    (problem,) = raised.value.diagnostics
+    assert "STEP file" in problem.message
+    assert "flexact convert" in problem.help
 
 
 def test_choices_are_kept_and_read(tmp_path: Path) -> None:
