@@ -17,6 +17,9 @@ from .assembly import Choices
 from .report import assembly_of
 from .step_file import parts_of
 
+if sys.platform != "win32":
+    import resource
+
 _TOO_LARGE = (
     "it takes more memory than it is given: export the mechanism alone, or with less detail"
 )
@@ -24,9 +27,7 @@ _TOO_LARGE = (
 
 def limit(memory: int, seconds: int) -> None:
     """Bound this process, where the system can: memory in bytes, and time of its processor."""
-    try:
-        import resource
-    except ImportError:
+    if sys.platform == "win32":
         return
     for kind, bound in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_CPU, seconds)):
         _, hard = resource.getrlimit(kind)
