@@ -48,8 +48,8 @@ def test_mechanism_is_that_of_the_design(name: str, tmp_path: Path) -> None:
     loose = 6 * len(set(truth.loose) & set(bodies.values()))
     middles = sum(isinstance(each, Sheet) and each.middle is not None for each in truth.flexures)
     # The stiff middle of a reinforced sheet may be a body, which has three motions of its own; a
-    # bent sheet may be one that is folded, whose fold turns; a U may be three leaves in a row, which
-    # have three.
+    # bent sheet may be one that is folded, whose fold turns; a U may be three leaves in a row, of
+    # which there are three.
     bent = (each for each in truth.flexures if isinstance(each, Bent))
     bends = sum(1 if len(each.corners) == 3 else 3 for each in bent)
     usual = truth.motions + truth.inner + loose
