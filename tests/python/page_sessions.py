@@ -17,6 +17,8 @@ _GIVEN = re.compile(
     r"`([\w.]+\.\w+)`:\n\n(?:```\w*\n((?:[^`].*\n|\n)*)```|((?:^    .*\n|^\n(?=    ))+))",
     re.MULTILINE,
 )
+#: A STEP file beside the page.
+_LINKED = re.compile(r"\]\((\w+\.step)\)")
 
 
 class Step(NamedTuple):
@@ -27,10 +29,12 @@ class Step(NamedTuple):
 
 
 def given_files(page: Path) -> dict[str, str]:
-    """Files by name: blocks behind a line that ends with a name and a colon."""
-    return {
+    """Files by name: blocks behind a line that ends with a name and a colon, and linked CAD."""
+    text = page.read_text("utf-8")
+    linked = {name: (page.parent / name).read_text("utf-8") for name in _LINKED.findall(text)}
+    return linked | {
         name: fenced or textwrap.dedent(indented).strip("\n") + "\n"
-        for name, fenced, indented in _GIVEN.findall(page.read_text("utf-8"))
+        for name, fenced, indented in _GIVEN.findall(text)
     }
 
 

@@ -117,6 +117,8 @@ def test_python_of_pages_prints_what_is_shown(
     page: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Blocks of a page follow on each other; what they print may stand behind them."""
+    if page.stem == "cad":
+        pytest.importorskip("OCP")
     text = page.read_text("utf-8")
     names: dict[str, object] = {}
     for code in examples(text):

@@ -28,7 +28,7 @@ LAYERS = (
 OPTIONAL = (
     *("matplotlib", "PIL", "meshio", "vtk", "vtkmodules"),
     *("pyarrow", "distributed", "pandas", "psutil", "yaml"),
-    *("pygls", "lsprotocol", "imageio_ffmpeg", "scipy", "control"),
+    *("pygls", "lsprotocol", "imageio_ffmpeg", "scipy", "control", "OCP"),
 )
 
 

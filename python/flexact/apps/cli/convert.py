@@ -52,6 +52,17 @@ def points(text: str) -> tuple[int, ...]:
     return tuple(made)
 
 
+def declared(text: str) -> tuple[str, tuple[str, ...]]:
+    """A body and names of its coordinates, as an option's type."""
+    body, _, names = text.rpartition(":")
+    coordinates = tuple(name.strip() for name in names.split(","))
+    if not body or not set(coordinates) <= {"x", "y", "z", "rx", "ry", "rz"}:
+        raise argparse.ArgumentTypeError(
+            f"a body and its coordinates are wanted, such as stage:x,rz, not {text!r}"
+        )
+    return body, coordinates
+
+
 def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
     """How the file is to be taken.
 
@@ -59,9 +70,14 @@ def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
         BatchError: an option is for files of another format.
     """
     made: dict[str, Any] = {}
-    choices = Choices(ground=tuple(chosen.ground), material=chosen.material or "")
+    choices = Choices(
+        ground=tuple(chosen.ground),
+        declared=tuple(chosen.declared),
+        material=chosen.material or "",
+    )
     for option, name, value, wanted in (
         ("--ground", "choices", choices if chosen.ground else None, CAD),
+        ("--declare", "choices", choices if chosen.declared else None, CAD),
         ("--material", "choices", choices if chosen.material else None, CAD),
         ("--as", "kind", chosen.kind, MESH),
         ("--fix", "fixed", chosen.fix or None, MESH),
@@ -189,6 +205,15 @@ VERB = Verb(
             default=[],
             metavar="NAME",
             help="of a STEP file a solid that stands still; may be repeated (default: by name)",
+        ),
+        argument(
+            "--declare",
+            dest="declared",
+            type=declared,
+            action="append",
+            default=[],
+            metavar="BODY:COORDINATES",
+            help="motions of a body of a STEP file that are meant, such as stage:x,rz",
         ),
         argument(
             "--material",

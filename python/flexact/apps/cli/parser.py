@@ -35,7 +35,7 @@ VERBS = {
     "view": "a deck's page in the browser",
     "watch": "the page of a deck, script or STEP file in the browser, renewed at each save",
     "report": "a page of each deck, to open in a browser and to mail",
-    "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
+    "convert": "decks from and to tables of SPACAR Light, of flexures, meshes of lines; from CAD",
     "spacarlight": "verdict and results of a script for SPACAR Light, for MATLAB and Octave",
     "bench": "how fast this machine is, in half a minute",
     "lsp": "a language server for editors, which start it",

@@ -231,7 +231,8 @@ class Part:
 
     Attributes:
         shape: Its shape, where it stands in the assembly.
-        name: In the CAD.
+        name: In the CAD, with a number where several have it.
+        title: In the CAD.
         path: Names of the assemblies around it.
         colour: Red, green, blue, or ().
         material: Its name in the file.
@@ -241,6 +242,7 @@ class Part:
 
     shape: TopoDS_Shape
     name: str = ""
+    title: str = ""
     path: tuple[str, ...] = ()
     colour: tuple[float, ...] = ()
     material: str = ""

@@ -14,15 +14,20 @@ from pathlib import Path
 
 from ....util.errors import FlexactError
 from .assembly import Choices
-from .bodies import assembly_of
+from .report import assembly_of
 from .step_file import parts_of
+
+if sys.platform != "win32":
+    import resource
+
+_TOO_LARGE = (
+    "it takes more memory than it is given: export the mechanism alone, or with less detail"
+)
 
 
 def limit(memory: int, seconds: int) -> None:
     """Bound this process, where the system can: memory in bytes, and time of its processor."""
-    try:
-        import resource
-    except ImportError:
+    if sys.platform == "win32":
         return
     for kind, bound in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_CPU, seconds)):
         _, hard = resource.getrlimit(kind)
@@ -40,19 +45,12 @@ def answer(path: str, choices: Choices, drawing: bool) -> object:
     except FlexactError as error:
         return str(error)
     except MemoryError:
-        return (
-            "it takes more memory than is given to it: export the mechanism alone, or less detail"
-        )
-    except Exception as error:  # noqa: BLE001
+        return _TOO_LARGE
+    except Exception as error:
         words = " ".join(str(error).split())[:200]
         if "bad_alloc" in words or "OutOfMemory" in type(error).__name__:
-            return answer_of_memory()
+            return _TOO_LARGE
         return f"OpenCASCADE failed on it ({type(error).__name__}: {words}): export it again"
-
-
-def answer_of_memory() -> str:
-    """What is said where memory ends."""
-    return "it takes more memory than is given to it: export the mechanism alone, or less detail"
 
 
 def main() -> None:

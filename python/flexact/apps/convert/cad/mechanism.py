@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -179,8 +180,14 @@ def _add(model: Model, flexure: Flexure, points: _Points, middles: set[str], mat
         if flexure.between[0] in middles:
             model.independent(name, "twist", "bending")
     elif flexure.kind is Kind.SHEET:
-        sizes = dict(thickness=thickness, breadth=breadth, fillet=fillet)
-        model.sheet(p, q, width, name=name, material=material, **sizes)
+        model.sheet(
+            *(p, q, width),
+            name=name,
+            thickness=thickness,
+            breadth=breadth,
+            material=material,
+            fillet=fillet,
+        )
         if flexure.between[0] in middles:
             # How the middle of a reinforced sheet moves while both ends stand still.
             model.independent(name, "twist", "out-of-plane bending")
@@ -192,7 +199,7 @@ def _add(model: Model, flexure: Flexure, points: _Points, middles: set[str], mat
             more = f" {k}" if len(flexure.corners) > 3 else ""
             ends.append(model.node(*_mm(corner), name=f"{name}, fold{more}"))
         ends.append(q)
-        for k, (a, b) in enumerate(zip(ends, ends[1:], strict=False), start=1):
+        for k, (a, b) in enumerate(itertools.pairwise(ends), start=1):
             leaf = f"{name}, leaf {k}"
             model.sheet(
                 *(a, b, width), name=leaf, thickness=thickness, breadth=breadth, material=material
@@ -287,13 +294,16 @@ def _flexure_words(flexure: Flexure) -> str:
     a, b = flexure.between
     where = f"between {a} and {b}" if a != b else f"from {a} to itself"
     if flexure.kind is Kind.NOTCH:
-        what = f"notch, {mm[2]} mm at the thinnest, {1e3 * flexure.radius:.4g} mm radius, {mm[1]} mm broad"
+        what = f"notch, {mm[2]} mm at the thinnest, {mm[1]} mm broad"
+        if flexure.radius:
+            what += f", {1e3 * flexure.radius:.4g} mm radius"
     elif flexure.contour == "round":
         what = f"wire, {mm[0]} mm long, {mm[2]} mm in diameter"
     else:
         what = f"{flexure.kind}, {mm[0]} x {mm[1]} x {mm[2]} mm"
     if flexure.kind is Kind.BENT:
-        what += f", bent by {np.degrees(flexure.angle):.0f} degrees with {1e3 * flexure.radius:.3g} mm radius"
+        angle, radius = np.degrees(flexure.angle), 1e3 * flexure.radius
+        what += f", bent by {angle:.0f} degrees with {radius:.3g} mm radius"
     return f"{what}, {where}"
 
 

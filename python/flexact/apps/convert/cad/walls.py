@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thin parts of solids: walls between parallel faces, round wires, necks between two bores.
+"""Walls of solids between parallel planes, which may be sheets, bars or filleted notches.
 
 Loaded in the child process alone. A wall is what two parallel faces have in common, seen along
-their normal, without what other solids clamp. It is a flexure where material goes on at two of its
-ends and at no other place: free length is what lies between.
+their normal, without what other solids clamp. It may be a flexure where material goes on at two of
+its ends and at no other place; its free length is what lies between.
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from OCP.TopoDS import TopoDS_Shape
@@ -18,111 +18,11 @@ from OCP.TopoDS import TopoDS_Shape
 from ....core.arrays import FloatArray
 from . import brep
 from .assembly import Kind
-from .brep import NEAR, PARALLEL, Face, Part, are_parallel, unit, without
+from .brep import NEAR, Face, Part, are_parallel, unit, without
+from .thin import GLUED, LEAST_SLENDER, NOTCH, SHEET, Scene, Thin
 
-#: A wall is at least so many thicknesses long.
-LEAST_SLENDER = 4.0
-#: A wall with fillets at both ends that is no longer than so many thicknesses is a notch.
-NOTCH = 12.0
-#: A sheet is at least so many thicknesses broad; what is narrower is a wire.
-SHEET = 5.0
-#: The widest gap that is filled with glue [mm].
-GLUED = 0.25
 #: Share of a clamp that may be holes, which screws fill.
 _HOLES = 0.3
-
-
-@dataclass(eq=False)
-class Thin:
-    """A thin part of a solid that may be a flexure.
-
-    Attributes:
-        part: Row of its solid.
-        kind: What it would be.
-        p: Middle of one end, where the nominal flexure ends.
-        q: Middle of the other one.
-        cuts: Middles of both cross-sections at which it is cut from what it is fastened to.
-        width: From edge to edge; of a notch along its axis.
-        normal: Across the thickness.
-        breadth: Along the width.
-        thickness: At the thinnest.
-        span: From where to where the cuts go along the width, from the line of middles.
-        outline: Of its mid plane (n, 3).
-        radius: Of a notch, or of the fillets of a sheet.
-        contour: See `Flexure`.
-        doubts: What is odd in its shape.
-        why: Why it is taken as a flexure or as a body, where that is in doubt.
-    """
-
-    part: int
-    kind: Kind
-    p: FloatArray
-    q: FloatArray
-    cuts: tuple[FloatArray, ...]
-    width: FloatArray
-    normal: FloatArray
-    breadth: float
-    thickness: float
-    span: tuple[float, float]
-    outline: FloatArray
-    radius: float = 0.0
-    contour: str = ""
-    doubts: list[str] = field(default_factory=list)
-    why: list[str] = field(default_factory=list)
-
-    @property
-    def length(self) -> float:
-        """Free length."""
-        return float(np.linalg.norm(self.q - self.p))
-
-    @property
-    def axis(self) -> FloatArray:
-        """From p to q."""
-        return unit(self.q - self.p)
-
-    @property
-    def middle(self) -> FloatArray:
-        """The middle between its ends."""
-        made: FloatArray = np.asarray((self.p + self.q) / 2.0)
-        return made
-
-    @property
-    def bending(self) -> float:
-        """Stiffness against bending, without the modulus."""
-        return self.breadth * self.thickness**3 / self.length**3
-
-    def has(self, place: FloatArray, more: float = 0.0) -> bool:
-        """Whether a place is within it."""
-        x, y, z = (float((place - self.middle) @ d) for d in (self.axis, self.width, self.normal))
-        half = np.array([self.length, self.breadth, self.thickness]) / 2 + more + NEAR
-        return bool(abs(x) <= half[0] and abs(y) <= half[1] and abs(z) <= half[2])
-
-
-@dataclass(eq=False)
-class Scene:
-    """All solids of an assembly, and simple ones in place of those that are purchased."""
-
-    parts: list[Part]
-    stand_ins: dict[int, Part]
-
-    def near(self, box: FloatArray, but: int) -> list[int]:
-        """Rows of other solids that have something in a box."""
-        return [
-            k
-            for k, part in enumerate(self.parts)
-            if k != but and brep.boxes_meet(self.shown(k).box, box)
-        ]
-
-    def shown(self, row: int) -> Part:
-        """The solid, or what stands in for it."""
-        return self.stand_ins.get(row, self.parts[row])
-
-    def where(self, place: FloatArray, rows: Sequence[int]) -> int | None:
-        """Which of some solids has a place in it."""
-        return next((k for k in rows if self.shown(k).holds(place)), None)
-
-
-# Walls between parallel planes
 
 
 @dataclass(eq=False)
@@ -240,9 +140,7 @@ def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin
     return made
 
 
-def _free_walls(
-    scene: Scene, region: Region, before: Sequence[Thin], gap: float
-) -> list[Thin]:
+def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float) -> list[Thin]:
     """The walls in one region, where what is no further away than a gap holds it."""
     row, thickness, normal = region.part, region.thickness, region.planes[0].normal
     part = scene.parts[row]
@@ -456,14 +354,26 @@ def _web(row: int, outline: _Outline, thickness: float, words: str) -> Thin:
     p, q = middle - half[k] * axis, middle + half[k] * axis
     breadth = 2 * float(half[1 - k])
     return Thin(
-        *(row, Kind.SHEET, p, q, (), width, outline.normal, breadth, thickness),
-        *((0.0, 0.0), ring, 0.0, "web", [words]),
+        part=row,
+        kind=Kind.SHEET,
+        p=p,
+        q=q,
+        cuts=(),
+        width=width,
+        normal=outline.normal,
+        breadth=breadth,
+        thickness=thickness,
+        span=(0.0, 0.0),
+        outline=ring,
+        radius=0.0,
+        contour="web",
+        doubts=[words],
     )
 
 
 def _front(
     chain: list[_Segment], axis: FloatArray, normal: FloatArray
-) -> tuple[FloatArray, FloatArray, float] | None:
+) -> tuple[FloatArray, FloatArray, float]:
     """Of an end: its middle, the direction of its edge, how far it goes; `axis` goes to the other.
 
     Pieces in one line are one; the longest that lies across the axis is the front.
@@ -482,7 +392,7 @@ def _front(
     ahead = float((places @ axis).max())
     if lengths[best] < 0.45 * spread:
         top = places[int(np.argmax(places @ axis))]
-        middle = top + side * float(places @ side @ np.ones(len(places)) / len(places) - top @ side)
+        middle = top + float((places.mean(0) - top) @ side) * side
         return middle, side, float(spread)
     a, b = runs[best]
     middle, direction = (a + b) / 2, unit(b - a)
@@ -509,10 +419,8 @@ def _wall(
         return None
     axis = unit(away)
     for _ in range(3):
-        fronts = [_front(chains[0], axis, normal), _front(chains[1], -axis, normal)]
-        if fronts[0] is None or fronts[1] is None:
-            return None
-        (m0, d0, b0), (m1, d1, b1) = fronts
+        m0, d0, b0 = _front(chains[0], axis, normal)
+        m1, d1, b1 = _front(chains[1], -axis, normal)
         if float(d0 @ d1) < 0:
             d1 = -d1
         width = unit(b0 * d0 + b1 * d1)
@@ -528,7 +436,6 @@ def _wall(
         return None
     ring = outline.rings[0]
     lateral = (ring - m0) @ width
-    inside = np.ptp(lateral)
     span = (float(lateral.min()) - 0.05 * thickness, float(lateral.max()) + 0.05 * thickness)
     # Fillets in its plane are near the ends, holes to make it lighter in the middle.
     breadth, near, far = (
@@ -564,15 +471,39 @@ def _wall(
     if min(radii) >= 0.4 * thickness and nominal < NOTCH * thickness and breadth > thickness:
         half = (m1 - m0) / 2
         return Thin(
-            *(row, Kind.NOTCH, p, q, (m0 + half,), width, normal, breadth, thickness, span),
-            *(ring, min(radii), "fillet", doubts),
+            part=row,
+            kind=Kind.NOTCH,
+            p=p,
+            q=q,
+            cuts=(m0 + half,),
+            width=width,
+            normal=normal,
+            breadth=breadth,
+            thickness=thickness,
+            span=span,
+            outline=ring,
+            radius=min(radii),
+            contour="fillet",
+            doubts=doubts,
         )
     if nominal < LEAST_SLENDER * thickness:
         return None
     kind = Kind.SHEET if breadth >= SHEET * thickness else Kind.WIRE
     return Thin(
-        *(row, kind, p, q, cuts, width, normal, breadth, thickness, span),
-        *(ring, min(radii), "", doubts),
+        part=row,
+        kind=kind,
+        p=p,
+        q=q,
+        cuts=cuts,
+        width=width,
+        normal=normal,
+        breadth=breadth,
+        thickness=thickness,
+        span=span,
+        outline=ring,
+        radius=min(radii),
+        contour="",
+        doubts=doubts,
     )
 
 
@@ -679,330 +610,3 @@ def _end_face(
                     if not slanted or 0.1 < abs(face.axis @ out) < 0.999:
                         return _meets(face, middle, out, 0.0, thickness)
     return 0.0
-
-
-# Round wires
-
-
-def wires(scene: Scene, row: int) -> list[Thin]:
-    """The round wires of a solid."""
-    part = scene.parts[row]
-    found = []
-    for group in rounds(part, convex=True):
-        found += _wires_of(scene, row, group)
-    return found
-
-
-def rounds(part: Part, *, convex: bool) -> list[list[Face]]:
-    """The cylindrical faces of a solid, those of one axis and radius together."""
-    groups: list[list[Face]] = []
-    for face in part.faces:
-        if face.kind != "cylinder" or face.is_convex != convex:
-            continue
-        for group in groups:
-            if _coaxial(group[0], face) and abs(group[0].radius - face.radius) < NEAR:
-                group.append(face)
-                break
-        else:
-            groups.append([face])
-    return groups
-
-
-def _coaxial(a: Face, b: Face) -> bool:
-    away = b.at - a.at
-    return (
-        are_parallel(a.axis, b.axis) and float(np.linalg.norm(away - away @ a.axis * a.axis)) < NEAR
-    )
-
-
-def _wires_of(scene: Scene, row: int, group: list[Face]) -> list[Thin]:
-    part = scene.parts[row]
-    axis, at, radius = group[0].axis, group[0].at, group[0].radius
-    spans = []
-    for face in group:
-        ends = np.concatenate([part.edges[k].ends for k in face.edges])
-        levels = (ends - at) @ axis
-        spans.append((float(levels.min()), float(levels.max()), face.area))
-    spans.sort()
-    merged: list[list[float]] = []
-    for low, high, area in spans:
-        if merged and low < merged[-1][1] - NEAR:
-            merged[-1] = [merged[-1][0], max(high, merged[-1][1]), merged[-1][2] + area]
-        else:
-            merged.append([low, high, area])
-    found = []
-    for low, high, area in merged:
-        if high - low < LEAST_SLENDER * 2 * radius:
-            continue
-        if area < 0.9 * 2 * np.pi * radius * (high - low):
-            continue
-        if not part.holds(at + (low + high) / 2 * axis):
-            continue
-        line = at + low * axis, at + high * axis
-        made = _free_wires(scene, row, line, axis, radius, min(0.02, 0.05 * radius))
-        if not made and high - low > 20 * radius:
-            made = _free_wires(scene, row, line, axis, radius, min(GLUED, 0.5 * radius))
-        found += made
-    return found
-
-
-def _free_wires(
-    scene: Scene,
-    row: int,
-    line: tuple[FloatArray, FloatArray],
-    axis: FloatArray,
-    radius: float,
-    gap: float,
-) -> list[Thin]:
-    """What of a round bar no other solid holds, where its ends are fastened."""
-    part = scene.parts[row]
-    at, low, high = line[0], 0.0, float((line[1] - line[0]) @ axis)
-    u = brep.across(axis)
-    v = np.cross(axis, u)
-    ends = np.array([at + low * axis, at + high * axis])
-    box = np.array([ends.min(0) - radius - gap, ends.max(0) + radius + gap])
-    others = scene.near(box, row)
-    around = [np.zeros(3)] + [
-        (radius + gap) * (np.cos(k * np.pi / 3) * u + np.sin(k * np.pi / 3) * v) for k in range(6)
-    ]
-
-    def covered(level: float) -> bool:
-        place = at + level * axis
-        if scene.where(place, others) is not None:
-            return True
-        return sum(scene.where(place + d, others) is not None for d in around[1:]) >= 3
-
-    count = 96
-    levels = low + (np.arange(count) + 0.5) / count * (high - low)
-    flags = [covered(level) for level in levels] if others else [False] * count
-    borders: list[tuple[float, float, bool, bool]] = []
-    start = low
-    held = False
-    for k in range(count + 1):
-        now = flags[k] if k < count else None
-        before = flags[k - 1] if k else None
-        if before is None or now == before:
-            continue
-        if now is None:
-            border = high
-        else:
-            a, b = levels[k - 1], levels[k]
-            for _ in range(40):
-                half = (a + b) / 2
-                a, b = (half, b) if covered(half) == before else (a, half)
-            border = (a + b) / 2
-        if not before:
-            borders.append((start, border, held, bool(now)))
-        held, start = bool(before), border
-    found = []
-    for first, last, held_first, held_last in borders:
-        if last - first < LEAST_SLENDER * 2 * radius:
-            continue
-        made = []
-        radii = []
-        for level, sign, is_held in ((first, -1.0, held_first), (last, 1.0, held_last)):
-            place = at + level * axis
-            more = 0.0
-            if not is_held:
-                outside = place + sign * max(0.05 * radius, gap) * axis
-                fastened = part.holds(outside) or any(
-                    scene.where(outside + 0.5 * d, others) is not None for d in around
-                )
-                if not fastened:
-                    break
-                more = _filletrounds(part, place, axis, radius)
-            made.append(place + sign * more * axis)
-            radii.append(more)
-        if len(made) < 2:
-            continue
-        cuts = (at + first * axis, at + last * axis)
-        outline = np.array(
-            [made[0] + radius * v, made[0] - radius * v, made[1] - radius * v, made[1] + radius * v]
-        )
-        found.append(
-            Thin(
-                *(row, Kind.WIRE, made[0], made[1], cuts, v, u, 2 * radius, 2 * radius),
-                *((-1.05 * radius, 1.05 * radius), outline, min(radii), "round", []),
-            )
-        )
-    return found
-
-
-def _filletrounds(part: Part, end: FloatArray, axis: FloatArray, radius: float) -> float:
-    """Radius of the fillet at the end of a round wire, or 0."""
-    for face in part.faces:
-        if face.kind == "torus" and not face.is_convex and are_parallel(face.axis, axis, 1e-3):
-            away = face.at - end
-            off = np.linalg.norm(away - away @ axis * axis)
-            if off < NEAR and abs(away @ axis) < 1.01 * face.radius + NEAR:
-                return face.radius
-    return 0.0
-
-
-# Necks between two bores
-
-
-def _has_arc(group: Sequence[Face], centre: FloatArray, towards: FloatArray) -> bool:
-    """Whether a bore is there on both sides of a direction: where a fillet begins, it is not."""
-    along = np.cross(group[0].axis, towards)
-    places = [
-        centre + group[0].radius * (np.cos(turn) * towards + np.sin(turn) * along)
-        for turn in (-0.15, 0.15)
-    ]
-    return all(
-        any(brep.distance(brep.vertex(place), face.shape) < 1e-3 for face in group)
-        for place in places
-    )
-
-
-def necks(scene: Scene, row: int) -> list[Thin]:
-    """The circular notches of a solid: what is left between two bores side by side."""
-    part = scene.parts[row]
-    bores: list[tuple[list[Face], float, float]] = []
-    for group in rounds(part, convex=False):
-        ends = np.concatenate([part.edges[e].ends for face in group for e in face.edges])
-        levels = ends @ group[0].axis
-        bores.append((group, float(levels.min()), float(levels.max())))
-    found: list[Thin] = []
-    for (as_, low_a, high_a), (bs, low_b, high_b) in itertools.combinations(bores, 2):
-        a, b = as_[0], bs[0]
-        if not are_parallel(a.axis, b.axis):
-            continue
-        away = b.at - a.at
-        away = away - away @ a.axis * a.axis
-        d = float(np.linalg.norm(away))
-        neck = d - a.radius - b.radius
-        if not NEAR < neck < min(a.radius, b.radius) * 1.2:
-            continue
-        if float(a.axis @ b.axis) < 0:
-            low_b, high_b = -high_b, -low_b
-        low, high = max(low_a, low_b), min(high_a, high_b)
-        if high - low < neck / 2:
-            continue
-        normal = away / d
-        level = (low + high) / 2
-        on_axis = a.at + (level - a.at @ a.axis) * a.axis
-        middle = on_axis + (a.radius + neck / 2) * normal
-        faces = (on_axis + a.radius * normal, on_axis + (a.radius + neck) * normal)
-        # Both bores have to be there, at the neck, and material between them.
-        inside = part.holds(middle)
-        open_ = not part.holds(faces[0] - 0.05 * neck * normal) and not part.holds(
-            faces[1] + 0.05 * neck * normal
-        )
-        if not (inside and open_) or any(
-            np.linalg.norm(each.middle - middle) < NEAR for each in found
-        ):
-            continue
-        if not all(
-            _has_arc(group, on_axis_, sign * normal)
-            for group, on_axis_, sign in (
-                (as_, on_axis, 1.0),
-                (bs, faces[1] + b.radius * normal, -1.0),
-            )
-        ):
-            continue
-        axis = np.cross(a.axis, normal)
-        radius = min(a.radius, b.radius)
-        doubts = []
-        if abs(a.radius - b.radius) > 0.02 * radius:
-            doubts.append(f"its bores have radii of {a.radius:.3g} and {b.radius:.3g} mm")
-        breadth = high - low
-        outline = np.array(
-            [
-                middle + s * radius / 2 * axis + z * breadth / 2 * a.axis
-                for s, z in ((-1, -1), (1, -1), (1, 1), (-1, 1))
-            ]
-        )
-        found.append(
-            Thin(
-                *(row, Kind.NOTCH, middle - radius * axis, middle + radius * axis, (middle,)),
-                *(a.axis, normal, breadth, neck, (-0.52 * breadth, 0.52 * breadth), outline),
-                *(radius, "circular", doubts),
-            )
-        )
-    return found
-
-
-def odd_necks(scene: Scene, row: int) -> list[Thin]:
-    """Necks of a solid that are not between two bores: elliptic, one-sided, or of another shape."""
-    part = scene.parts[row]
-    swept = [
-        (face, direction)
-        for face in part.faces
-        if face.kind == "other" and (direction := brep.swept_along(face.shape)) is not None
-    ]
-    hollow = [(f, f.axis) for f in part.faces if f.kind == "cylinder" and not f.is_convex]
-    flat = [f for f in part.faces if f.kind == "plane"]
-    found: list[Thin] = []
-    for (a, axis), (b, other) in itertools.combinations([*swept, *hollow], 2):
-        if (a.kind != "cylinder" or b.kind != "cylinder") and are_parallel(axis, other):
-            if brep.boxes_meet(a.box + [[-0.1 * part.size] * 3, [0.1 * part.size] * 3], b.box):
-                found += _odd_neck(part, row, a, b, axis)
-    for a, axis in hollow:
-        for plane in flat:
-            gap = float((plane.at - a.at) @ plane.axis) - a.radius
-            if abs(plane.axis @ axis) < PARALLEL and NEAR < gap < 0.5 * a.radius:
-                found += _odd_neck(part, row, a, plane, axis)
-    for a, axis in swept:
-        for plane in flat:
-            if abs(plane.axis @ axis) < PARALLEL and brep.boxes_meet(
-                a.box + [[-0.03 * part.size] * 3, [0.03 * part.size] * 3], plane.box
-            ):
-                found += _odd_neck(part, row, a, plane, axis)
-    kept: list[Thin] = []
-    for thin in found:
-        if not any(np.linalg.norm(thin.middle - each.middle) < each.thickness for each in kept):
-            kept.append(thin)
-    return kept
-
-
-def _odd_neck(part: Part, row: int, a: Face, b: Face, axis: FloatArray) -> list[Thin]:
-    """The neck between two faces that are swept along one axis, where there is one."""
-    if set(a.edges) & set(b.edges):
-        return []
-    near = brep.nearest(a.shape, b.shape)
-    if near is None:
-        return []
-    levels = []
-    for face in (a, b):
-        places = np.concatenate([part.edges[k].places for k in face.edges]) @ axis
-        levels.append((float(places.min()), float(places.max())))
-    low, high = max(x for x, _ in levels), min(x for _, x in levels)
-    away = near[1] - near[0]
-    away = away - away @ axis * axis
-    neck, breadth = float(np.linalg.norm(away)), high - low
-    if neck < NEAR or breadth < neck / 2:
-        return []
-    normal = away / neck
-    middle = near[0] + away / 2
-    middle = middle + ((low + high) / 2 - middle @ axis) * axis
-    half = neck / 2 * normal
-    if not part.holds(middle) or any(part.holds(middle + s * 1.1 * half) for s in (-1, 1)):
-        return []
-    along = np.cross(axis, normal)
-    # What begins at the neck, as the inside of a bend does, makes no notch: behind a curved face
-    # there is more material on both sides.
-    for face, place in ((a, middle - half), (b, middle + half)):
-        if face.kind != "plane" and not all(
-            part.holds(place + step * neck * along) for step in (-0.5, 0.5)
-        ):
-            return []
-    one, other = brep.ellipse_of(a.shape), brep.ellipse_of(b.shape)
-    contour, length = "", neck
-    if one is not None and other is not None and np.allclose(one[:2], other[:2], rtol=0.01):
-        major, minor, direction = one
-        along_major = are_parallel(direction, along, 1e-2)
-        if along_major or are_parallel(direction, normal, 1e-2):
-            contour, length = "elliptic", 2 * (major if along_major else minor)
-            radius = minor if along_major else major
-    doubts = [] if contour else ["its shape is not known: it is taken as a hinge, without stiffness"]
-    if not contour:
-        radius = 0.0
-    p, q = middle - length / 2 * along, middle + length / 2 * along
-    outline = np.array([p - half, q - half, q + half, p + half])
-    return [
-        Thin(
-            *(row, Kind.NOTCH, p, q, (middle,), axis, normal, breadth, neck),
-            *((-0.52 * breadth, 0.52 * breadth), outline, radius, contour, doubts),
-        )
-    ]
