@@ -1304,3 +1304,13 @@ def guide_shell() -> Design:
     ]
     parts["shell"] = shapes.swept(outline, (0, 0, 30))
     return design(parts, replace(made.truth, told=("shell",), motions=-1, over=-1))
+
+
+@case("guide, glued")
+def guide_glued() -> Design:
+    """Gaps of 0.05 mm at both ends of each sheet, as for glue: what joins them must be told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["base"] = box((0, 100), (0, 19.95), (0, 30))
+    parts["stage"] = box((0, 100), (60.05, 72), (0, 30))
+    return design(parts, replace(made.truth, told=("sheet 1", "sheet 2")))
