@@ -188,6 +188,13 @@ def test_what_cannot_be_said_is_refused_in_words(page: Page) -> None:
     assert not page.path.with_suffix(".flexact.toml").exists()
 
 
+def test_the_last_flexure_stays_one(page: Page) -> None:
+    page.say("sheet 1", "taken as a", "body")
+    page.read()
+    assert "this is the last flexure" in page.say("sheet 2", "sheet, ", "body")
+    page.read()
+
+
 def test_a_wrong_file_of_choices_is_told(page: Page) -> None:
     page.path.with_suffix(".flexact.toml").write_text("[parts\n")
     answer = answer_of(str(page.path), lambda _: None)
