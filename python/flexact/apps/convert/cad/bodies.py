@@ -155,9 +155,12 @@ class Recognition:
                 for place in _outside(thin)
             ]
             return None not in sides and sides[0] != sides[1]
+        # Between the cuts: fillets are beyond them.
+        span = thin.cuts[1] - thin.cuts[0]
+        centre = thin.cuts[0] + span / 2
         shares = (0.0, 0.2, -0.2, 0.35, -0.35)
         inside = [
-            thin.middle + a * thin.length * thin.axis + b * thin.breadth * thin.width
+            centre + a * span + b * thin.breadth * thin.width
             for a, b in itertools.product(shares, shares)
         ]
         for lump in lumps:
