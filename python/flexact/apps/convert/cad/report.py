@@ -293,6 +293,10 @@ class _Report:
             angle += group.bend[1]
         between = self.at[id(row[0]), 0].name, self.at[id(row[-1]), 1].name
         first = row[0]
+        if length > 15 * first.thickness:
+            # A leaf may be short where the whole is not.
+            for thin in row:
+                thin.why.clear()
         doubts = [doubt for thin in row[1:] for doubt in (*thin.why, *thin.doubts)]
         radius = max(group.bend[0] for group in joints)
         if len(joints) > 1:

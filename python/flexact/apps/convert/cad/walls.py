@@ -477,11 +477,11 @@ def _wall(
     elif abs(near - far) > 0.02 * breadth:
         doubts.append("its breadth changes along it: it is taken as even")
     cuts = (m0, m1)
-    radii = []
-    ends = []
+    radii, ends, is_open = [], [], []
     for m, out in ((m0, -axis), (m1, axis)):
         outside = m + 0.05 * thickness * out
-        if not part.holds(outside):
+        is_open.append(not part.holds(outside))
+        if is_open[-1]:
             more, radius = _end_face(part, planes, m, out, width, thickness), 0.0
         elif is_held(outside):
             # Beyond a slanted end the solid goes on, and the other one is there already.
@@ -533,6 +533,7 @@ def _wall(
         radius=min(radii),
         contour="",
         doubts=doubts,
+        is_open=(is_open[0], is_open[1]),
     )
 
 
