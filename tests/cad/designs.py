@@ -115,6 +115,38 @@ def turned(made: Design, *turns: gp_Trsf, shift: Vector = (0, 0, 0)) -> Design:
     return replace(made, parts=parts, truth=truth)
 
 
+def scaled(made: Design, factor: float) -> Design:
+    """The same, so many times as large."""
+    whole = gp_Trsf()
+    whole.SetScaleFactor(factor)
+
+    def times(values: Vector) -> tuple[float, ...]:
+        return tuple(float(factor * each) for each in values)
+
+    def flexure(each: Flexure) -> Flexure:
+        if isinstance(each, Wire):
+            return replace(each, p=times(each.p), q=times(each.q), sides=times(each.sides))
+        thickness = factor * each.thickness
+        if isinstance(each, Notch):
+            sizes = {"radius": factor * each.radius, "breadth": factor * each.breadth}
+            return replace(each, middle=times(each.middle), thickness=thickness, **sizes)
+        if isinstance(each, Bent):
+            sizes = {name: factor * getattr(each, name) for name in ("width", "radius", "length")}
+            corners = tuple(map(times, each.corners))
+            return replace(each, corners=corners, thickness=thickness, **sizes)
+        middle = each.middle and (each.middle[0], factor * each.middle[1])
+        ends = {"p": times(each.p), "q": times(each.q), "width": factor * each.width}
+        return replace(each, thickness=thickness, middle=middle, **ends)
+
+    truth = replace(
+        made.truth,
+        bodies={name: times(p) for name, p in made.truth.bodies.items()},
+        flexures=tuple(map(flexure, made.truth.flexures)),
+    )
+    parts = tuple((names, shapes.turned(shape, whole)) for names, shape in made.parts)
+    return replace(made, parts=parts, truth=truth)
+
+
 def skewed(made: Design) -> Design:
     """Turned by 13, 47 and 71 degrees about skew axes."""
     return turned(
@@ -398,6 +430,12 @@ def cross_ends() -> list[Vector]:
 @case("cross hinge, monolithic with fillets")
 def cross_hinge_filleted() -> Design:
     return as_one(cross_hinge(), cross_ends(), 0.5)
+
+
+@case("cross hinge, monolithic with fillets of 1.5 mm")
+def cross_hinge_more_filleted() -> Design:
+    """On the acute side of a slanted sheet the fillet reaches far along it: it is free there."""
+    return as_one(cross_hinge(), cross_ends(), 1.5)
 
 
 @case("cross hinge, turned")
@@ -1226,3 +1264,53 @@ def six_wires_filleted() -> Design:
     ends = [end for each in made.truth.flexures for end in (each.p, each.q)]  # type: ignore[union-attr]
     filleted = shapes.filleted(shape, ends, 0.5)
     return replace(whole, parts=((("part",), filleted),))
+
+
+@case("guide, reinforced, monolithic with fillets")
+def guide_reinforced_filleted() -> Design:
+    """Fillets of 0.8 mm at base and stage and at both ends of each thick middle of 3.5 mm."""
+    return links_filleted(0.7, 3.5, 0.8)
+
+
+@case("guide of links with flat hinges")
+def guide_of_links() -> Design:
+    """Links of 10 mm between hinges of 8 mm with fillets of 2 mm: 2 of their 8 mm on each side."""
+    return links_filleted(44 / 60, 10, 2)
+
+
+def links_filleted(share: float, thick: float, radius: float) -> Design:
+    sheets = [replace(s, middle=(share, thick)) for s in guide_sheets(lengths=(20, 80))]
+    parts = {"base": box((0, 100), (0, 20), (0, 30)), "stage": box((0, 100), (80, 92), (0, 30))}
+    near, far = 50 - 30 * share, 50 + 30 * share
+    edges = ends_of(sheets)
+    for k, each in enumerate(sheets, 1):
+        x = each.p[0]
+        parts[each.name] = solid_of(each)
+        parts[f"middle {k}"] = box((x - thick / 2, x + thick / 2), (near, far), (0, 30))
+        edges += [(x + s * each.thickness / 2, y, 15) for s in (-1, 1) for y in (near, far)]
+    return as_one(design(parts, guide_truth(sheets, stage=(50, 85, 15))), edges, radius)
+
+
+@case("guide with a sheet like a shell")
+def guide_shell() -> Design:
+    """Besides the sheets a piece of a thin cylinder from end to end: it must be told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    outline = [
+        shapes.arc((50, 20, 0), (56, 40, 0), (50, 60, 0)),
+        shapes.line((50, 60, 0), (50.5, 60, 0)),
+        shapes.arc((50.5, 60, 0), (56.5, 40, 0), (50.5, 20, 0)),
+        shapes.line((50.5, 20, 0), (50, 20, 0)),
+    ]
+    parts["shell"] = shapes.swept(outline, (0, 0, 30))
+    return design(parts, replace(made.truth, told=("shell",), motions=-1, over=-1))
+
+
+@case("guide, glued")
+def guide_glued() -> Design:
+    """Gaps of 0.05 mm at both ends of each sheet, as for glue: what joins them must be told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["base"] = box((0, 100), (0, 19.95), (0, 30))
+    parts["stage"] = box((0, 100), (60.05, 72), (0, 30))
+    return design(parts, replace(made.truth, told=("sheet 1", "sheet 2")))

@@ -383,6 +383,12 @@ def commands(path: Path, size: int) -> None:
     )
 
 
+@hostile("names that count", borderline=True)
+def counting_names(path: Path, size: int) -> None:
+    """Such names are those of pieces of one part in a model."""
+    _replaced(path, (r"'stage'", "'plate, 2'"), (r"'base'", "'plate 1 of 2'"))
+
+
 @hostile("names without letters", borderline=True)
 def blank_names(path: Path, size: int) -> None:
     _replaced(path, (r"'(stage|base|blade|clamp \d)'", "'  '"))

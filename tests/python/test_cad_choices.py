@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from flexact.apps.cli.main import main
 from flexact.apps.convert.cad.assembly import Assembly, Body, Flexure, Kind, Piece, Solid
 from flexact.apps.convert.cad.kept_choices import (
     Kept,
@@ -20,6 +21,8 @@ from flexact.apps.convert.cad.kept_choices import (
     said_of,
     say,
 )
+from flexact.deck.rendering import DeckError
+from flexact.model.reading import read_bytes
 from flexact.util.errors import BatchError
 
 if sys.version_info < (3, 11):
@@ -75,6 +78,14 @@ def assembly(*flexures: Flexure, one_piece: bool = False) -> Assembly:
         owners = [(0, "base"), (0, "stage")]
     pieces = tuple(Piece(row, name, False, corners, triangle) for row, name in owners)
     return Assembly("x.step", solids, pieces, flexures, (), bodies, (), (), ())
+
+
+def test_a_step_file_that_is_taken_for_a_deck_is_told_in_one_error() -> None:
+    with pytest.raises(DeckError) as raised:
+        read_bytes(b"ISO-10303-21;\nHEADER;\nENDSEC;\n", "guide.step")
+    (problem,) = raised.value.diagnostics
+    assert "STEP file" in problem.message
+    assert "flexact convert" in problem.help
 
 
 def test_choices_are_kept_and_read(tmp_path: Path) -> None:
@@ -193,3 +204,24 @@ def test_parts_that_are_gone_are_told() -> None:
     assert choices.bodies == ()
     (words,) = told
     assert words.startswith("'lever'") and "not there any more" in words
+
+
+def test_convert_reads_what_is_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What is said with the command takes the place of what is kept."""
+    pytest.importorskip("OCP")
+    sys.path.append(str(Path(__file__).resolve().parents[1]))
+    from cad.designs import CASES
+
+    path = tmp_path / "guide.step"
+    CASES["guide"]().write(path)
+    say(path, Said("stage", "ground"))
+    say(path, Said("base", declared=("x",)))
+    told = []
+    for more in ([], ["--ground", "base"]):
+        assert main(["convert", str(path), "-o", str(tmp_path / "guide.dat"), *more]) == 0
+        told.append(capsys.readouterr().out)
+    assert "what guide.flexact.toml says of parts is taken" in told[0]
+    assert "ground is stage: as was said" in told[0]
+    assert "Over-constrained by 1" in told[0]
+    assert "ground is base: as was said" in told[1]
+    assert "motions of base are declared, which stands still" in told[1]

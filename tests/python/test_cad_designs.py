@@ -12,31 +12,35 @@ import pytest
 pytest.importorskip("OCP")
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from cad.designs import CASES
+from cad.designs import CASES, Design
+from cad.families import FAMILIES
 from cad.truth import Bent, Notch, Sheet, Truth, Wire
 
 import flexact
 from flexact.apps.convert.cad.assembly import Assembly, Choices, Flexure, Kind
-from flexact.apps.convert.cad.mechanism import CadMechanism, mechanism_of
+from flexact.apps.convert.cad.mechanism import mechanism_of
 
 #: Places, sizes and directions may differ by one part in a hundred.
 NEAR = 0.01
 
 
-def mechanism(name: str, folder: Path, choices: Choices | None = None) -> CadMechanism:
-    path = folder / "design.step"
-    CASES[name]().write(path)
-    return mechanism_of(path, choices)
-
-
 @pytest.mark.dear(12)
 @pytest.mark.parametrize("name", CASES)
 def test_mechanism_is_that_of_the_design(name: str, tmp_path: Path) -> None:
-    truth = CASES[name]().truth
-    choices = None
-    if truth.must_name_ground:
-        choices = Choices(ground=(truth.ground,))
-    found = mechanism(name, tmp_path, choices)
+    is_read_as_it_is(CASES[name](), tmp_path)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("family", FAMILIES)
+def test_mechanism_is_that_of_a_design_by_chance(family: str, seed: int, tmp_path: Path) -> None:
+    is_read_as_it_is(FAMILIES[family](seed), tmp_path)
+
+
+def is_read_as_it_is(made: Design, folder: Path) -> None:
+    truth = made.write(folder / "design.step")
+    choices = Choices(ground=(truth.ground,)) if truth.must_name_ground else None
+    found = mechanism_of(folder / "design.step", choices)
     for part in truth.told:
         assert any(part in doubt for doubt in found.assembly.doubts), found.assembly.doubts
     if truth.over < 0:
@@ -48,8 +52,8 @@ def test_mechanism_is_that_of_the_design(name: str, tmp_path: Path) -> None:
     loose = 6 * len(set(truth.loose) & set(bodies.values()))
     middles = sum(isinstance(each, Sheet) and each.middle is not None for each in truth.flexures)
     # The stiff middle of a reinforced sheet may be a body, which has three motions of its own; a
-    # bent sheet may be one that is folded, whose fold turns, and a U be three leaves in a row, which
-    # have three motions of their own.
+    # bent sheet may be one that is folded, whose fold turns; a U may be three leaves in a row, of
+    # which there are three.
     bent = (each for each in truth.flexures if isinstance(each, Bent))
     bends = sum(1 if len(each.corners) == 3 else 3 for each in bent)
     usual = truth.motions + truth.inner + loose

@@ -20,6 +20,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from browser import Browser
 from cad import shapes
 from cad.designs import CASES, without_names
+from cad.hostile import BORDERLINE
 from test_watched_edits import Page as EditedPage
 from watched import until, watching
 
@@ -110,6 +111,15 @@ def test_a_body_is_made_ground_and_a_motion_declared(page: Page) -> None:
     assert page.rows("base")["base as a whole"]["now"] == "ground"
 
 
+def test_a_body_whose_motion_is_declared_is_made_ground(page: Page) -> None:
+    page.say("stage", "along x", "declared")
+    page.read()
+    page.say("stage", "as a whole", "ground")
+    body = page.read().body
+    assert "motions of stage are declared, which stands still" in body
+    assert '"stage" = { is = "ground", declared = ["x"]' in page.kept
+
+
 def test_a_sheet_is_taken_as_a_body_and_back(page: Page) -> None:
     """With one sheet rigid the stage is ground, and the other sheet holds 3 that nothing asks."""
     page.say("sheet 1", "taken as a", "body")
@@ -178,6 +188,13 @@ def test_what_cannot_be_said_is_refused_in_words(page: Page) -> None:
     assert not page.path.with_suffix(".flexact.toml").exists()
 
 
+def test_the_last_flexure_stays_one(page: Page) -> None:
+    page.say("sheet 1", "taken as a", "body")
+    page.read()
+    assert "this is the last flexure" in page.say("sheet 2", "sheet, ", "body")
+    page.read()
+
+
 def test_a_wrong_file_of_choices_is_told(page: Page) -> None:
     page.path.with_suffix(".flexact.toml").write_text("[parts\n")
     answer = answer_of(str(page.path), lambda _: None)
@@ -185,6 +202,38 @@ def test_a_wrong_file_of_choices_is_told(page: Page) -> None:
     assert "guide.flexact.toml: it is no TOML" in answer.words
     # Once it is mended the page follows.
     assert answer.files == (str(page.path.with_suffix(".flexact.toml")),)
+
+
+def test_a_file_of_choices_that_went_wrong_meanwhile_is_told(page: Page) -> None:
+    (row,) = (each for key, each in page.rows("stage").items() if "along x" in key)
+    page.path.with_suffix(".flexact.toml").write_text("[parts\n")
+    told = page.ask(do="set", set=[{**row["place"], "to": "declared"}])
+    assert "it is no TOML" in told
+
+
+def test_names_with_commands_do_no_harm(tmp_path: Path) -> None:
+    page = Page(tmp_path / "guide.step")
+    BORDERLINE["names with commands"](page.path, 1)
+    shown = page.read()
+    assert "<script>alert" not in shown.body.lower()
+    assert "<img src=x" not in shown.body
+    assert "\x1b" not in shown.body
+    assert shown.cad is not None
+    moving = next(body for body in shown.cad.now.bodies if not body.is_ground)
+    page.say(moving.name, "along x", "declared")
+    assert "\x1b" not in page.kept
+    assert page.read().summary.verdict == "over-constrained by 1"
+
+
+def test_names_that_are_those_of_pieces_of_a_part_in_a_model(tmp_path: Path) -> None:
+    page = Page(tmp_path / "guide.step")
+    BORDERLINE["names that count"](page.path, 1)
+    shown = page.read()
+    assert shown.cad is not None
+    assert {body.name for body in shown.cad.now.bodies} == {"plate (1 of 2)", "plate (2)"}
+    moving = next(body for body in shown.cad.now.bodies if not body.is_ground)
+    page.say(moving.name, "along x", "declared")
+    assert page.read().summary.verdict == "over-constrained by 1"
 
 
 def test_switches_are_there_as_of_a_deck(page: Page) -> None:

@@ -25,7 +25,7 @@ LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 _ALONE = re.compile(rb"\r(?!\n)")
-_SAMPLE = 65536
+_SAMPLE, _HEAD = 65536, 64
 _PIECE = 2**20
 _CONTROLS = bytes(c for c in range(32) if chr(c) not in "\t\n\r\f\v\x1a") + b"\x7f"
 
@@ -151,6 +151,13 @@ def _require_text(raw: bytes, name: str) -> None:
     if raw.startswith(_UTF16_MARKS):
         raise _file_error(
             name, "not-text", "the deck is in UTF-16", "save it as UTF-8 or plain ASCII text"
+        )
+    if raw[:_HEAD].lstrip().startswith(b"ISO-10303-21"):
+        raise _file_error(
+            name,
+            "step-file",
+            "this is a STEP file and no deck",
+            "flexact convert makes a deck of it, and flexact watch shows its mechanism",
         )
     sample = raw[:_SAMPLE]
     controls = len(sample) - len(sample.translate(None, _CONTROLS))

@@ -388,8 +388,11 @@ class Session:
             raise RefusedError('"set" must be a list of what is switched')
         cad = None if self._file is None else self._file.cad
         if cad is not None and any(isinstance(each, Mapping) and "part" in each for each in given):
-            for each in given:
-                choose(cad, self.watched, each)
+            try:
+                for each in given:
+                    choose(cad, self.watched, each)
+            except BatchError as error:
+                raise RefusedError(harmless(str(error))) from None
             kept = harmless(choices_beside(self.watched).name)
             self._said = (f"Kept in {kept}; the page follows.",)
             return {"told": self.told()}

@@ -81,12 +81,16 @@ class _Report:
             for k, part in enumerate(self.parts)
         )
         pieces = tuple(self._pieces()) if drawing else ()
-        declared = tuple(
-            (self.found.group_of(choice).name, tuple(names))
-            for choice, names in self.choices.declared
-        )
+        declared: list[tuple[str, tuple[str, ...]]] = []
+        for choice, names in self.choices.declared:
+            group = self.found.group_of(choice)
+            if group.ends and group not in self.grounds:
+                declared.append((group.name, tuple(names)))
+                continue
+            why = "stands still" if group in self.grounds else "is no part of the mechanism"
+            self.doubts.insert(0, f"motions of {group.name} are declared, which {why}")
         return Assembly(
-            *(self.name, solids, pieces, tuple(flexures), left, tuple(made), declared),
+            *(self.name, solids, pieces, tuple(flexures), left, tuple(made), tuple(declared)),
             *(tuple(self.doubts), tuple(self.remarks)),
         )
 

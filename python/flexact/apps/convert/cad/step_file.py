@@ -35,6 +35,7 @@ from OCP.XCAFDoc import (
     XCAFDoc_ShapeTool,
 )
 
+from ....model.names import one_line, part_name
 from ....util.errors import BatchError
 from .brep import Part, each
 
@@ -239,8 +240,11 @@ def _name_of(label: TDF_Label) -> str:
     name = TDataStd_Name()
     if not label.FindAttribute(TDataStd_Name.GetID_s(), name):
         return ""
-    text = " ".join(str(name.Get().ToExtString()).split())
-    return "" if _NO_NAME.match(text) else text[:80]
+    text = one_line(" ".join(str(name.Get().ToExtString()).split()))[:80]
+    # In models "plate, 2" and "plate 1 of 2" are pieces of a plate.
+    if (head := part_name(text)) != text:
+        text = f"{head} ({text[len(head) :].lstrip(', ')})"
+    return "" if _NO_NAME.match(text) else text
 
 
 def _material(label: TDF_Label) -> tuple[str, float]:
