@@ -1314,3 +1314,91 @@ def guide_glued() -> Design:
     parts["base"] = box((0, 100), (0, 19.95), (0, 30))
     parts["stage"] = box((0, 100), (60.05, 72), (0, 30))
     return design(parts, replace(made.truth, told=("sheet 1", "sheet 2")))
+
+
+@case("guide with end stops")
+def guide_with_stops() -> Design:
+    """Stops that stand on the base, 0.1 and 0.03 mm from the stage, which they do not touch."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["stop left"] = box((-12.1, -0.1), (0, 72), (5, 25))
+    parts["stop right"] = box((100.03, 112), (0, 72), (5, 25))
+    # They stand on a foot below the base.
+    parts["foot"] = box((-20, 120), (-10, 0), (0, 30))
+    return design(parts, made.truth)
+
+
+@case("guide with a coil spring")
+def guide_with_spring() -> Design:
+    """A helical spring of 1 mm wire between base and stage, which is no flexure of these: told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["pressure spring"] = shapes.coil((50, 20.5, 15), 8, 1, 39, 6)
+    return design(parts, replace(made.truth, told=("pressure spring",), motions=-1, over=-1))
+
+
+@case("guide with a micrometer")
+def guide_with_micrometer() -> Design:
+    """Its ball touches the stage in a point, which holds nothing that a drawing shows: told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["bracket"] = fused(box((100, 130), (0, 20), (0, 30)), box((118, 130), (20, 80), (0, 30)))
+    spindle = fused(cylinder((118, 66, 15), (103, 66, 15), 6), shapes.ball((103, 66, 15), 3))
+    parts["micrometer"] = spindle
+    truth = replace(made.truth, told=("micrometer",))
+    return design(parts, truth)
+
+
+@case("stage with all that belongs to it")
+def real_stage() -> Design:
+    """A base of two plates, a stage of two, reinforced sheets in jaws, stops, a coil, a cover.
+
+    34 solids: sheets between jaws with two screws each, of which one jaw stands on base or stage;
+    stiffeners on both faces; a stop with 0.2 mm of room; magnet and coil with 0.5 mm between them;
+    a cover that stands on the base by four columns.
+    """
+    sheets = [
+        replace(s, middle=(0.6, 4.5))
+        for s in guide_sheets((30, 130), lengths=(30, 80), width=40, thickness=0.4)
+    ]
+    sheets = [replace(s, p=(s.p[0], 30, 20), q=(s.q[0], 80, 20)) for s in sheets]
+    parts: dict[str, TopoDS_Shape] = {
+        "base/base plate": box((0, 160), (0, 12), (-10, 50)),
+        "base/foot plate": box((-10, 170), (-8, 0), (-20, 60)),
+        "stage/carriage": box((0, 160), (98, 106), (0, 40)),
+        "stage/table": box((20, 140), (106, 114), (-10, 50)),
+    }
+    screws: dict[str, TopoDS_Shape] = {}
+    for k, each in enumerate(sheets, 1):
+        x = each.p[0]
+        blade = plate((x, 14, 20), (x, 96, 20), Z, 40, 0.4)
+        for what, y in (("base", (12, 30)), ("stage", (80, 98))):
+            jaws = [box(sorted((x + s * 0.2, x + s * 8.2)), y, (0, 40)) for s in (-1, 1)]
+            for n, z in enumerate((8, 32), 1):
+                middle = sum(y) / 2
+                hole = cylinder((x - 9, middle, z), (x + 9, middle, z), 3)
+                blade, jaws = cut(blade, hole), [cut(jaw, hole) for jaw in jaws]
+                bolt = fused(cylinder((x + 8.2, middle, z), (x + 11.2, middle, z), 5.5), hole)
+                trimmed = common(bolt, box((x - 8.2, x + 12), (0, 120), (-20, 60)))
+                screws[f"screws/ISO 4762 M3x16 {k}{what}{n}"] = trimmed
+            for jaw, side in zip(jaws, ("inner", "outer"), strict=True):
+                parts[f"{what}/jaw {side} {k} {what}"] = jaw
+        parts[f"flexures/{each.name}"] = blade
+        for s in (-1, 1):
+            faces = sorted((x + s * 0.2, x + s * 2.25))
+            parts[f"flexures/stiffener {k}{'ab'[s > 0]}"] = box(faces, (40, 70), (0, 40))
+    parts["base/stop"] = box((60, 70), (12, 97.8), (10, 30))
+    parts["base/magnet"] = cylinder((100, 12, 20), (100, 60, 20), 20)
+    ring = cut(
+        cylinder((100, 40, 20), (100, 98, 20), 30), cylinder((100, 39, 20), (100, 99, 20), 21)
+    )
+    parts["stage/coil"] = ring
+    for n, (x, z) in enumerate(((-5, -15), (165, -15), (-5, 55), (165, 55)), 1):
+        parts[f"cover/column {n}"] = cylinder((x, 0, z), (x, 125, z), 6)
+    parts["cover/cover"] = box((-10, 170), (125, 127), (-20, 60))
+    bodies = {"foot plate": (80, -4, 20), "carriage": (80, 102, 20)}
+    renamed = [replace(each, between=("foot plate", "carriage")) for each in sheets]
+    truth = Truth(
+        "foot plate", bodies, tuple(renamed), motions=1, over=1, is_named=False, why=GUIDE_WHY
+    )
+    return design({**parts, **screws}, truth, root="stage")
