@@ -1402,3 +1402,76 @@ def real_stage() -> Design:
         "foot plate", bodies, tuple(renamed), motions=1, over=1, is_named=False, why=GUIDE_WHY
     )
     return design({**parts, **screws}, truth, root="stage")
+
+
+def slot(p: tuple[float, float], q: tuple[float, float], wide: float, thick: float) -> TopoDS_Shape:
+    """What a wire takes away on its way from p to q through a plate, with round ends."""
+    way = plate((*p, thick / 2), (*q, thick / 2), Z, thick + 2, wide)
+    ends = (cylinder((*c, -1), (*c, thick + 1), wide) for c in (p, q))
+    return fused(way, *ends)
+
+
+@case("notch guide cut by a wire")
+def notch_guide_by_wire() -> Design:
+    """Four notches between bores in a plate, whose parts slots of 1 mm keep apart."""
+    radius, neck, thick, off = 4.0, 0.8, 10.0, 4.4
+    tools = [
+        cylinder((x + s * off, y, -1), (x + s * off, y, thick + 1), 2 * radius)
+        for x in (20, 100)
+        for y in (20, 60)
+        for s in (-1, 1)
+    ]
+    for x in (20 - off, 20 + off, 100 - off, 100 + off):
+        tools.append(slot((x, 20), (x, 60), 1, thick))
+    tools.append(slot((20 + off, 20), (100 - off, 20), 1, thick))
+    for x, edge in ((20 - off, -2), (100 + off, 122)):
+        tools.append(slot((x, 60), (edge, 60), 1, thick))
+    whole = cut(box((0, 120), (0, 80), (0, thick)), *tools)
+    bodies = {
+        "base": (60, 8, 5), "stage": (60, 40, 5), "link 1": (20, 40, 5), "link 2": (100, 40, 5),
+    }  # fmt: skip
+    ends = (("base", "link 1", 20, 20), ("link 1", "stage", 20, 60), ("base", "link 2", 100, 20))
+    notches = tuple(
+        Notch(f"notch {k}", (a, b), (x, y, 5), Z, neck, radius, thick)
+        for k, (a, b, x, y) in enumerate((*ends, ("link 2", "stage", 100, 60)), 1)
+    )
+    why = "As of the notch guide: one loop of parallel hinges."
+    truth = Truth("base", bodies, notches, motions=1, over=3, is_named=False, why=why)
+    # The stage with its inner block is the larger one.
+    return Design(((("plate",), whole),), replace(truth, ground="stage"))
+
+
+@case("guide cut by a wire")
+def guide_by_wire() -> Design:
+    """Two sheets of 0.5 mm between slots of 1 mm in a plate: what is left of it is base and stage.
+
+    The stage is the block between the sheets with the bar above; the base goes around below.
+    """
+    thick = 10.0
+    tools = []
+    sheets = []
+    for k, (x, s) in enumerate(((20, -1), (100, 1)), 1):
+        # A slot on both sides of each sheet, from y = 20 to 60 between the middles of their ends.
+        for side in (-1, 1):
+            tools.append(slot((x + side * 0.75, 20.5), (x + side * 0.75, 59.5), 1, thick))
+        tools.append(slot((x + s * 0.75, 59.5), (x + s * 30, 59.5), 1, thick))
+        sheets.append(Sheet(f"sheet {k}", ("base", "stage"), (x, 20, 5), (x, 60, 5), Z, thick, 0.5))
+    tools.append(slot((20.75, 20.5), (99.25, 20.5), 1, thick))
+    whole = cut(box((0, 120), (0, 80), (0, thick)), *tools)
+    bodies = {"base": (60, 8, 5), "stage": (60, 40, 5)}
+    truth = Truth("stage", bodies, tuple(sheets), motions=1, over=1, is_named=False, why=GUIDE_WHY)
+    return Design(((("plate",), whole),), truth)
+
+
+@case("five folded sheets, rounded inside")
+def folded_inside() -> Design:
+    """Folds that are sharp outside and have a radius of 0.5 mm inside, as of a wire."""
+    made = folded()
+    parts = {names[0]: shape for names, shape in made.parts[:2]}
+    for name, corners in folded_corners().items():
+        across = X if name in ("folded 4", "folded 5") else Z
+        end, fold, stage = (np.asarray(corner, float) for corner in corners)
+        inside = (end - fold) / 40 + (stage - fold) / 40
+        sharp = strip(corners, across, 20, 0.5, 0)
+        parts[name] = shapes.filleted(sharp, [fold + 0.25 * inside], 0.5)
+    return as_one(design(parts, made.truth))
