@@ -1475,3 +1475,34 @@ def folded_inside() -> Design:
         sharp = strip(corners, across, 20, 0.5, 0)
         parts[name] = shapes.filleted(sharp, [fold + 0.25 * inside], 0.5)
     return as_one(design(parts, made.truth))
+
+
+@case("guide, tapered sheets")
+def guide_tapered() -> Design:
+    """Sheets of 0.5 mm at the base and 0.3 mm at the stage: no parallel planes, so told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    for k, x in enumerate((20, 80), 1):
+        outline = [(x - 0.25, 20, 0), (x + 0.25, 20, 0), (x + 0.15, 60, 0), (x - 0.15, 60, 0)]
+        parts[f"sheet {k}"] = prism(outline, (0, 0, 30))
+    told = ("sheet 1", "sheet 2")
+    return design(parts, replace(made.truth, told=told, motions=-1, over=-1))
+
+
+@case("guide, sheets in packs")
+def guide_of_packs() -> Design:
+    """Each sheet is two that lie on each other: what a pack holds is told to be in doubt."""
+    made = guide_lapped()
+    parts = {names[0]: shape for names, shape in made.parts}
+    for k, (x, s) in enumerate(((-0.5, -1), (100.5, 1)), 1):
+        parts[f"sheet {k} again"] = box(sorted((x, x + 0.5 * s)), (8, 72), (0, 30))
+    told = ("sheet 1", "sheet 2")
+    return design(parts, replace(made.truth, told=told, motions=-1, over=-1))
+
+
+@case("guide, monolithic with chamfers")
+def guide_chamfered() -> Design:
+    """Chamfers of 0.8 mm in the place of fillets: they belong to the free length likewise."""
+    made = as_one(guide())
+    ((names, shape),) = made.parts
+    return replace(made, parts=((names, shapes.chamfered(shape, ends_of(guide_sheets()), 0.8)),))

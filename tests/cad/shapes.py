@@ -20,7 +20,7 @@ from OCP.BRepBuilderAPI import (
 )
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepClass3d import BRepClass3d_SolidClassifier
-from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
+from OCP.BRepFilletAPI import BRepFilletAPI_MakeChamfer, BRepFilletAPI_MakeFillet
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepLib import BRepLib
 from OCP.BRepOffsetAPI import BRepOffsetAPI_MakePipeShell
@@ -222,6 +222,20 @@ def common(shape: TopoDS_Shape, other: TopoDS_Shape) -> TopoDS_Shape:
 
 def filleted(shape: TopoDS_Shape, middles: Sequence[Vector], radius: float) -> TopoDS_Shape:
     """Fillets along those edges whose middles are nearest to the given points."""
+    return _dressed(BRepFilletAPI_MakeFillet(shape), shape, middles, radius)
+
+
+def chamfered(shape: TopoDS_Shape, middles: Sequence[Vector], size: float) -> TopoDS_Shape:
+    """Chamfers likewise."""
+    return _dressed(BRepFilletAPI_MakeChamfer(shape), shape, middles, size)
+
+
+def _dressed(
+    maker: BRepFilletAPI_MakeFillet | BRepFilletAPI_MakeChamfer,
+    shape: TopoDS_Shape,
+    middles: Sequence[Vector],
+    size: float,
+) -> TopoDS_Shape:
     edges, places = [], []
     for edge in _each(shape, TopAbs_EDGE):
         properties = GProp_GProps()
@@ -229,12 +243,11 @@ def filleted(shape: TopoDS_Shape, middles: Sequence[Vector], radius: float) -> T
         centre = properties.CentreOfMass()
         edges.append(TopoDS.Edge(edge))
         places.append((centre.X(), centre.Y(), centre.Z()))
-    maker = BRepFilletAPI_MakeFillet(shape)
     for middle in middles:
         distance = np.linalg.norm(np.asarray(places) - np.asarray(middle, float), axis=1)
         if distance.min() > 0.3:
             raise ValueError(f"no edge has its middle at {middle}; the nearest: {distance.min()}")
-        maker.Add(radius, edges[int(distance.argmin())])
+        maker.Add(size, edges[int(distance.argmin())])
     (left,) = solids(maker.Shape())
     return left
 
