@@ -32,6 +32,9 @@ from flexact.apps.watch.watch import Saved
 from flexact.apps.watch.worker import answer_of
 
 
+pytestmark = pytest.mark.dear(8)
+
+
 class Page:
     """What a page of a STEP file does: asks, and sees what comes of it."""
 
