@@ -32,7 +32,7 @@ from flexact.apps.watch.watch import Saved
 from flexact.apps.watch.worker import answer_of
 
 
-pytestmark = pytest.mark.dear(8)
+pytestmark = pytest.mark.dear(4)
 
 
 class Page:
