@@ -167,7 +167,10 @@ class Strip(Frozen):
             there = along(drawing.members, pose, np.array([row]), self._shares(k))
             x = there.frame[0, ..., 0] * (-1.0 if self.against[k] else 1.0)
             z = self.sign[k] * there.frame[0, ..., self.local[k]]
-            made.append(_rings(self, k, there.centre[0], _frames(x, z)))
+            # Waists as they are drawn.
+            scale, _ = drawing.members.profile(np.array([row]), there.at)
+            share = scale[0][:, [2 - self.local[k], self.local[k] - 1]]
+            made.append(_rings(self, k, there.centre[0], _frames(x, z), share))
         return _joined(self, made)
 
 
@@ -176,15 +179,26 @@ def _frames(x: FloatArray, z: FloatArray) -> FloatArray:
     return np.stack((x, np.cross(z, x), z), axis=-1)
 
 
-def _rings(strip: Strip, k: int, centre: FloatArray, frame: FloatArray) -> FloatArray:
-    """(s, c, 3) rings of a beam of a strip, mitred where it meets its neighbours."""
+def _rings(
+    strip: Strip, k: int, centre: FloatArray, frame: FloatArray, share: FloatArray | None = None
+) -> FloatArray:
+    """(s, c, 3) rings of a beam of a strip, mitred where it meets its neighbours.
+
+    Args:
+        strip: The strip.
+        k: Which of its beams.
+        centre: (s, 3) points of its axis [m].
+        frame: (s, 3, 3) its cross-sections.
+        share: (s, 2) parts of its thickness and breadth there; by default all.
+    """
     if strip.round:
         angle = 2 * np.pi * np.arange(_CORNERS) / _CORNERS
         flat = np.column_stack((np.cos(angle), np.sin(angle)))
     else:
         flat = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     local = flat * strip.sizes[k] / 2
-    made = centre[:, None] + np.einsum("sxd,cd->scx", frame[..., 1:], local)
+    sized = local * (np.ones((len(centre), 2)) if share is None else share)[:, None]
+    made = centre[:, None] + np.einsum("sxd,scd->scx", frame[..., 1:], sized)
     for end, (one, other) in enumerate(((k - 1, k), (k, k + 1))):
         if one < 0 or other >= len(strip.rows):
             continue

@@ -224,6 +224,10 @@ class _Making:
                 for piece in _pieces(each):
                     self.world.add(piece, k)
             self._tell_crossing()
+        else:
+            self.notes.append(
+                f"More than {_MOST_LOOKED_AT} flexures: it was not looked what runs through what."
+            )
         products = [self._flexure(each) for each in self.flexures]
         ground = [owner for owner in ends if owner == Ground]
         others = [owner for owner in ends if owner != Ground]
@@ -291,15 +295,18 @@ class _Making:
             made.append(found or self._knuckle(row, name, node, (turns[0], turns[1])))
             if found is None:
                 assumed.append(name)
+        told: dict[bool, list[str]] = {True: [], False: []}
         for chain in dict.fromkeys(rows_of.values()):
             in_row = self._in_row(chain)
             made += in_row
             assumed += [each.name for each in in_row]
-            left = [self.parts.of_element(int(hinges.index[row])).name for row in chain]
-            self.notes.append(
-                f"{_listed(left)} stand at one point: "
-                + ("made one behind the other." if in_row else "they are not made.")
-            )
+            names = [self.parts.of_element(int(hinges.index[row])).name for row in chain]
+            told[bool(in_row)] += names
+        for is_made, how in ((True, "made one behind the other"), (False, "not made")):
+            if told[is_made]:
+                self.notes.append(
+                    f"Hinges that stand at one point, {how}: {_listed(told[is_made])}."
+                )
         if assumed:
             self.notes.append(
                 f"{_listed(assumed)}: no sizes are given; made as notches of a size that fits the "
@@ -471,23 +478,22 @@ class _Making:
 
     def _tell_crossing(self) -> None:
         """Flexures that run through each other."""
-        for k, each in enumerate(self.flexures):
-            others = [n for n in range(len(self.flexures)) if n != k]
-            for piece in _pieces(each):
-                low, high = piece.points.min(axis=0), piece.points.max(axis=0)
-                for n, block in zip(self.world.owner, self.world.blocks, strict=True):
-                    if not isinstance(n, int) or n <= k or n not in others:
-                        continue
-                    if np.any(block.points.min(axis=0) > high) or np.any(
-                        block.points.max(axis=0) < low
-                    ):
-                        continue
-                    if apart(piece, block) < -self.world.touch:
-                        others.remove(n)
-                        self.notes.append(
-                            f"{each.name} and {self.flexures[n].name} run through each other: "
-                            "one of them is to be cut out there."
-                        )
+        low = np.array([block.points.min(axis=0) for block in self.world.blocks])
+        high = np.array([block.points.max(axis=0) for block in self.world.blocks])
+        found: dict[tuple[int, int], str] = {}
+        for n, (owner, block) in enumerate(zip(self.world.owner, self.world.blocks, strict=True)):
+            near = np.all((low[:n] < high[n]) & (high[:n] > low[n]), axis=1)
+            for m in np.flatnonzero(near).tolist():
+                pair = int(str(self.world.owner[m])), int(str(owner))
+                if pair[0] == pair[1] or pair in found:
+                    continue
+                if apart(block, self.world.blocks[m]) < -self.world.touch:
+                    found[pair] = " and ".join(self.flexures[k].name for k in pair)
+        if found:
+            self.notes.append(
+                f"Flexures run through each other, so that one is to be cut out there: "
+                f"{_listed(list(found.values()), '; ')}."
+            )
 
     # Ends -------------------------------------------------------------------
 
@@ -705,6 +711,8 @@ class _Making:
             orientations = self.parts.orientations_at.get(number, ())
             handle = (number, orientations[0] if len(orientations) == 1 else -1)
         thick = thick or self.thick
+        if what == "body" and (bar := self._bar(owner, ends)) is not None:
+            return Product(name, "body", (bar,), colour, opacity, handle), ""
         near = [
             point
             for point in points
@@ -720,6 +728,25 @@ class _Making:
             return None, told
         kind = "body" if what == "body" else "joint"
         return Product(name, kind, tuple(blocks), colour, opacity, handle), told
+
+    def _bar(self, owner: Hashable, ends: list[End]) -> Polyhedron | None:
+        """A body of one link with a section, from end to end, where its flexures end there."""
+        assert isinstance(owner, tuple)
+        elements, members = self.parts.bodies[owner[1]].elements, self.drawing.members
+        sizes = self.data.appearance.dimensions[elements[0]]
+        if len(elements) > 1 or not ends or not np.all(sizes > 0.0):
+            return None
+        row = int(np.flatnonzero(members.index == elements[0])[0])
+        p, q = self.place[members.nodes[row, [0, 2]]]
+        made = box((p + q) / 2, members.frame[row], (float(np.linalg.norm(q - p)), *sizes.tolist()))
+        self.world.remove(owner)
+        touching = {end.flexure for end in ends}
+        fits = not any(end.reaches(made.points, self.world.touch) for end in ends)
+        fits = fits and all(_on(end.contact(0.0), made, self.world.touch) for end in ends)
+        if not fits or self.world.hits(made, touching, (owner,)) is not None:
+            return None
+        self.world.add(made, owner)
+        return made
 
     def _blocks(
         self,
@@ -737,9 +764,12 @@ class _Making:
                 block = hull(np.concatenate([end.pad(0.0, thick).points for end in ends]))
             return ([] if block is None else [block]), None
         self.world.remove(owner)
+        self.world.asked = 0
         best: tuple[list[Shape], Hashable | None] = ([], owner)
         for carried in [points, []] if points and ends else [points]:
             for scale in _SCALES:
+                if best[0] and self.world.is_tired:
+                    return best
                 margin = MARGIN * self.thick * scale
                 lumps = pads_of(
                     ends, owner, margin, thick * scale if not wish else thick, self.world
@@ -811,11 +841,19 @@ def _pieces(each: Strip | Notch, at: End | None = None) -> list[Polyhedron]:
     return [made[0] if np.array_equal(at.place, each.corners[0]) else made[-1]]
 
 
-def _listed(names: Sequence[str]) -> str:
+def _on(points: FloatArray, block: Polyhedron, least: float) -> bool:
+    """Whether points (n, 3) are within a convex block or on it."""
+    corners = np.array([block.points[face[0]] for face in block.faces])
+    height = points @ block.normals.T - np.sum(corners * block.normals, axis=1)
+    return bool(np.all(height <= least))
+
+
+def _listed(names: Sequence[str], mark: str = ", ") -> str:
     """Names, of many a few."""
     if len(names) > _MOST_NAMED:
         names = [*names[: _MOST_NAMED - 1], f"{len(names) - _MOST_NAMED + 1} more"]
-    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else names[0]
+    last = " and " if mark == ", " else mark
+    return f"{mark.join(names[:-1])}{last}{names[-1]}" if len(names) > 1 else names[0]
 
 
 def _distinct_names(products: list[Product]) -> list[Product]:
