@@ -45,6 +45,10 @@ _CUTS = (0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45)
 _MOST_LOOKED_AT = 300
 #: In so many orders bodies are made until all have room.
 _MOST_ORDERS = 4
+#: A bar between two blocks is a plate where it is so many times as long as thick.
+_SLENDER = 4.0
+#: Flexures at whose ends the cosine is below this come from opposite sides.
+_OPPOSITE = -0.3
 #: Pads are made smaller by so much where blocks of a body would overlap.
 _SCALES = (1.0, 0.5, 0.25, 0.1)
 #: The part of a notch that bends where it is drawn so.
@@ -435,18 +439,21 @@ class _Making:
 
     def _knuckle(self, row: int, name: str, node: int, turns: tuple[int, int]) -> Notch:
         """An ideal hinge as a notch; where it tilts, too, as a round neck."""
-        axis, element = self.drawing.hinges.frame[row, :, 0], self.drawing.hinges.index[row]
+        element, place = self.drawing.hinges.index[row], self.place[node]
+        tilts = self.data.arrays.deformation_class[1:3, element]
+        is_round = bool(np.isin(tilts, (Class.DEPENDENT, Class.INDEPENDENT)).any())
+        axis = self.drawing.hinges.frame[row, :, 0]
         x, scale = frames_along(axis[None])[0][:, 1], self.thick
-        if (way := self._way(node, turns, axis)) is not None:
+        # A neck is in line with its link, whichever axis its hinge has.
+        if (way := self._way(node, turns, axis * (not is_round))) is not None:
             x, scale = way[0], min(scale, _OF_LINK * way[1])
         radius, t = _RADIUS * scale, _NECK * scale
-        frame = np.stack((x, np.cross(axis, x), axis), axis=1)
-        place = self.place[node]
-        tilts = self.data.arrays.deformation_class[1:3, element]
-        if np.isin(tilts, (Class.DEPENDENT, Class.INDEPENDENT)).any():
+        if is_round:
+            frame = frames_along(x[None])[0]
             return Notch(
                 *(name, place, frame, circle(t), 2 * radius, t, t, turns, node), round=True
             )
+        frame = np.stack((x, np.cross(axis, x), axis), axis=1)
         height = t + 2 * radius
         contour = notch_shape("circular", 2 * radius, height, t, radius, 2 * radius)
         return Notch(
@@ -521,6 +528,8 @@ class _Making:
 
     def _owner(self, node: int, turn: int) -> Hashable:
         """What a position and an orientation node belong to: ground, a body, or a joint."""
+        if turn in self.between and not self.parts.is_held(turn):
+            return ("between", turn)
         held = self.parts.is_held(node)
         if held and (turn < 0 or self.parts.is_held(turn)):
             return Ground
@@ -531,8 +540,7 @@ class _Making:
             return ("body", self.parts.body_at[node])
         if held:
             return Ground
-        between = turn in self.between
-        return ("between", turn) if between else ("joint", node)
+        return ("joint", node)
 
     def _is_ground(self, body: int) -> bool:
         mine = self.parts.bodies[body]
@@ -787,7 +795,7 @@ class _Making:
                 lumps = merged(lumps, owner, self.world, is_ground=False, wish=wish)
                 if overlap(lumps, self.world):
                     continue
-                if len(lumps) > 2 or (wish == "disc" and len(lumps) > 1):
+                if len(lumps) > 1 and (wish == "disc" or _far_apart(lumps, size)):
                     found = plate(lumps, owner, thick, self.world, is_round=wish == "disc")
                     if found is not None:
                         solid, feet = found
@@ -839,6 +847,20 @@ def _pieces(each: Strip | Notch, at: End | None = None) -> list[Polyhedron]:
     if at is None:
         return made
     return [made[0] if np.array_equal(at.place, each.corners[0]) else made[-1]]
+
+
+def _far_apart(lumps: Sequence[Lump], size: float) -> bool:
+    """Whether bars between lumps would be so slender that they look like flexures.
+
+    Between flexures that come from opposite sides a bar is the arm that designers make.
+    """
+    blocks = [lump.block for lump in lumps]
+    if len(blocks) > 2:
+        return True
+    outs = [[end.frame[:, 0] for end in lump.ends] for lump in lumps]
+    if any(float(one @ other) < _OPPOSITE for one in outs[0] for other in outs[1]):
+        return False
+    return any(apart(*pair) > _SLENDER * size for pair in combinations(blocks, 2))
 
 
 def _on(points: FloatArray, block: Polyhedron, least: float) -> bool:
