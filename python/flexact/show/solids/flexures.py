@@ -9,7 +9,6 @@ beams are the even pieces.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -457,59 +456,6 @@ def _name_of(parts: tuple[Part, ...]) -> str:
         told = told.removesuffix(tail).rstrip(" ,")
     enough = told and all(part.is_named for part in parts) and told not in ("sheet", "leaf")
     return told if enough else " + ".join(names)
-
-
-def notch_shape(
-    kind: str, length: float, height: float, thickness: float, radius: float, blank: float
-) -> tuple[Piece, ...]:
-    """The contour of a notch in a plate, about its middle, x along it and y along its height.
-
-    Args:
-        kind: "circular", "fillet", "elliptic" or "parabolic".
-        length: Of the notch [m].
-        height: Of the plate [m].
-        thickness: At the thinnest [m].
-        radius: Of a circle or of fillets [m].
-        blank: Length of the whole plate, at least that of the notch [m].
-    """
-    half, h, t = length / 2, height / 2, thickness / 2
-
-    def below(sign: float) -> list[Piece]:
-        """The cut from -x to x below, or with a sign of -1 from x to -x above."""
-        a, y = sign * half, -sign * h
-        neck = -sign * t
-        if kind == "parabolic":
-            return [Piece((-a, y), Curve.PARABOLA, (0.0, neck))]
-        if kind == "elliptic":
-            return [Piece((-a, y), Curve.ELLIPSE, (0.0, y), (half, h - t), False)]
-        depth = min(h - t, radius)
-        reach = math.sqrt(max(depth * (2.0 * radius - depth), 0.0))
-        centre_y, low = neck - sign * radius, -sign * (t + depth)
-        straight = 0.0 if kind == "circular" else half - reach
-        walls = [Piece((-a, y))] if abs(y - low) > _SAME * h else []
-        axes = (radius, radius)
-        if straight <= _SAME * half:
-            arcs = [Piece((-a, low), Curve.CIRCLE, (0.0, centre_y), axes, False)]
-        else:
-            s = sign * straight
-            arcs = [
-                Piece((-a, low), Curve.CIRCLE, (-s, centre_y), axes, False),
-                Piece((-s, neck)),
-                Piece((s, neck), Curve.CIRCLE, (s, centre_y), axes, False),
-            ]
-        return [*walls, *arcs, *([Piece((a, low))] if walls else [])]
-
-    end = blank / 2
-    beyond = end > half * (1.0 + _SAME)
-    made: list[Piece] = []
-    for sign in (1.0, -1.0):
-        if beyond:
-            made.append(Piece((-sign * end, -sign * h)))
-        made += below(sign)
-        made.append(Piece((sign * half, -sign * h)))
-        if beyond:
-            made.append(Piece((sign * end, -sign * h)))
-    return tuple(made)
 
 
 def convex_pieces(strip: Strip) -> Iterator[Polyhedron]:
