@@ -423,7 +423,7 @@ def test_export_tells_what_is_assumed(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["export", str(deck), "-o", str(tmp_path / "x.step")]) == 0
     shown = capsys.readouterr()
     assert shown.out.endswith("x.step\n")
-    assert "first sheet and second sheet: no section is given" in " ".join(shown.err.split())
+    assert "first sheet and second sheet: no section is given (CROSSDIM, section=)" in " ".join(shown.err.split())
     assert "run through each other" in " ".join(shown.err.split())
 
 

@@ -214,8 +214,8 @@ class _Making:
         if assumed:
             count = "it has" if len(assumed) == 1 else "they have"
             self.notes.append(
-                f"{listed(assumed)}: no section is given; {count} the thickness and breadth of "
-                "the drawing."
+                f"{listed(assumed)}: no section is given (CROSSDIM, section=); {count} the "
+                "thickness and breadth of the drawing."
             )
         neck = self.drawing.members.neck
         folds = [each.name for each in strips if np.any(neck[each.rows] == Neck.FOLD)]
