@@ -253,6 +253,8 @@ def choose(parts: CadParts, beside: Path, given: Mapping[str, Any]) -> None:
         raise RefusedError("this cannot be said of a part")
     if of is None:
         raise RefusedError("this part is of another state of the file: take one of now")
+    if to == BODY and len(parts.now.flexures) == 1:
+        raise RefusedError("this is the last flexure: without one there is no mechanism to be seen")
     new = said_of(parts.now, of, parts.plain)
     old = next((each for each in read_choices(beside).parts if each.name == new.name), Said(""))
     new = replace(new, taken_as=old.taken_as, declared=old.declared)

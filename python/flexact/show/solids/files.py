@@ -5,12 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+import numpy as np
+
 from ...analysis.result import Result
+from ...core.arrays import FloatArray
 from ...util.outputs import OutputError
 from ...util.partial import attempted
 from ..drawing import Moving, move, resultants
-from ..picture.stress import Stress
-from .gltf import glb_bytes
+from ..drawing.members import diverging
+from .gltf import Colour, glb_bytes
 from .printing import stl_bytes, threemf_bytes
 from .solids import Solids, solids_of
 from .step import Item, step_bytes
@@ -70,18 +73,25 @@ def _playing(
 ) -> bytes:
     movement = None if shown is None else move(solids.drawing, shown)
     about = [] if movement is None else [f"The motion is enlarged. {movement.remark}"]
-    colours = None
+    colour: Colour | None = None
     if stress is not None or len(analysis.self_stresses):
         number = stress or 1
 
-        def coloured() -> Stress:
+        def coloured() -> tuple[str, Colour]:
             values = resultants(solids.drawing, analysis.self_stresses[number - 1])
             quantity = values.dominant
-            return Stress(values, quantity, values.largest(quantity))
+            largest = values.largest(quantity) or 1.0
 
-        colours = attempted("The colours of the self-stress", coloured, None, notes)
-        if colours is not None:
+            def colour_at(row: int, at: float) -> FloatArray:
+                there = values.along(quantity, np.array([row]), np.array([at]))
+                return diverging(there[0, 0] / largest)
+
+            return quantity, colour_at
+
+        found = attempted("The colours of the self-stress", coloured, None, notes)
+        if found is not None:
+            quantity, colour = found
             about.append(
-                f"Colours: {colours.quantity} of self-stress {number}, blue negative, red positive."
+                f"Colours: {quantity} of self-stress {number}, blue negative, red positive."
             )
-    return glb_bytes(solids, movement, colours, about)
+    return glb_bytes(solids, movement, colour, about)

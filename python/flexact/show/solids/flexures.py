@@ -9,7 +9,6 @@ beams are the even pieces.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -167,7 +166,10 @@ class Strip(Frozen):
             there = along(drawing.members, pose, np.array([row]), self._shares(k))
             x = there.frame[0, ..., 0] * (-1.0 if self.against[k] else 1.0)
             z = self.sign[k] * there.frame[0, ..., self.local[k]]
-            made.append(_rings(self, k, there.centre[0], _frames(x, z)))
+            # Waists as they are drawn.
+            scale, _ = drawing.members.profile(np.array([row]), there.at)
+            share = scale[0][:, [2 - self.local[k], self.local[k] - 1]]
+            made.append(_rings(self, k, there.centre[0], _frames(x, z), share))
         return _joined(self, made)
 
 
@@ -176,15 +178,26 @@ def _frames(x: FloatArray, z: FloatArray) -> FloatArray:
     return np.stack((x, np.cross(z, x), z), axis=-1)
 
 
-def _rings(strip: Strip, k: int, centre: FloatArray, frame: FloatArray) -> FloatArray:
-    """(s, c, 3) rings of a beam of a strip, mitred where it meets its neighbours."""
+def _rings(
+    strip: Strip, k: int, centre: FloatArray, frame: FloatArray, share: FloatArray | None = None
+) -> FloatArray:
+    """(s, c, 3) rings of a beam of a strip, mitred where it meets its neighbours.
+
+    Args:
+        strip: The strip.
+        k: Which of its beams.
+        centre: (s, 3) points of its axis [m].
+        frame: (s, 3, 3) its cross-sections.
+        share: (s, 2) parts of its thickness and breadth there; by default all.
+    """
     if strip.round:
         angle = 2 * np.pi * np.arange(_CORNERS) / _CORNERS
         flat = np.column_stack((np.cos(angle), np.sin(angle)))
     else:
         flat = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     local = flat * strip.sizes[k] / 2
-    made = centre[:, None] + np.einsum("sxd,cd->scx", frame[..., 1:], local)
+    sized = local * (np.ones((len(centre), 2)) if share is None else share)[:, None]
+    made = centre[:, None] + np.einsum("sxd,scd->scx", frame[..., 1:], sized)
     for end, (one, other) in enumerate(((k - 1, k), (k, k + 1))):
         if one < 0 or other >= len(strip.rows):
             continue
@@ -443,59 +456,6 @@ def _name_of(parts: tuple[Part, ...]) -> str:
         told = told.removesuffix(tail).rstrip(" ,")
     enough = told and all(part.is_named for part in parts) and told not in ("sheet", "leaf")
     return told if enough else " + ".join(names)
-
-
-def notch_shape(
-    kind: str, length: float, height: float, thickness: float, radius: float, blank: float
-) -> tuple[Piece, ...]:
-    """The contour of a notch in a plate, about its middle, x along it and y along its height.
-
-    Args:
-        kind: "circular", "fillet", "elliptic" or "parabolic".
-        length: Of the notch [m].
-        height: Of the plate [m].
-        thickness: At the thinnest [m].
-        radius: Of a circle or of fillets [m].
-        blank: Length of the whole plate, at least that of the notch [m].
-    """
-    half, h, t = length / 2, height / 2, thickness / 2
-
-    def below(sign: float) -> list[Piece]:
-        """The cut from -x to x below, or with a sign of -1 from x to -x above."""
-        a, y = sign * half, -sign * h
-        neck = -sign * t
-        if kind == "parabolic":
-            return [Piece((-a, y), Curve.PARABOLA, (0.0, neck))]
-        if kind == "elliptic":
-            return [Piece((-a, y), Curve.ELLIPSE, (0.0, y), (half, h - t), False)]
-        depth = min(h - t, radius)
-        reach = math.sqrt(max(depth * (2.0 * radius - depth), 0.0))
-        centre_y, low = neck - sign * radius, -sign * (t + depth)
-        straight = 0.0 if kind == "circular" else half - reach
-        walls = [Piece((-a, y))] if abs(y - low) > _SAME * h else []
-        axes = (radius, radius)
-        if straight <= _SAME * half:
-            arcs = [Piece((-a, low), Curve.CIRCLE, (0.0, centre_y), axes, False)]
-        else:
-            s = sign * straight
-            arcs = [
-                Piece((-a, low), Curve.CIRCLE, (-s, centre_y), axes, False),
-                Piece((-s, neck)),
-                Piece((s, neck), Curve.CIRCLE, (s, centre_y), axes, False),
-            ]
-        return [*walls, *arcs, *([Piece((a, low))] if walls else [])]
-
-    end = blank / 2
-    beyond = end > half * (1.0 + _SAME)
-    made: list[Piece] = []
-    for sign in (1.0, -1.0):
-        if beyond:
-            made.append(Piece((-sign * end, -sign * h)))
-        made += below(sign)
-        made.append(Piece((sign * half, -sign * h)))
-        if beyond:
-            made.append(Piece((sign * end, -sign * h)))
-    return tuple(made)
 
 
 def convex_pieces(strip: Strip) -> Iterator[Polyhedron]:

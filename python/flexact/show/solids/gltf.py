@@ -9,7 +9,7 @@ where it is written.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +17,6 @@ import numpy as np
 from ...core.arrays import AnyArray, FloatArray
 from ...util.rotations import euler_of, unit
 from ..drawing import Movement, Pose
-from ..picture.stress import Stress
 from .flexures import Strip
 from .shapes import Polyhedron, rings_solid
 from .solids import Product, Solids
@@ -29,6 +28,10 @@ _ROUND = 0.9
 _FLOAT, _UNSIGNED = 5126, 5125
 _ARRAY, _ELEMENTS = 34962, 34963
 _KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+
+
+#: What colour, red, green and blue from 0 to 1, a member has, by its row and a share of its length.
+Colour = Callable[[int, float], FloatArray]
 
 
 class _Skin(NamedTuple):
@@ -116,7 +119,7 @@ class _Buffer:
 def glb_bytes(
     solids: Solids,
     movement: Movement | None = None,
-    stress: Stress | None = None,
+    colour: Colour | None = None,
     about: Sequence[str] = (),
 ) -> bytes:
     """The file of an assembly.
@@ -124,7 +127,7 @@ def glb_bytes(
     Args:
         solids: The solids.
         movement: The motion that is played, if any.
-        stress: The self-stress whose colours flexures have, if any.
+        colour: That of members of a drawing, by their rows, at shares of their lengths, if any.
         about: What is to be said of it, sentences.
     """
     buffer = _Buffer()
@@ -157,7 +160,7 @@ def glb_bytes(
             pivot = solids.drawing.reference.position[product.handle[0]]
             node["translation"] = pivot.tolist()
         primitives = [
-            _primitive(buffer, solids, product, solid, moved if bends else [], pivot, stress)
+            _primitive(buffer, solids, product, solid, moved if bends else [], pivot, colour)
             for solid in _bodies(solids, product)
         ]
         for primitive in primitives:
@@ -251,24 +254,20 @@ def _primitive(
     solid: Polyhedron,
     poses: Sequence[Pose],
     pivot: FloatArray,
-    stress: Stress | None,
+    colour: Colour | None,
 ) -> dict[str, Any]:
     """A surface with its normals, colours, and where it is in the poses."""
     skin = _skin(solid)
     points, normals = solid.points, skin.normals(solid.points)
-    colour = np.broadcast_to(product.colour, points.shape)
-    if stress is not None and isinstance(product.flexure, Strip):
-        ring = len(points) // len(places := product.flexure.stations())
-        values = [
-            float(stress.values.along(stress.quantity, np.array([row]), np.array([at]))[0, 0])
-            for row, at in places
-        ]
-        colour = np.repeat(stress.colours_of(np.array(values)), ring, axis=0)
+    hues = np.broadcast_to(product.colour, points.shape)
+    if colour is not None and isinstance(product.flexure, Strip):
+        shown = np.array([colour(row, at) for row, at in product.flexure.stations()])
+        hues = np.repeat(shown, len(points) // len(shown), axis=0)
     made: dict[str, Any] = {
         "attributes": {
             "POSITION": buffer.add(points[skin.corner] - pivot, target=_ARRAY),
             "NORMAL": buffer.add(normals, target=_ARRAY),
-            "COLOR_0": buffer.add(_linear(colour)[skin.corner], target=_ARRAY),
+            "COLOR_0": buffer.add(_linear(hues)[skin.corner], target=_ARRAY),
         },
         "indices": buffer.add(skin.faces.ravel(), _UNSIGNED, _ELEMENTS),
     }

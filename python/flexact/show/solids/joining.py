@@ -30,6 +30,8 @@ MARGIN, ROOM = 0.35, 0.05
 _SMALLER = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)
 #: Of more blocks pairs are not looked at one by one; bars that are tried for a pair.
 _MOST_BLOCKS, _MOST_TRIED = 60, 16
+#: What fits was found after 60 questions in all models that were looked at.
+_MOST_ASKED = 300
 #: A box in place of a hull may be larger by so much.
 _FULLER = 1.6
 
@@ -78,10 +80,17 @@ class World:
     def __init__(self, size: float, room: float) -> None:
         """Nothing yet, in a model of this size; `room` is between what does not touch [m]."""
         self.touch, self.room = _TOUCH * size, room
+        #: How often it was asked what is in the way, since it was set to zero.
+        self.asked = 0
         self.blocks: list[Polyhedron] = []
         self.owner: list[Hashable] = []
         self._low: list[FloatArray] = []
         self._high: list[FloatArray] = []
+
+    @property
+    def is_tired(self) -> bool:
+        """Whether it was asked so often that no more is tried."""
+        return self.asked > _MOST_ASKED
 
     def add(self, block: Polyhedron, owner: Hashable) -> None:
         """A convex solid of a body or a flexure."""
@@ -100,6 +109,7 @@ class World:
         self, block: Polyhedron, touching: Iterable[Hashable], ignored: Iterable[Hashable] = ()
     ) -> Hashable | None:
         """Who is in the way of a block; it may touch some, and only those."""
+        self.asked += 1
         if not self.blocks:
             return None
         may_touch, left_out = set(touching), set(ignored)
@@ -268,6 +278,8 @@ def plate(
             origin = base * way
         solid = Prism(contour, origin, frame, thick)
         whole = solid.polyhedron()
+        if world.is_tired:
+            break
         if world.hits(whole, (), (owner,)) is not None:
             continue
         feet: list[Polyhedron] = []
@@ -318,7 +330,7 @@ def joined(
             reach = float(np.max((points - middle) @ way)) + far * thick
             there = middle + reach * way
             hub = box(there, frames_along(way[None])[0], (thick, thick * 1.5, thick * 1.5))
-            if world.hits(hub, (), ()) is not None:
+            if world.is_tired or world.hits(hub, (), ()) is not None:
                 continue
             bars, now = _tree([*blocks, hub], owner, world)
             if len(set(now)) == 1:
@@ -347,7 +359,7 @@ def _tree(
     bars: list[Polyhedron] = []
     pairs.sort(key=lambda pair: float(np.linalg.norm(middle[pair[0]] - middle[pair[1]])))
     for i, j in pairs:
-        if group[i] == group[j]:
+        if group[i] == group[j] or world.is_tired:
             continue
         for bar in bridges(blocks[i], blocks[j], world.touch):
             others = [block for k, block in enumerate(blocks) if k not in (i, j)] + bars

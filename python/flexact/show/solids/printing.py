@@ -14,12 +14,9 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ...core.arrays import FloatArray
-from .shapes import Shape
+from .step import Item
 
 _MM = 1000.0
-#: A product: its name, names of its solids, these, colour, opacity.
-Item = tuple[str, Sequence[str], Sequence[Shape], FloatArray, float]
 
 _TYPES = (
     '<?xml version="1.0" encoding="UTF-8"?>\n'

@@ -18,95 +18,36 @@ import numpy as np
 
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
-from ...core.elements import Class
 from ...model.data import BodyShape, ModelData
-from ...model.notches import CONTOURS
 from ...model.parts.forms import Form
 from ...model.parts.parts import Carriers, Parts
 from ...util.groups import grouped, groups_of
 from ...util.records import Frozen
-from ...util.rotations import frames_along, unit
 from ...util.text import file_name, harmless
 from ..drawing import Drawing, Pose, Support, drawing_of
 from ..drawing.members import HINGE, OF_FORMS, SUPPORT, Neck
-from .flexures import Strip, convex_pieces, notch_shape, strips_of, waisted
+from .flexures import Strip, convex_pieces, strips_of, waisted
 from .joining import MARGIN, ROOM, End, Lump, World, joined, merged, overlap, pads_of, plate
-from .shapes import Contour, Polyhedron, Prism, Shape, apart, box, circle, hull, rings_solid
+from .notches import Hinges, Notch, listed
+from .shapes import Polyhedron, Prism, Shape, apart, box, circle, hull, rings_solid
 
 #: Thickness of bodies: a part of the drawing's size and of the shortest flexure, which it does
 #: not exceed, but not less than a part of the size.
 _THICK, _OF_FLEXURE, _THINNEST = 0.034, 0.4, 0.006
-#: A hinge as a notch: radius of its circles, its neck and its breadth, parts of that thickness,
-#: which is no more than a part of the shortest link.
-_RADIUS, _NECK, _BREADTH, _OF_LINK = 0.5, 0.15, 1.8, 0.22
 #: By which parts of the shortest of them flexures are cut short that end at one point.
 _CUTS = (0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45)
 #: Of models with more flexures it is not looked what runs through what.
 _MOST_LOOKED_AT = 300
 #: In so many orders bodies are made until all have room.
 _MOST_ORDERS = 4
+#: A bar between two blocks is a plate where it is so many times as long as thick.
+_SLENDER = 4.0
+#: Flexures at whose ends the cosine is below this come from opposite sides.
+_OPPOSITE = -0.3
 #: Pads are made smaller by so much where blocks of a body would overlap.
 _SCALES = (1.0, 0.5, 0.25, 0.1)
-#: The part of a notch that bends where it is drawn so.
-_NECK_PART = 0.2
-#: So many names are told.
-_MOST_NAMED = 4
 
 Ground = "ground"
-
-
-@dataclass(frozen=True, eq=False)
-class Notch(Frozen):
-    """A notch in a plate.
-
-    Attributes:
-        name: What it is called.
-        place: (3,) its middle [m].
-        frame: (3, 3) along it, along its height, and its axis.
-        contour: About its middle.
-        length: Of the plate [m].
-        height: Of the plate [m].
-        breadth: Of the plate [m].
-        turns: Orientation nodes of its two sides.
-        node: Its position node.
-        round: Whether it is a round neck, whose contour is its section.
-    """
-
-    name: str
-    place: FloatArray
-    frame: FloatArray
-    contour: Contour
-    length: float
-    height: float
-    breadth: float
-    turns: tuple[int, int]
-    node: int
-    round: bool = False
-
-    def frame_at(self, end: int) -> FloatArray:
-        """(3, 3) out of its end 0 or 1, and along its section."""
-        return np.asarray(self.frame * (np.array((1.0, 1.0, 1.0)) if end else (-1.0, -1.0, 1.0)))
-
-    def shape(self) -> Prism:
-        """Its solid."""
-        if self.round:
-            start = self.place - self.frame[:, 0] * self.length / 2
-            return Prism(self.contour, start, self.frame[:, [1, 2, 0]], self.length)
-        return Prism(
-            self.contour, self.place - self.frame[:, 2] * self.breadth / 2, self.frame, self.breadth
-        )
-
-    def points_at(self, drawing: Drawing, pose: Pose) -> FloatArray:
-        """(n, 3) corners of its polyhedron in a pose, in which both sides turn with theirs [m].
-
-        The neck lies between them.
-        """
-        points = self.shape().polyhedron().points
-        x = (points - self.place) @ self.frame[:, 0]
-        side = np.clip(0.5 + x / (_NECK_PART * self.length), 0.0, 1.0)[:, None]
-        arm = points - drawing.reference.position[self.node]
-        one, other = (arm @ pose.rotation[turn].T for turn in self.turns)
-        return np.asarray(pose.position[self.node] + (1.0 - side) * one + side * other)
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,12 +145,10 @@ class _Making:
         size = self.drawing.size
         self.thick = max(min(_THICK * size, _OF_FLEXURE * short), _THINNEST * size)
         self.world = World(size, ROOM * self.thick)
-        self.between = set(self.drawing.hinges.nodes[:, 1:].ravel().tolist()) - set(
-            self.drawing.members.nodes[:, [1, 3]].ravel().tolist()
-        )
-        self.halves: set[int] = set()
-        self.middles: set[int] = set()
-        notches = self._notches()
+        hinges = Hinges(self.drawing, parts, self.thick)
+        notches = hinges.notches()
+        self.notes += hinges.notes
+        self.between, self.halves, self.middles = hinges.between, hinges.halves, hinges.middles
         self.flexures: list[Strip | Notch] = [*strips, *notches]
         self.looks = len(self.flexures) <= _MOST_LOOKED_AT
 
@@ -224,6 +163,10 @@ class _Making:
                 for piece in _pieces(each):
                     self.world.add(piece, k)
             self._tell_crossing()
+        else:
+            self.notes.append(
+                f"More than {_MOST_LOOKED_AT} flexures: it was not looked what runs through what."
+            )
         products = [self._flexure(each) for each in self.flexures]
         ground = [owner for owner in ends if owner == Ground]
         others = [owner for owner in ends if owner != Ground]
@@ -265,201 +208,20 @@ class _Making:
             flexure=each,
         )
 
-    def _notches(self) -> list[Notch]:
-        """Hinges as notches: with their contour where the model has one."""
-        hinges, members = self.drawing.hinges, self.drawing.members
-        made: list[Notch] = []
-        assumed, rows_of = [], self._series()
-        for row in range(len(hinges)):
-            node, *turns = hinges.nodes[row].tolist()
-            name = self.parts.of_element(int(hinges.index[row])).name
-            axis = hinges.frame[row, :, 0]
-            given = self.data.appearance.dimensions[hinges.index[row]]
-            sides = [
-                np.flatnonzero(
-                    members.stiff
-                    & np.any(members.nodes[:, [0, 2]] == node, axis=1)
-                    & np.any(members.nodes[:, [1, 3]] == turn, axis=1)
-                )
-                for turn in turns
-            ]
-            found = None
-            if row in rows_of:
-                continue
-            if np.all(given > 0.0) and all(len(side) for side in sides):
-                found = self._contour(row, name, node, turns, axis, given, sides)
-            made.append(found or self._knuckle(row, name, node, (turns[0], turns[1])))
-            if found is None:
-                assumed.append(name)
-        for chain in dict.fromkeys(rows_of.values()):
-            in_row = self._in_row(chain)
-            made += in_row
-            assumed += [each.name for each in in_row]
-            left = [self.parts.of_element(int(hinges.index[row])).name for row in chain]
-            self.notes.append(
-                f"{_listed(left)} stand at one point: "
-                + ("made one behind the other." if in_row else "they are not made.")
-            )
-        if assumed:
-            self.notes.append(
-                f"{_listed(assumed)}: no sizes are given; made as notches of a size that fits the "
-                "drawing."
-            )
-        return made
-
-    def _series(self) -> dict[int, tuple[int, ...]]:
-        """Rows of hinges that stand at one point with no body between them, each with its row."""
-        hinges = self.drawing.hinges
-        members = set(self.drawing.members.nodes[:, [1, 3]].ravel().tolist())
-        pairs = hinges.nodes[:, 1:].tolist()
-        alone = {n for pair in pairs for n in pair if n not in members} - {
-            n for pair in pairs for n in pair if self.parts.is_held(n)
-        }
-        shared = [
-            (i, j)
-            for i, one in enumerate(pairs)
-            for j in range(i)
-            if alone & set(one) & set(pairs[j])
-        ]
-        group = groups_of(len(pairs), shared).tolist()
-        chains = grouped((each, row) for row, each in enumerate(group))
-        nowhere = set(np.flatnonzero(hinges.nodes[:, 0] < 0).tolist())
-        return {
-            row: tuple(rows)
-            for rows in chains.values()
-            for row in rows
-            if len(rows) > 1 or row in nowhere or alone & set(pairs[row])
-        }
-
-    def _in_row(self, chain: tuple[int, ...]) -> list[Notch]:
-        """Two hinges at one point, one behind the other along what they join; of more none."""
-        hinges = self.drawing.hinges
-        if len(chain) != 2 or hinges.nodes[chain[0], 0] < 0:
-            return []
-        (node, a, b), (_, c, d) = hinges.nodes[list(chain)].tolist()
-        middle = ({a, b} & {c, d}).pop()
-        # From the one side over the middle to the other.
-        outer, far = (a if b == middle else b), (c if d == middle else d)
-        one, other = (
-            self._knuckle(row, self.parts.of_element(int(hinges.index[row])).name, node, turns)
-            for row, turns in zip(chain, ((outer, middle), (middle, far)), strict=True)
-        )
-        x = np.cross(one.frame[:, 2], other.frame[:, 2])
-        if not np.linalg.norm(x) > 1.0e-6:
-            return []
-        x = unit(x)
-        towards = self._way(node, (outer, far), one.frame[:, 2] * 0.0)
-        if towards is not None and towards[0] @ x < 0.0:
-            x = -x
-        shift = (one.length / 2 + 0.4 * self.thick) * x
-        made = []
-        for each, sign in ((one, -1.0), (other, 1.0)):
-            z = each.frame[:, 2]
-            frame = np.stack((x, np.cross(z, x), z), axis=1)
-            made.append(replace(each, frame=frame, place=each.place + sign * shift))
-        return made
-
-    def _contour(
-        self,
-        row: int,
-        name: str,
-        node: int,
-        turns: list[int],
-        axis: FloatArray,
-        given: FloatArray,
-        sides: Sequence[np.ndarray],
-    ) -> Notch | None:
-        """A notch as made: of its neck, its breadth and the radius of its root."""
-        members, element = self.drawing.members, self.drawing.hinges.index[row]
-        far = []
-        for side in sides:
-            slots = members.nodes[side[0], [0, 2]]
-            far.append(int(slots[slots != node][0]))
-        p, q = self.place[far[0]], self.place[far[1]]
-        length, middle = float(np.linalg.norm(q - p)), (p + q) / 2
-        x = unit(q - p)
-        if not length > 0.0 or np.linalg.norm(middle - self.place[node]) > 1.0e-6 * length:
-            return None
-        z = axis - (axis @ x) * x
-        if np.linalg.norm(z) < 0.999:
-            return None
-        z = unit(z)
-        t, b = (float(size) for size in given)
-        kind, height, long, radius = self.data.appearance.contour[element].tolist()
-        if kind == kind:
-            contour = notch_shape(CONTOURS[int(kind)], long, height, t, radius, length)
-        else:
-            # A deck tells the radius of the root: as of a circular contour.
-            known = self.data.properties
-            radius = np.nan if known is None else float(known.fillet[element, 0])
-            if not radius > 0.0:
-                return None
-            half = min(radius, length / 2)
-            height = t + 2.0 * (radius - np.sqrt(max(radius**2 - half**2, 0.0)))
-            contour = notch_shape("circular", 2.0 * half, height, t, radius, length)
-        self.halves.update(int(members.index[side[0]]) for side in sides)
-        self.middles.add(node)
-        frame = np.stack((x, np.cross(z, x), z), axis=1)
-        turned = (turns[0], turns[1])
-        return Notch(name, middle, frame, contour, length, height, b, turned, node)
-
-    def _way(
-        self, node: int, turns: tuple[int, int], axis: FloatArray
-    ) -> tuple[FloatArray, float] | None:
-        """(3,) from the one side of a hinge to the other, across its axis; size of that link [m].
-
-        In line with the shorter of the two links; None where neither tells.
-        """
-        found: list[tuple[float, int, FloatArray, float]] = []
-        for sign, turn in ((-1.0, turns[0]), (1.0, turns[1])):
-            body = self.parts.body_at.get(turn)
-            if body is None:
-                continue
-            places = self.place[list(self.parts.bodies[body].positions)]
-            arm = sign * (places - self.place[node]).mean(axis=0)
-            arm = arm - (arm @ axis) * axis
-            if np.linalg.norm(arm) > 1.0e-6 * self.drawing.size:
-                size = float(np.linalg.norm(np.ptp(places, axis=0)))
-                found.append((round(size / self.drawing.size, 6), len(found), unit(arm), size))
-        if not found:
-            return None
-        _, _, way, size = min(found, key=lambda each: each[:2])
-        return way, size
-
-    def _knuckle(self, row: int, name: str, node: int, turns: tuple[int, int]) -> Notch:
-        """An ideal hinge as a notch; where it tilts, too, as a round neck."""
-        axis, element = self.drawing.hinges.frame[row, :, 0], self.drawing.hinges.index[row]
-        x, scale = frames_along(axis[None])[0][:, 1], self.thick
-        if (way := self._way(node, turns, axis)) is not None:
-            x, scale = way[0], min(scale, _OF_LINK * way[1])
-        radius, t = _RADIUS * scale, _NECK * scale
-        frame = np.stack((x, np.cross(axis, x), axis), axis=1)
-        place = self.place[node]
-        tilts = self.data.arrays.deformation_class[1:3, element]
-        if np.isin(tilts, (Class.DEPENDENT, Class.INDEPENDENT)).any():
-            return Notch(
-                *(name, place, frame, circle(t), 2 * radius, t, t, turns, node), round=True
-            )
-        height = t + 2 * radius
-        contour = notch_shape("circular", 2 * radius, height, t, radius, 2 * radius)
-        return Notch(
-            *(name, place, frame, contour, 2 * radius, height, _BREADTH * scale, turns, node)
-        )
-
     def _tell_assumed(self) -> None:
         strips = [each for each in self.flexures if isinstance(each, Strip)]
         assumed = [each.name for each in strips if each.assumed]
         if assumed:
             count = "it has" if len(assumed) == 1 else "they have"
             self.notes.append(
-                f"{_listed(assumed)}: no section is given; {count} the thickness and breadth of "
-                "the drawing."
+                f"{listed(assumed)}: no section is given (CROSSDIM, section=); {count} the "
+                "thickness and breadth of the drawing."
             )
         neck = self.drawing.members.neck
         folds = [each.name for each in strips if np.any(neck[each.rows] == Neck.FOLD)]
         if folds:
             self.notes.append(
-                f"{_listed(folds)}: what is released in the plane of a sheet that also stretches "
+                f"{listed(folds)}: what is released in the plane of a sheet that also stretches "
                 "has no form; made as plain sheets."
             )
         if self.drawing.planar:
@@ -471,23 +233,22 @@ class _Making:
 
     def _tell_crossing(self) -> None:
         """Flexures that run through each other."""
-        for k, each in enumerate(self.flexures):
-            others = [n for n in range(len(self.flexures)) if n != k]
-            for piece in _pieces(each):
-                low, high = piece.points.min(axis=0), piece.points.max(axis=0)
-                for n, block in zip(self.world.owner, self.world.blocks, strict=True):
-                    if not isinstance(n, int) or n <= k or n not in others:
-                        continue
-                    if np.any(block.points.min(axis=0) > high) or np.any(
-                        block.points.max(axis=0) < low
-                    ):
-                        continue
-                    if apart(piece, block) < -self.world.touch:
-                        others.remove(n)
-                        self.notes.append(
-                            f"{each.name} and {self.flexures[n].name} run through each other: "
-                            "one of them is to be cut out there."
-                        )
+        low = np.array([block.points.min(axis=0) for block in self.world.blocks])
+        high = np.array([block.points.max(axis=0) for block in self.world.blocks])
+        found: dict[tuple[int, int], str] = {}
+        for n, (owner, block) in enumerate(zip(self.world.owner, self.world.blocks, strict=True)):
+            near = np.all((low[:n] < high[n]) & (high[:n] > low[n]), axis=1)
+            for m in np.flatnonzero(near).tolist():
+                pair = int(str(self.world.owner[m])), int(str(owner))
+                if pair[0] == pair[1] or pair in found:
+                    continue
+                if apart(block, self.world.blocks[m]) < -self.world.touch:
+                    found[pair] = " and ".join(self.flexures[k].name for k in pair)
+        if found:
+            self.notes.append(
+                f"Flexures run through each other, so that one is to be cut out there: "
+                f"{listed(list(found.values()), '; ')}."
+            )
 
     # Ends -------------------------------------------------------------------
 
@@ -515,6 +276,8 @@ class _Making:
 
     def _owner(self, node: int, turn: int) -> Hashable:
         """What a position and an orientation node belong to: ground, a body, or a joint."""
+        if turn in self.between and not self.parts.is_held(turn):
+            return ("between", turn)
         held = self.parts.is_held(node)
         if held and (turn < 0 or self.parts.is_held(turn)):
             return Ground
@@ -525,8 +288,7 @@ class _Making:
             return ("body", self.parts.body_at[node])
         if held:
             return Ground
-        between = turn in self.between
-        return ("between", turn) if between else ("joint", node)
+        return ("joint", node)
 
     def _is_ground(self, body: int) -> bool:
         mine = self.parts.bodies[body]
@@ -558,12 +320,12 @@ class _Making:
                         self._shorten(end, cut)
                     told += [self.flexures[end.flexure].name for end in cluster]
                 elif len(cluster) > 1:
-                    names = _listed([self.flexures[end.flexure].name for end in cluster])
+                    names = listed([self.flexures[end.flexure].name for end in cluster])
                     self.notes.append(f"{names} overlap where they end: there is no room.")
             del owner
         if told:
             self.notes.append(
-                f"{_listed(list(dict.fromkeys(told)))}: they meet at one point; cut short, so that "
+                f"{listed(list(dict.fromkeys(told)))}: they meet at one point; cut short, so that "
                 "a block about it holds them."
             )
 
@@ -697,7 +459,7 @@ class _Making:
         elif what == "between":
             sides = [each for each in self.flexures if isinstance(each, Notch)]
             names = [each.name for each in sides if number in each.turns]
-            name = f"between {_listed(names)}"
+            name = f"between {listed(names)}"
             handle = next((e.node for e in sides if number in e.turns), -1), number
         else:
             joints = [j for j in self.carriers.joints if j.position == number]
@@ -705,6 +467,8 @@ class _Making:
             orientations = self.parts.orientations_at.get(number, ())
             handle = (number, orientations[0] if len(orientations) == 1 else -1)
         thick = thick or self.thick
+        if what == "body" and (bar := self._bar(owner, ends)) is not None:
+            return Product(name, "body", (bar,), colour, opacity, handle), ""
         near = [
             point
             for point in points
@@ -720,6 +484,25 @@ class _Making:
             return None, told
         kind = "body" if what == "body" else "joint"
         return Product(name, kind, tuple(blocks), colour, opacity, handle), told
+
+    def _bar(self, owner: Hashable, ends: list[End]) -> Polyhedron | None:
+        """A body of one link with a section, from end to end, where its flexures end there."""
+        assert isinstance(owner, tuple)
+        elements, members = self.parts.bodies[owner[1]].elements, self.drawing.members
+        sizes = self.data.appearance.dimensions[elements[0]]
+        if len(elements) > 1 or not ends or not np.all(sizes > 0.0):
+            return None
+        row = int(np.flatnonzero(members.index == elements[0])[0])
+        p, q = self.place[members.nodes[row, [0, 2]]]
+        made = box((p + q) / 2, members.frame[row], (float(np.linalg.norm(q - p)), *sizes.tolist()))
+        self.world.remove(owner)
+        touching = {end.flexure for end in ends}
+        fits = not any(end.reaches(made.points, self.world.touch) for end in ends)
+        fits = fits and all(_on(end.contact(0.0), made, self.world.touch) for end in ends)
+        if not fits or self.world.hits(made, touching, (owner,)) is not None:
+            return None
+        self.world.add(made, owner)
+        return made
 
     def _blocks(
         self,
@@ -737,9 +520,12 @@ class _Making:
                 block = hull(np.concatenate([end.pad(0.0, thick).points for end in ends]))
             return ([] if block is None else [block]), None
         self.world.remove(owner)
+        self.world.asked = 0
         best: tuple[list[Shape], Hashable | None] = ([], owner)
         for carried in [points, []] if points and ends else [points]:
             for scale in _SCALES:
+                if best[0] and self.world.is_tired:
+                    return best
                 margin = MARGIN * self.thick * scale
                 lumps = pads_of(
                     ends, owner, margin, thick * scale if not wish else thick, self.world
@@ -757,7 +543,7 @@ class _Making:
                 lumps = merged(lumps, owner, self.world, is_ground=False, wish=wish)
                 if overlap(lumps, self.world):
                     continue
-                if len(lumps) > 2 or (wish == "disc" and len(lumps) > 1):
+                if len(lumps) > 1 and (wish == "disc" or _far_apart(lumps, size)):
                     found = plate(lumps, owner, thick, self.world, is_round=wish == "disc")
                     if found is not None:
                         solid, feet = found
@@ -811,11 +597,25 @@ def _pieces(each: Strip | Notch, at: End | None = None) -> list[Polyhedron]:
     return [made[0] if np.array_equal(at.place, each.corners[0]) else made[-1]]
 
 
-def _listed(names: Sequence[str]) -> str:
-    """Names, of many a few."""
-    if len(names) > _MOST_NAMED:
-        names = [*names[: _MOST_NAMED - 1], f"{len(names) - _MOST_NAMED + 1} more"]
-    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else names[0]
+def _far_apart(lumps: Sequence[Lump], size: float) -> bool:
+    """Whether bars between lumps would be so slender that they look like flexures.
+
+    Between flexures that come from opposite sides a bar is the arm that designers make.
+    """
+    blocks = [lump.block for lump in lumps]
+    if len(blocks) > 2:
+        return True
+    outs = [[end.frame[:, 0] for end in lump.ends] for lump in lumps]
+    if any(float(one @ other) < _OPPOSITE for one in outs[0] for other in outs[1]):
+        return False
+    return any(apart(*pair) > _SLENDER * size for pair in combinations(blocks, 2))
+
+
+def _on(points: FloatArray, block: Polyhedron, least: float) -> bool:
+    """Whether points (n, 3) are within a convex block or on it."""
+    corners = np.array([block.points[face[0]] for face in block.faces])
+    height = points @ block.normals.T - np.sum(corners * block.normals, axis=1)
+    return bool(np.all(height <= least))
 
 
 def _distinct_names(products: list[Product]) -> list[Product]:

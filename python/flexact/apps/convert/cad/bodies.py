@@ -78,6 +78,7 @@ class Recognition:
         """Of solids in mm."""
         self.parts, self.choices = parts, choices
         self.doubts: list[str] = []
+        self.gaps: list[tuple[float, str]] = []
         total = sum(part.volume for part in parts)
         stand_ins = {}
         for k, part in enumerate(parts):
@@ -93,6 +94,11 @@ class Recognition:
         self._cut()
         self._join()
         self._settle()
+        if self.gaps:
+            widest = max(far for far, _ in self.gaps)
+            pairs = ", ".join(words for _, words in self.gaps[:6])
+            more = f" and {len(self.gaps) - 6} more" if len(self.gaps) > 6 else ""
+            self.doubts.append(f"gaps of up to {widest:.2g} mm are taken as joined: {pairs}{more}")
 
     def _found(self) -> list[Thin]:
         """Thin parts."""
@@ -155,9 +161,12 @@ class Recognition:
                 for place in _outside(thin)
             ]
             return None not in sides and sides[0] != sides[1]
+        # Between the cuts: fillets are beyond them.
+        span = thin.cuts[1] - thin.cuts[0]
+        centre = thin.cuts[0] + span / 2
         shares = (0.0, 0.2, -0.2, 0.35, -0.35)
         inside = [
-            thin.middle + a * thin.length * thin.axis + b * thin.breadth * thin.width
+            centre + a * span + b * thin.breadth * thin.width
             for a, b in itertools.product(shares, shares)
         ]
         for lump in lumps:
@@ -192,7 +201,6 @@ class Recognition:
     def _glue(self, rest: Sequence[int]) -> None:
         """Join ends of flexures that touch nothing with what they are near to, with a doubt."""
         cut = {thin.part for thin in self.taken}
-        glued: list[tuple[float, str]] = []
         groups: dict[int, list[int]] = defaultdict(list)
         for k in rest:
             groups[self.root(k)].append(k)
@@ -219,13 +227,12 @@ class Recognition:
             far, other = min(near, default=(np.inf, 0))
             if far <= GLUED:
                 self.parent[self.root(k)] = self.root(other)
-                names = [self.solid_name(self.lumps[row].solid) for row in (k, other)]
-                glued.append((far, f"{names[0]} to {names[1]}"))
-        if glued:
-            widest = max(far for far, _ in glued)
-            pairs = ", ".join(words for _, words in glued[:6])
-            more = f" and {len(glued) - 6} more" if len(glued) > 6 else ""
-            self.doubts.append(f"gaps of up to {widest:.2g} mm are taken as joined: {pairs}{more}")
+                self._note_gap(far, solid, other)
+
+    def _note_gap(self, far: float, solid: int, lump: int) -> None:
+        """Remember that a solid is taken as joined with a lump across a gap."""
+        other = self.solid_name(self.lumps[lump].solid)
+        self.gaps.append((far, f"{self.solid_name(solid)} to {other}"))
 
     def root(self, lump: int) -> int:
         """The lump that stands for all that are joined with one."""
@@ -249,7 +256,7 @@ class Recognition:
             return None
         # What a flexure touches only by an edge, or beside its middle.
         end = (thin.p, thin.q)[side]
-        reach = max(0.6 * thin.thickness, TOUCHING)
+        reach = max(0.6 * thin.thickness, GLUED)
         box = np.array([end - thin.breadth, end + thin.breadth])
         line = brep.segment(
             end - 0.45 * thin.breadth * thin.width, end + 0.45 * thin.breadth * thin.width
@@ -260,7 +267,11 @@ class Recognition:
                 far = brep.distance(line, self.shown(k).shape)
                 if far <= reach and (best is None or far < best[0]):
                     best = far, k
-        return None if best is None else best[1]
+        if best is None:
+            return None
+        if best[0] > TOUCHING:
+            self._note_gap(best[0], thin.part, best[1])
+        return best[1]
 
     def _settle(self) -> None:
         """Make groups of lumps; leave out flexures with a free end; find folds and middles."""
@@ -428,6 +439,8 @@ def _cuts(thin: Thin) -> list[TopoDS_Shape]:
     low, high = thin.span
     made = []
     for k, place in enumerate(thin.cuts):
+        if thin.is_open[k]:
+            continue
         inward = 0.0
         if thin.kind is not Kind.NOTCH:
             inward = (0.02 if k == 0 else -0.02) * thin.thickness
@@ -449,7 +462,7 @@ def _outside(thin: Thin) -> tuple[FloatArray, FloatArray]:
 def _bend_corners(
     end: FloatArray, out: FloatArray, width: FloatArray, radius: float, angle: float, at: FloatArray
 ) -> list[FloatArray]:
-    """Where tangents at a cylindrical bend meet: one place for every 100 degrees of it.
+    """Where tangents at a cylindrical bend meet: one place for every 120 degrees of it.
 
     Args:
         end: Where the bend begins, in the middle of the sheet.
@@ -459,7 +472,7 @@ def _bend_corners(
         angle: Of the bend.
         at: A point of the axis.
     """
-    count = max(1, int(np.ceil(angle / np.radians(100) - 1e-6)))
+    count = max(1, int(np.ceil(angle / np.radians(120) - 1e-6)))
     centre = at + (end - at) @ width * width
     spoke = end - centre
     turn = width if np.cross(width, spoke) @ out > 0 else -width

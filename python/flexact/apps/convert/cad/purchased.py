@@ -16,6 +16,8 @@ from . import brep
 from .brep import Face, Part, are_parallel
 from .thin import rounds
 
+#: Names of bearings.
+_BEARING = re.compile(r"bearing|kugellager|w(?:ä|ae)lzlager|kogellager", re.I)
 #: Names of purchased parts, in English, German and Dutch.
 _PURCHASED = re.compile(
     r"(screw|bolt|\bnut\b|\bnuts\b|washer|dowel|bearing|circlip|rivet|\bpin\b|\bpins\b|"
@@ -36,7 +38,7 @@ def is_purchased(part: Part, count: int, total: float) -> bool:
         total: Their volume [mm3].
     """
     if _is_named_purchased(part):
-        return part.volume < 0.05 * total or count < 3
+        return part.volume < 0.05 * total and not _is_block(part)
     if count < 4 or part.volume > 0.01 * total or len(part.faces) < 4:
         return False
     round_ = [f for f in part.faces if f.kind in ("cylinder", "torus")]
@@ -65,6 +67,21 @@ def is_purchased(part: Part, count: int, total: float) -> bool:
     if not any(_is_full(part, g) for c in (False, True) for g in rounds(part, convex=c)):
         return False
     return not _has_waists(part)
+
+
+def _is_block(part: Part) -> bool:
+    """Whether a part is no body of revolution but for a few flats, as a bearing block is none."""
+    round_ = [face for face in part.faces if face.kind == "cylinder"]
+    if not round_:
+        return False
+    axis = max(round_, key=lambda face: face.area).axis
+    flats = sum(f.kind == "plane" and abs(float(f.axis @ axis)) < 1e-3 for f in part.faces)
+    return flats not in (0, 1, 2, 3, 6, 12)
+
+
+def is_bearing(part: Part) -> bool:
+    """Whether the name of a part says that it turns within itself."""
+    return bool(_BEARING.search(part.name))
 
 
 def _is_named_purchased(part: Part) -> bool:

@@ -20,6 +20,7 @@ from .assembly import Assembly, Body, Choices, Flexure, Kind, Piece, Solid
 from .bodies import Group, Recognition
 from .brep import Part
 from .names import is_ground_name, known_material, says_nothing
+from .purchased import is_bearing
 from .thin import Thin
 
 
@@ -296,6 +297,10 @@ class _Report:
             angle += group.bend[1]
         between = self.at[id(row[0]), 0].name, self.at[id(row[-1]), 1].name
         first = row[0]
+        if length > 15 * first.thickness:
+            # A leaf may be short where the whole is not.
+            for thin in row:
+                thin.why.clear()
         doubts = [doubt for thin in row[1:] for doubt in (*thin.why, *thin.doubts)]
         radius = max(group.bend[0] for group in joints)
         if len(joints) > 1:
@@ -410,6 +415,11 @@ class _Report:
                     f"{self.found.solid_name(thin.part)} has a thin part at "
                     f"{_place(thin.middle)} that is taken as a body: {'; '.join(thin.why)}"
                 )
+        for k, part in enumerate(self.parts):
+            if part.is_purchased and is_bearing(part):
+                grave.append(
+                    f"{self.found.solid_name(k)} is taken as rigid: what turns is not known"
+                )
         for name in self.loose:
             grave.append(f"{name} touches nothing that is part of the mechanism and is left out")
         for words, names in self.of_flexures.items():
@@ -435,16 +445,26 @@ class _Report:
             )
 
     def _unrecognised(self, row: int) -> str:
-        """What is thin and free-form in a solid, as a sentence; "" where there is none."""
+        """What is said of a solid that is thin and no flexure; "" of others."""
         part = self.parts[row]
         area = max(sum(face.area for face in part.faces), 1e-12)
         odd = sum(face.area for face in part.faces if face.kind == "other")
         thick = 2 * part.volume / area
-        if odd > 0.2 * area and part.size > 12 * thick:
+        thin = [each.thickness for each in self.taken if each.kind is not Kind.NOTCH]
+        curved = sum(face.area for face in part.faces if face.kind != "plane")
+        is_sheet = (
+            bool(thin)
+            and thick < 3 * float(np.median(thin))
+            and curved > 0.5 * area
+            and part.size > 25 * thick
+        )
+        if not self.found.is_whole(row) or row in {each.part for each in self.taken}:
+            return ""
+        if (odd > 0.2 * area and part.size > 12 * thick) or is_sheet:
             return (
-                f"{self.found.solid_name(row)} is thin (about {thick:.2g} mm) and free-form; with "
-                f"its volume of {part.volume:.4g} mm3 it is taken as a body, and the verdict "
-                "depends on it"
+                f"{self.found.solid_name(row)} is thin (about {thick:.2g} mm), and of a shape that "
+                f"is not known; with its volume of {part.volume:.4g} mm3 it is taken as a body, "
+                "and the verdict depends on it"
             )
         return ""
 

@@ -107,11 +107,10 @@ def _free_wires(
     for first, last, held_first, held_last in borders:
         if last - first < LEAST_SLENDER * 2 * radius:
             continue
-        made = []
-        radii = []
+        made, radii, is_open = [], [], []
         for level, sign, is_held in ((first, -1.0, held_first), (last, 1.0, held_last)):
             place = at + level * axis
-            more = 0.0
+            more, ends = 0.0, False
             if not is_held:
                 outside = place + sign * max(0.05 * radius, gap) * axis
                 fastened = part.holds(outside) or any(
@@ -119,9 +118,11 @@ def _free_wires(
                 )
                 if not fastened:
                     break
+                ends = not part.holds(outside)
                 more = _fillet_round(part, place, axis, radius)
             made.append(place + sign * more * axis)
             radii.append(more)
+            is_open.append(ends)
         if len(made) < 2:
             continue
         cuts = (at + first * axis, at + last * axis)
@@ -143,7 +144,7 @@ def _free_wires(
                 outline=outline,
                 radius=min(radii),
                 contour="round",
-                doubts=[],
+                is_open=(is_open[0], is_open[1]),
             )
         )
     return found

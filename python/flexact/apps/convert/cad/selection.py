@@ -71,8 +71,11 @@ def sorted_out(
                 f"{words}, it is {stiff:.0f} times as stiff in bending as the usual flexure here"
             )
             is_flexure = False
-        elif slender >= 40 or (slender >= 15 and thick < 3):
+        elif slender >= 15 and thick < (6 if slender >= 40 else 3):
             is_flexure = True
+        elif slender >= 40:
+            is_flexure = False
+            thin.why.append(f"{words}, it is {thick:.2g} times as thick as the thinnest")
         elif slender >= 15:
             is_flexure = stiff < 30 and thick < 6
             if thick < 8:

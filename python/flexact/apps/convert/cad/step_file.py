@@ -50,7 +50,8 @@ _SOLID = re.compile(rb"=\s*(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\
 #: What translators write where there is no name.
 _NO_NAME = re.compile(
     r"^(|NAUO\d+|=>\[.*\]|open cascade step translator.*|"
-    r"(compound|solid|shape|shell|product|unnamed|noname|none|assembly)[ _.-]?\d*)$",
+    r"(compound|solid|shape|product|unnamed|noname|none)|"
+    r"(compound|solid|shape|shell|product|assembly)[ _.-]?\d+)$",
     re.I,
 )
 

@@ -48,6 +48,7 @@ class Thin:
         radius: Of a notch, or of the fillets of a sheet.
         contour: See `Flexure`.
         doubts: What is odd in its shape.
+        is_open: Whether its solid ends where it does, at p and at q, so that nothing is to be cut.
         why: Why it is taken as a flexure or as a body, where that is in doubt.
     """
 
@@ -66,6 +67,7 @@ class Thin:
     contour: str = ""
     doubts: list[str] = field(default_factory=list)
     why: list[str] = field(default_factory=list)
+    is_open: tuple[bool, bool] = (False, False)
 
     @property
     def length(self) -> float:

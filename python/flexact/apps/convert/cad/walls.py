@@ -23,6 +23,8 @@ from .thin import GLUED, LEAST_SLENDER, NOTCH, SHEET, Scene, Thin
 
 #: Share of a clamp that may be holes, which screws fill.
 _HOLES = 0.3
+#: From this share of the breadth of a sheet on a clamp is as broad as the sheet.
+_NEARLY = 0.7
 
 
 @dataclass(eq=False)
@@ -152,6 +154,7 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
     for level in levels if others else ():
         for clamp in _held(scene, brep.moved(region.face, level), normal, others):
             clamps.append(brep.filled(brep.moved(clamp, -level), _HOLES))
+    clamps = [_across_all(clamp, region.face, normal) for clamp in clamps]
 
     def is_held(place: FloatArray) -> bool:
         return any(scene.where(place + level, others) is not None for level in levels)
@@ -179,6 +182,28 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
         elif len(chains) > 2:
             found.append(_web(row, outline, thickness, f"it is fastened at {len(chains)} places"))
     return found
+
+
+def _across_all(clamp: TopoDS_Shape, face: TopoDS_Shape, normal: FloatArray) -> TopoDS_Shape:
+    """A clamp as broad as its sheet, where it is nearly so: beside it nothing bends for itself."""
+    outline = brep.loops(face)[0]
+    straight = [edge for edge in outline if len(edge) == 2]
+    if not straight:
+        return clamp
+    a, b = max(straight, key=lambda edge: float(np.linalg.norm(edge[1] - edge[0])))
+    along = unit(b - a)
+    frame = np.array([along, np.cross(normal, along)])
+    sheet = np.concatenate(outline) @ frame.T
+    held = np.concatenate(brep.loops(clamp)[0]) @ frame.T
+    shares = np.ptp(held, axis=0) / np.ptp(sheet, axis=0)
+    k = int(np.argmax(shares))
+    if not _NEARLY <= shares[k] < 1.0 - 1e-6 or shares[1 - k] > shares[k] - 0.05:
+        return clamp
+    low, high = held.min(0), held.max(0)
+    low[k], high[k] = sheet[:, k].min() - 1.0, sheet[:, k].max() + 1.0
+    centre = float(a @ normal) * normal + (low + high) / 2 @ frame
+    half = (high - low) / 2
+    return brep.rectangle(centre, half[0] * frame[0], half[1] * frame[1])
 
 
 def _held(
@@ -373,8 +398,10 @@ def _web(row: int, outline: _Outline, thickness: float, words: str) -> Thin:
 
 def _front(
     chain: list[_Segment], axis: FloatArray, normal: FloatArray
-) -> tuple[FloatArray, FloatArray, float]:
-    """Of an end: its middle, the direction of its edge, how far it goes; `axis` goes to the other.
+) -> tuple[FloatArray, FloatArray, float, bool]:
+    """Of an end: its middle, direction and length of its edge, and whether that is straight.
+
+    The axis goes to the other end.
 
     Pieces in one line are one; the longest that lies across the axis is the front.
     """
@@ -393,13 +420,13 @@ def _front(
     if lengths[best] < 0.45 * spread:
         top = places[int(np.argmax(places @ axis))]
         middle = top + float((places.mean(0) - top) @ side) * side
-        return middle, side, float(spread)
+        return middle, side, float(spread), False
     a, b = runs[best]
     middle, direction = (a + b) / 2, unit(b - a)
     behind = ahead - float(max(a @ axis, b @ axis))
     if behind > NEAR:
         middle = middle + behind * axis
-    return middle, direction, float(np.linalg.norm(b - a))
+    return middle, direction, float(np.linalg.norm(b - a)), True
 
 
 def _wall(
@@ -419,8 +446,8 @@ def _wall(
         return None
     axis = unit(away)
     for _ in range(3):
-        m0, d0, b0 = _front(chains[0], axis, normal)
-        m1, d1, b1 = _front(chains[1], -axis, normal)
+        m0, d0, b0, flat0 = _front(chains[0], axis, normal)
+        m1, d1, b1, flat1 = _front(chains[1], -axis, normal)
         if float(d0 @ d1) < 0:
             d1 = -d1
         width = unit(b0 * d0 + b1 * d1)
@@ -430,6 +457,8 @@ def _wall(
             break
         axis = straight
     doubts = []
+    if not (flat0 and flat1):
+        doubts.append("it ends at something round: its length is that of the shortest line")
     skew = m1 - m0 - (m1 - m0) @ axis * axis
     length = float((m1 - m0) @ axis)
     if length < 0.2 * thickness:
@@ -448,11 +477,11 @@ def _wall(
     elif abs(near - far) > 0.02 * breadth:
         doubts.append("its breadth changes along it: it is taken as even")
     cuts = (m0, m1)
-    radii = []
-    ends = []
+    radii, ends, is_open = [], [], []
     for m, out in ((m0, -axis), (m1, axis)):
         outside = m + 0.05 * thickness * out
-        if not part.holds(outside):
+        is_open.append(not part.holds(outside))
+        if is_open[-1]:
             more, radius = _end_face(part, planes, m, out, width, thickness), 0.0
         elif is_held(outside):
             # Beyond a slanted end the solid goes on, and the other one is there already.
@@ -504,6 +533,7 @@ def _wall(
         radius=min(radii),
         contour="",
         doubts=doubts,
+        is_open=(is_open[0], is_open[1]),
     )
 
 
@@ -586,7 +616,7 @@ def _meets(
     if abs(slope) < 0.1:
         return else_
     far = float((face.at - middle) @ face.axis) / slope
-    return far if abs(far - else_) < max(3 * thickness, 1.5 * abs(else_)) else else_
+    return far if abs(far - else_) < max(3 * thickness, 3 * abs(else_)) else else_
 
 
 def _end_face(
