@@ -201,8 +201,22 @@ def test_a_middle_has_its_section_and_a_released_sheet_its_waist(tmp_path: Path)
     assert found["sheet 2"] == pytest.approx(0.3 * 50 * 40, rel=1e-9)
 
 
+def test_sheets_without_sections_pass_each_other() -> None:
+    """The sheets lie 20 mm apart; drawn, they would be 0.14 of the diagonal of the points broad."""
+    model = flexact.Model(name="cross hinge", units="mm")
+    hinge = model.cross_hinge(
+        [(-30, -10, 0), (100, 10, 60)], [(70, -10, 80), (-30, 10, 120)], width="y"
+    )
+    model.fix(*hinge.ground)
+    solids = solids_of(flexact.analyse(model))
+    assert solids.drawing.members.section[:2].max() > 0.02
+    breadths = [each.flexure.sizes.max() for each in solids.products if each.kind == "sheet"]
+    assert max(breadths) < 0.02
+    assert not any("run through" in note for note in solids.notes)
+
+
 def test_parts_that_fit_nowhere_end_in_words() -> None:
-    """A mechanism of chance, all of it at a few points: no block fits, and it is not sought long."""
+    """A mechanism of chance at a few points: no block fits, and it is not sought for long."""
     from random_models import mechanism
 
     analysis = flexact.analyse(mechanism(np.random.default_rng(1), planar=False, held=False))
@@ -423,7 +437,9 @@ def test_export_tells_what_is_assumed(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["export", str(deck), "-o", str(tmp_path / "x.step")]) == 0
     shown = capsys.readouterr()
     assert shown.out.endswith("x.step\n")
-    assert "first sheet and second sheet: no section is given (CROSSDIM, section=)" in " ".join(shown.err.split())
+    assert "first sheet and second sheet: no section is given (CROSSDIM, section=)" in " ".join(
+        shown.err.split()
+    )
     assert "run through each other" in " ".join(shown.err.split())
 
 
