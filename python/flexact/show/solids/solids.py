@@ -20,7 +20,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.data import BodyShape, ModelData
 from ...model.parts.forms import Form
-from ...model.parts.parts import Carriers, Parts
+from ...model.parts.parts import Carriers, PartKind, Parts
 from ...util.groups import grouped, groups_of
 from ...util.records import Frozen
 from ...util.text import file_name, harmless
@@ -32,8 +32,9 @@ from .notches import Hinges, Notch, listed
 from .shapes import Polyhedron, Prism, Shape, apart, box, circle, hull, rings_solid
 
 #: Thickness of bodies: a part of the drawing's size and of the shortest flexure, which it does
-#: not exceed, but not less than a part of the size.
-_THICK, _OF_FLEXURE, _THINNEST = 0.034, 0.4, 0.006
+#: not exceed, but not less than a part of the size; and so many times that of the sheets, so that
+#: none looks like a sheet itself.
+_THICK, _OF_FLEXURE, _THINNEST, _TIMES = 0.034, 0.4, 0.006, 10.0
 #: By which parts of the shortest of them flexures are cut short that end at one point.
 _CUTS = (0.03, 0.05, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45)
 #: Of models with more flexures it is not looked what runs through what.
@@ -145,7 +146,9 @@ class _Making:
         strips = strips_of(self.drawing, parts)
         short = min((float(s.length.sum()) for s in strips), default=np.inf)
         size = self.drawing.size
-        self.thick = max(min(_THICK * size, _OF_FLEXURE * short), _THINNEST * size)
+        sheets = (float(s.sizes[:, 0].max()) for s in strips if s.kind is PartKind.SHEET)
+        usual = max(_THICK * size, _TIMES * max(sheets, default=0.0))
+        self.thick = max(min(usual, _OF_FLEXURE * short), _THINNEST * size)
         self.world = World(size, ROOM * self.thick)
         hinges = Hinges(self.drawing, parts, self.thick)
         notches = hinges.notches()
