@@ -113,7 +113,7 @@ fi
 [ -x .venv/bin/python ] || "$python" -m venv .venv
 requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm threadpoolctl matplotlib pillow"
 [ "$purpose" != docs ] || requirements="$requirements mkdocs>=1.6,<2 mkdocs-material>=9.5 mkdocstrings[python]>=0.26"
-[ "$purpose" != test ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis imageio-ffmpeg jsonschema check-jsonschema pre-commit pysarif scipy trove-classifiers mpmath selenium vtk pyarrow openpyxl pypdfium2 PyYAML pygls>=2 ruff mypy fprettify"
+[ "$purpose" != test ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis imageio-ffmpeg jsonschema check-jsonschema pre-commit pysarif scipy trove-classifiers mpmath selenium vtk pyarrow openpyxl cadquery-ocp-novtk>=8.0;python_version>=\"3.11\" lib3mf trimesh pypdfium2 PyYAML pygls>=2 ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086
 .venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||
