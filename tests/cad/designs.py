@@ -1314,3 +1314,195 @@ def guide_glued() -> Design:
     parts["base"] = box((0, 100), (0, 19.95), (0, 30))
     parts["stage"] = box((0, 100), (60.05, 72), (0, 30))
     return design(parts, replace(made.truth, told=("sheet 1", "sheet 2")))
+
+
+@case("guide with end stops")
+def guide_with_stops() -> Design:
+    """Stops that stand on the base, 0.1 and 0.03 mm from the stage, which they do not touch."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["stop left"] = box((-12.1, -0.1), (0, 72), (5, 25))
+    parts["stop right"] = box((100.03, 112), (0, 72), (5, 25))
+    # They stand on a foot below the base.
+    parts["foot"] = box((-20, 120), (-10, 0), (0, 30))
+    return design(parts, made.truth)
+
+
+@case("guide with a coil spring")
+def guide_with_spring() -> Design:
+    """A helical spring of 1 mm wire between base and stage, which is no flexure of these: told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["pressure spring"] = shapes.coil((50, 20.5, 15), 8, 1, 39, 6)
+    return design(parts, replace(made.truth, told=("pressure spring",), motions=-1, over=-1))
+
+
+@case("guide with a micrometer")
+def guide_with_micrometer() -> Design:
+    """Its ball touches the stage in a point, which holds nothing that a drawing shows: told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    parts["bracket"] = fused(box((100, 130), (0, 20), (0, 30)), box((118, 130), (20, 80), (0, 30)))
+    spindle = fused(cylinder((118, 66, 15), (103, 66, 15), 6), shapes.ball((103, 66, 15), 3))
+    parts["micrometer"] = spindle
+    truth = replace(made.truth, told=("micrometer",))
+    return design(parts, truth)
+
+
+@case("stage with all that belongs to it")
+def real_stage() -> Design:
+    """A base of two plates, a stage of two, reinforced sheets in jaws, stops, a coil, a cover.
+
+    34 solids: sheets between jaws with two screws each, of which one jaw stands on base or stage;
+    stiffeners on both faces; a stop with 0.2 mm of room; magnet and coil with 0.5 mm between them;
+    a cover that stands on the base by four columns.
+    """
+    sheets = [
+        replace(s, middle=(0.6, 4.5))
+        for s in guide_sheets((30, 130), lengths=(30, 80), width=40, thickness=0.4)
+    ]
+    sheets = [replace(s, p=(s.p[0], 30, 20), q=(s.q[0], 80, 20)) for s in sheets]
+    parts: dict[str, TopoDS_Shape] = {
+        "base/base plate": box((0, 160), (0, 12), (-10, 50)),
+        "base/foot plate": box((-10, 170), (-8, 0), (-20, 60)),
+        "stage/carriage": box((0, 160), (98, 106), (0, 40)),
+        "stage/table": box((20, 140), (106, 114), (-10, 50)),
+    }
+    screws: dict[str, TopoDS_Shape] = {}
+    for k, each in enumerate(sheets, 1):
+        x = each.p[0]
+        blade = plate((x, 14, 20), (x, 96, 20), Z, 40, 0.4)
+        for what, y in (("base", (12, 30)), ("stage", (80, 98))):
+            jaws = [box(sorted((x + s * 0.2, x + s * 8.2)), y, (0, 40)) for s in (-1, 1)]
+            for n, z in enumerate((8, 32), 1):
+                middle = sum(y) / 2
+                hole = cylinder((x - 9, middle, z), (x + 9, middle, z), 3)
+                blade, jaws = cut(blade, hole), [cut(jaw, hole) for jaw in jaws]
+                bolt = fused(cylinder((x + 8.2, middle, z), (x + 11.2, middle, z), 5.5), hole)
+                trimmed = common(bolt, box((x - 8.2, x + 12), (0, 120), (-20, 60)))
+                screws[f"screws/ISO 4762 M3x16 {k}{what}{n}"] = trimmed
+            for jaw, side in zip(jaws, ("inner", "outer"), strict=True):
+                parts[f"{what}/jaw {side} {k} {what}"] = jaw
+        parts[f"flexures/{each.name}"] = blade
+        for s in (-1, 1):
+            faces = sorted((x + s * 0.2, x + s * 2.25))
+            parts[f"flexures/stiffener {k}{'ab'[s > 0]}"] = box(faces, (40, 70), (0, 40))
+    parts["base/stop"] = box((60, 70), (12, 97.8), (10, 30))
+    parts["base/magnet"] = cylinder((100, 12, 20), (100, 60, 20), 20)
+    ring = cut(
+        cylinder((100, 40, 20), (100, 98, 20), 30), cylinder((100, 39, 20), (100, 99, 20), 21)
+    )
+    parts["stage/coil"] = ring
+    for n, (x, z) in enumerate(((-5, -15), (165, -15), (-5, 55), (165, 55)), 1):
+        parts[f"cover/column {n}"] = cylinder((x, 0, z), (x, 125, z), 6)
+    parts["cover/cover"] = box((-10, 170), (125, 127), (-20, 60))
+    bodies = {"foot plate": (80, -4, 20), "carriage": (80, 102, 20)}
+    renamed = [replace(each, between=("foot plate", "carriage")) for each in sheets]
+    truth = Truth(
+        "foot plate", bodies, tuple(renamed), motions=1, over=1, is_named=False, why=GUIDE_WHY
+    )
+    return design({**parts, **screws}, truth, root="stage")
+
+
+def slot(p: tuple[float, float], q: tuple[float, float], wide: float, thick: float) -> TopoDS_Shape:
+    """What a wire takes away on its way from p to q through a plate, with round ends."""
+    way = plate((*p, thick / 2), (*q, thick / 2), Z, thick + 2, wide)
+    ends = (cylinder((*c, -1), (*c, thick + 1), wide) for c in (p, q))
+    return fused(way, *ends)
+
+
+@case("notch guide cut by a wire")
+def notch_guide_by_wire() -> Design:
+    """Four notches between bores in a plate, whose parts slots of 1 mm keep apart."""
+    radius, neck, thick, off = 4.0, 0.8, 10.0, 4.4
+    tools = [
+        cylinder((x + s * off, y, -1), (x + s * off, y, thick + 1), 2 * radius)
+        for x in (20, 100)
+        for y in (20, 60)
+        for s in (-1, 1)
+    ]
+    for x in (20 - off, 20 + off, 100 - off, 100 + off):
+        tools.append(slot((x, 20), (x, 60), 1, thick))
+    tools.append(slot((20 + off, 20), (100 - off, 20), 1, thick))
+    for x, edge in ((20 - off, -2), (100 + off, 122)):
+        tools.append(slot((x, 60), (edge, 60), 1, thick))
+    whole = cut(box((0, 120), (0, 80), (0, thick)), *tools)
+    bodies = {
+        "base": (60, 8, 5), "stage": (60, 40, 5), "link 1": (20, 40, 5), "link 2": (100, 40, 5),
+    }  # fmt: skip
+    ends = (("base", "link 1", 20, 20), ("link 1", "stage", 20, 60), ("base", "link 2", 100, 20))
+    notches = tuple(
+        Notch(f"notch {k}", (a, b), (x, y, 5), Z, neck, radius, thick)
+        for k, (a, b, x, y) in enumerate((*ends, ("link 2", "stage", 100, 60)), 1)
+    )
+    why = "As of the notch guide: one loop of parallel hinges."
+    truth = Truth("base", bodies, notches, motions=1, over=3, is_named=False, why=why)
+    # The stage with its inner block is the larger one.
+    return Design(((("plate",), whole),), replace(truth, ground="stage"))
+
+
+@case("guide cut by a wire")
+def guide_by_wire() -> Design:
+    """Two sheets of 0.5 mm between slots of 1 mm in a plate: what is left of it is base and stage.
+
+    The stage is the block between the sheets with the bar above; the base goes around below.
+    """
+    thick = 10.0
+    tools = []
+    sheets = []
+    for k, (x, s) in enumerate(((20, -1), (100, 1)), 1):
+        # A slot on both sides of each sheet, from y = 20 to 60 between the middles of their ends.
+        for side in (-1, 1):
+            tools.append(slot((x + side * 0.75, 20.5), (x + side * 0.75, 59.5), 1, thick))
+        tools.append(slot((x + s * 0.75, 59.5), (x + s * 30, 59.5), 1, thick))
+        sheets.append(Sheet(f"sheet {k}", ("base", "stage"), (x, 20, 5), (x, 60, 5), Z, thick, 0.5))
+    tools.append(slot((20.75, 20.5), (99.25, 20.5), 1, thick))
+    whole = cut(box((0, 120), (0, 80), (0, thick)), *tools)
+    bodies = {"base": (60, 8, 5), "stage": (60, 40, 5)}
+    truth = Truth("stage", bodies, tuple(sheets), motions=1, over=1, is_named=False, why=GUIDE_WHY)
+    return Design(((("plate",), whole),), truth)
+
+
+@case("five folded sheets, rounded inside")
+def folded_inside() -> Design:
+    """Folds that are sharp outside and have a radius of 0.5 mm inside, as of a wire."""
+    made = folded()
+    parts = {names[0]: shape for names, shape in made.parts[:2]}
+    for name, corners in folded_corners().items():
+        across = X if name in ("folded 4", "folded 5") else Z
+        end, fold, stage = (np.asarray(corner, float) for corner in corners)
+        inside = (end - fold) / 40 + (stage - fold) / 40
+        sharp = strip(corners, across, 20, 0.5, 0)
+        parts[name] = shapes.filleted(sharp, [fold + 0.25 * inside], 0.5)
+    return as_one(design(parts, made.truth))
+
+
+@case("guide, tapered sheets")
+def guide_tapered() -> Design:
+    """Sheets of 0.5 mm at the base and 0.3 mm at the stage: no parallel planes, so told."""
+    made = guide()
+    parts = {names[0]: shape for names, shape in made.parts}
+    for k, x in enumerate((20, 80), 1):
+        outline = [(x - 0.25, 20, 0), (x + 0.25, 20, 0), (x + 0.15, 60, 0), (x - 0.15, 60, 0)]
+        parts[f"sheet {k}"] = prism(outline, (0, 0, 30))
+    told = ("sheet 1", "sheet 2")
+    return design(parts, replace(made.truth, told=told, motions=-1, over=-1))
+
+
+@case("guide, sheets in packs")
+def guide_of_packs() -> Design:
+    """Each sheet is two that lie on each other: what a pack holds is told to be in doubt."""
+    made = guide_lapped()
+    parts = {names[0]: shape for names, shape in made.parts}
+    for k, (x, s) in enumerate(((-0.5, -1), (100.5, 1)), 1):
+        parts[f"sheet {k} again"] = box(sorted((x, x + 0.5 * s)), (8, 72), (0, 30))
+    told = ("sheet 1", "sheet 2")
+    return design(parts, replace(made.truth, told=told, motions=-1, over=-1))
+
+
+@case("guide, monolithic with chamfers")
+def guide_chamfered() -> Design:
+    """Chamfers of 0.8 mm in the place of fillets: they belong to the free length likewise."""
+    made = as_one(guide())
+    ((names, shape),) = made.parts
+    return replace(made, parts=((names, shapes.chamfered(shape, ends_of(guide_sheets()), 0.8)),))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from OCP.Bnd import Bnd_Box
+from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepBuilderAPI import (
@@ -19,14 +20,34 @@ from OCP.BRepBuilderAPI import (
 )
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepClass3d import BRepClass3d_SolidClassifier
-from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
+from OCP.BRepFilletAPI import BRepFilletAPI_MakeChamfer, BRepFilletAPI_MakeFillet
 from OCP.BRepGProp import BRepGProp
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism
+from OCP.BRepLib import BRepLib
+from OCP.BRepOffsetAPI import BRepOffsetAPI_MakePipeShell
+from OCP.BRepPrimAPI import (
+    BRepPrimAPI_MakeBox,
+    BRepPrimAPI_MakeCylinder,
+    BRepPrimAPI_MakePrism,
+    BRepPrimAPI_MakeSphere,
+)
+from OCP.BRepTools import BRepTools
 from OCP.collections import Array1_gp_Pnt, Array2_gp_Pnt, List_TopoDS_Shape
 from OCP.GC import GC_MakeArcOfCircle
-from OCP.Geom import Geom_BSplineSurface
+from OCP.Geom import Geom_BSplineSurface, Geom_CylindricalSurface
+from OCP.Geom2d import Geom2d_Line
 from OCP.GeomAPI import GeomAPI_PointsToBSpline, GeomAPI_PointsToBSplineSurface
-from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.gp import (
+    gp_Ax1,
+    gp_Ax2,
+    gp_Ax3,
+    gp_Circ,
+    gp_Dir,
+    gp_Dir2d,
+    gp_Pnt,
+    gp_Pnt2d,
+    gp_Trsf,
+    gp_Vec,
+)
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.Interface import Interface_Static
@@ -107,6 +128,34 @@ def swept(edges: Sequence[TopoDS_Shape], height: Vector) -> TopoDS_Shape:
     return BRepPrimAPI_MakePrism(face, vector(height)).Shape()
 
 
+def ball(centre: Vector, radius: float) -> TopoDS_Shape:
+    return BRepPrimAPI_MakeSphere(point(centre), radius).Shape()
+
+
+def coil(start: Vector, radius: float, wire: float, height: float, turns: int) -> TopoDS_Shape:
+    """A helical spring along y of a round wire."""
+    surface = Geom_CylindricalSurface(gp_Ax3(point(start), gp_Dir(0, 1, 0)), radius)
+    slope = gp_Dir2d(2 * np.pi * turns, height)
+    length = float(np.hypot(2 * np.pi * turns, height))
+    helix = Geom2d_Line(gp_Pnt2d(0, 0), slope)
+    edge = BRepBuilderAPI_MakeEdge(helix, surface, 0.0, length).Edge()
+    BRepLib.BuildCurves3d_s(edge)
+    spine = BRepBuilderAPI_MakeWire(edge).Wire()
+    curve = BRepAdaptor_Curve(edge)
+    at, along = gp_Pnt(), gp_Vec()
+    curve.D1(curve.FirstParameter(), at, along)
+    ring = gp_Circ(gp_Ax2(at, gp_Dir(along)), wire / 2)
+    profile = BRepBuilderAPI_MakeFace(
+        BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(ring).Edge()).Wire()
+    ).Face()
+    pipe = BRepOffsetAPI_MakePipeShell(spine)
+    pipe.SetMode(gp_Dir(0, 1, 0))
+    pipe.Add(BRepTools.OuterWire_s(profile))
+    pipe.Build()
+    pipe.MakeSolid()
+    return pipe.Shape()
+
+
 def line(p: Vector, q: Vector) -> TopoDS_Shape:
     return BRepBuilderAPI_MakeEdge(point(p), point(q)).Edge()
 
@@ -173,6 +222,20 @@ def common(shape: TopoDS_Shape, other: TopoDS_Shape) -> TopoDS_Shape:
 
 def filleted(shape: TopoDS_Shape, middles: Sequence[Vector], radius: float) -> TopoDS_Shape:
     """Fillets along those edges whose middles are nearest to the given points."""
+    return _dressed(BRepFilletAPI_MakeFillet(shape), shape, middles, radius)
+
+
+def chamfered(shape: TopoDS_Shape, middles: Sequence[Vector], size: float) -> TopoDS_Shape:
+    """Chamfers likewise."""
+    return _dressed(BRepFilletAPI_MakeChamfer(shape), shape, middles, size)
+
+
+def _dressed(
+    maker: BRepFilletAPI_MakeFillet | BRepFilletAPI_MakeChamfer,
+    shape: TopoDS_Shape,
+    middles: Sequence[Vector],
+    size: float,
+) -> TopoDS_Shape:
     edges, places = [], []
     for edge in _each(shape, TopAbs_EDGE):
         properties = GProp_GProps()
@@ -180,12 +243,11 @@ def filleted(shape: TopoDS_Shape, middles: Sequence[Vector], radius: float) -> T
         centre = properties.CentreOfMass()
         edges.append(TopoDS.Edge(edge))
         places.append((centre.X(), centre.Y(), centre.Z()))
-    maker = BRepFilletAPI_MakeFillet(shape)
     for middle in middles:
         distance = np.linalg.norm(np.asarray(places) - np.asarray(middle, float), axis=1)
         if distance.min() > 0.3:
             raise ValueError(f"no edge has its middle at {middle}; the nearest: {distance.min()}")
-        maker.Add(radius, edges[int(distance.argmin())])
+        maker.Add(size, edges[int(distance.argmin())])
     (left,) = solids(maker.Shape())
     return left
 

@@ -30,7 +30,7 @@ def converted(path: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.dear(8)
+@pytest.mark.dear(5)
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_file_is_refused_in_words(name: str, tmp_path: Path) -> None:
     path = tmp_path / "hostile.step"
@@ -42,7 +42,7 @@ def test_hostile_file_is_refused_in_words(name: str, tmp_path: Path) -> None:
     assert done.stderr.strip()
 
 
-@pytest.mark.dear(8)
+@pytest.mark.dear(5)
 @pytest.mark.parametrize("name", BORDERLINE)
 def test_odd_file_is_read_or_refused_in_words(name: str, tmp_path: Path) -> None:
     path = tmp_path / "odd.step"

@@ -32,6 +32,9 @@ from flexact.apps.watch.watch import Saved
 from flexact.apps.watch.worker import answer_of
 
 
+pytestmark = pytest.mark.dear(4)
+
+
 class Page:
     """What a page of a STEP file does: asks, and sees what comes of it."""
 
@@ -277,6 +280,22 @@ def test_what_is_half_written_is_waited_for(tmp_path: Path, clock: list[float]) 
     assert saved.is_renewed()
 
 
+#: A place of the window where the base is pointed at; null where there is none.
+ON_THE_BASE = """
+    const {bodies, stage, pointing} = flexact;
+    const {left, top} = stage.canvas.getBoundingClientRect();
+    for (let at = 0; at < bodies.corner.array.length; at += 9) {
+      const middle = [0, 1, 2].map((k) => [0, 3, 6].reduce((sum, i) =>
+        sum + bodies.corner.array[at + i + k] / 3, 0));
+      const [x, y] = stage.project(...middle), found = pointing.look(x, y);
+      if (found && found.kind === "body" && bodies.data.bodies.names[found.row] === "base") {
+        return [left + x, top + y];
+      }
+    }
+    return null;
+"""
+
+
 def test_a_solid_is_clicked_and_the_page_follows(browser: Browser, tmp_path: Path) -> None:
     """In the drawing, on a face of the base, which is no part of the model; then a new export."""
     path = tmp_path / "guide.step"
@@ -284,16 +303,7 @@ def test_a_solid_is_clicked_and_the_page_follows(browser: Browser, tmp_path: Pat
     with watching(path, tmp_path / "state", "--no-browser") as watched:
         until(lambda: len(watched.out) > 1)
         page = EditedPage(browser, watched)
-        x, y = browser.run(
-            "const {bodies, stage, pointing} = flexact, {left, top} ="
-            " stage.canvas.getBoundingClientRect();"
-            "for (let at = 0; at < bodies.corner.array.length; at += 9) {"
-            "const middle = [0, 1, 2].map((k) => [0, 3, 6].reduce((sum, i) =>"
-            "sum + bodies.corner.array[at + i + k] / 3, 0));"
-            "const [px, py] = stage.project(...middle), found = pointing.look(px, py);"
-            "if (found && found.kind === 'body' && bodies.data.bodies.names[found.row] === 'base')"
-            "return [left + px, top + py]; }"
-        )
+        x, y = browser.run(ON_THE_BASE)
         page.press(x, y)
         page.sees("card", "stands still")
         page.find("stage")
@@ -304,6 +314,12 @@ def test_a_solid_is_clicked_and_the_page_follows(browser: Browser, tmp_path: Pat
         page.sees("card", "was free")
         # What is not opaque lets what is behind it be seen.
         assert browser.run("return PageData.array(flexact.data.bodies.opacity).every((o) => o < 1)")
+        # Solids that are hidden are not pointed at.
+        hide = "document.querySelector('[data-layer=solids]').click()"
+        browser.run(hide)
+        assert browser.run(ON_THE_BASE) is None
+        browser.run(hide)
+        assert browser.run(ON_THE_BASE) is not None
         lines = len(watched.out)
         CASES["cross hinge of two"]().write(path)
         until(lambda: len(watched.out) > lines)

@@ -14,6 +14,7 @@ from .assets import flowing, text
 
 _VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right"))
 _LAYERS = (
+    ("solids", "solids of the CAD", True),
     ("ghost", "reference as a ghost", True),
     ("arrows", "arrows of displacements", True),
     ("presses", "arrows of what parts press on bodies", True),
@@ -155,6 +156,7 @@ def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
     moves, stressed = (any(each[name] for each in drawings) for name in ("movements", "stresses"))
     lacking = {"ghost": not moves, "arrows": not moves, "diagram": not stressed}
     lacking["presses"] = not stressed
+    lacking["solids"] = not any("about" in each["bodies"] for each in drawings)
     made = "".join(
         f'<label class="check"><input type="checkbox" data-layer="{layer}"'
         f"{' checked' if on and layer not in off else ''}>{words}</label>"

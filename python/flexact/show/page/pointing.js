@@ -82,8 +82,8 @@ const Pointing = (() => {
         (x / stage.width) * 2 - 1, 1 - (y / stage.height) * 2);
       this.raycaster.setFromCamera(pointer, stage.camera);
       const { members, bodies, hinges, supports } = state;
-      const solids = [
-        ...members.solids, ...bodies.solids, hinges.copies.mesh, ...supports.solids];
+      const around = bodies.group.visible ? bodies.solids : [];
+      const solids = [...members.solids, ...around, hinges.copies.mesh, ...supports.solids];
       const [hit] = this.raycaster.intersectObjects(solids, false);
       if (!hit) return this.lineAt(x, y);
       const held = supports.nodeOf(hit.object, hit.instanceId);

@@ -19,7 +19,8 @@ from .drawing import Frame
 MOST_TRIANGLES = 60_000
 #: Of solids: what stands still, what moves; and of flexures that are in doubt.
 _STILL, _MOVING, _DOUBTFUL = (0.55, 0.57, 0.60), (0.52, 0.64, 0.80), (0.93, 0.60, 0.08)
-_OPACITY = 0.34
+#: How opaque solids are, and where they are so many triangles that several lie behind each other.
+_OPACITY, _PALE, _MANY = 0.34, 0.18, 1000
 #: An edge is so much of the colour of its solid.
 _EDGE = 0.6
 
@@ -137,7 +138,7 @@ def place_scenery(data: dict[str, Any], parts: Parts, frame: Frame, scenery: Sce
         "edges": integers(np.concatenate([np.zeros((0, 2), int), *edges])),
         "colour": flags(np.rint(255 * colour)),
         "edge": flags(np.rint(255 * _EDGE * colour)),
-        "opacity": floats(np.full(len(chosen), _OPACITY)),
+        "opacity": floats(np.full(len(chosen), _PALE if sum(sizes) > _MANY else _OPACITY)),
     }
     drawn = {mesh.name for mesh in chosen}
     shown = ~frame.drawing.in_solid[:MOST_MEMBERS]

@@ -20,7 +20,7 @@ const Viewer = (() => {
       this.pose = Tracks.reference(data);
       this.movement = this.stress = this.space = null;
       this.quantity = "";
-      this.layers = { diagram: false, ghost: true, arrows: true, presses: true, symbols: true };
+      this.layers = { solids: true, diagram: false, ghost: true, arrows: true, presses: true, symbols: true };
       this.stage = new Stage.Stage(this.part("canvas"), context, data);
       this.members = new Members.Members(data);
       this.bodies = new Bodies.Bodies(data, this.members);
@@ -291,6 +291,7 @@ const Viewer = (() => {
       this.displacements.group.visible = Boolean(this.movement && this.layers.arrows);
       this.presses.show(this.layers.presses ? this.stress : null);
       this.joints.group.visible = true;
+      this.bodies.group.visible = this.layers.solids;
       this.supports.group.visible = this.layers.symbols;
       // They may lie along one line with what presses.
       this.freedoms.group.visible = this.layers.symbols && !this.presses.group.visible;
