@@ -6,6 +6,7 @@ Sizes are those that the solids are made with here, by OpenCASCADE directly.
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -291,3 +292,9 @@ def test_what_is_there_twice_counts_once(tmp_path: Path) -> None:
     found = assembly(tmp_path, base=BASE, stage=STAGE, **sheets, again=again)
     assert len(found.flexures) == 2
     assert "again is there twice, and counts once" in found.doubts
+
+
+def test_nothing_of_opencascade_is_loaded_without_need() -> None:
+    """The parent of the child process needs none of it either."""
+    code = "import sys, flexact.apps.cli.convert; assert not any('OCP' in m for m in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
