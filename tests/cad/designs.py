@@ -1506,3 +1506,49 @@ def guide_chamfered() -> Design:
     made = as_one(guide())
     ((names, shape),) = made.parts
     return replace(made, parts=((names, shapes.chamfered(shape, ends_of(guide_sheets()), 0.8)),))
+
+
+def radial_sheets() -> list[Sheet]:
+    angles = np.radians((0, 120, 240))
+    return [
+        Sheet(
+            f"spoke {k}", ("ring", "hub"), (40 * np.cos(a), 40 * np.sin(a), 6),
+            (10 * np.cos(a), 10 * np.sin(a), 6), Z, 12, 0.5,
+        )
+        for k, a in enumerate(angles, 1)
+    ]  # fmt: skip
+
+
+@case("hub on three spokes")
+def hub() -> Design:
+    """Sheets from a round hub to a ring: a hinge, over by 4, as of each spoke 3 are held.
+
+    9 held, of rank 5: all but the turning about the axis of the hub.
+    """
+    sheets = radial_sheets()
+    core = cylinder((0, 0, 0), (0, 0, 12), 20)
+    ring = cut(cylinder((0, 0, 0), (0, 0, 12), 100), cylinder((0, 0, -1), (0, 0, 13), 80))
+    between = cut(cylinder((0, 0, 0), (0, 0, 12), 80), core)
+    parts = {"ring": ring, "hub": core}
+    parts |= {each.name: common(solid_of(each, 1), between) for each in sheets}
+    bodies = {"ring": (0, 45, 6), "hub": (0, 0, 6)}
+    why = "9 held by three sheets, rank 5."
+    return design(parts, Truth("ring", bodies, tuple(sheets), motions=1, over=4, why=why))
+
+
+@case("hub on three spokes, monolithic")
+def hub_monolithic() -> Design:
+    return as_one(hub())
+
+
+@case("six struts with thin ends")
+def six_struts() -> Design:
+    """Wires of 0.8 mm, 8 mm long, at both ends of rods of 4 mm: each holds what a wire holds."""
+    made = wired((0.8,), 0)
+    parts = {names[0]: shape for names, shape in made.parts}
+    for each in wires((0.8,)):
+        p, q = np.asarray(each.p, float), np.asarray(each.q, float)
+        along = (q - p) / each.length
+        parts[each.name] = fused(parts[each.name], cylinder(p + 8 * along, q - 8 * along, 4))
+    bent = tuple(replace(each, middle=8.0) for each in made.truth.flexures)
+    return design(parts, replace(made.truth, flexures=bent))

@@ -54,13 +54,17 @@ class Bent:
 
 @dataclass(frozen=True)
 class Wire:
-    """A wire that is free to bend between `p` and `q` [mm]; `sides`: diameter, or two sides."""
+    """A wire that is free to bend between `p` and `q` [mm]; `sides`: diameter, or two sides.
+
+    Of a strut that is thick between them `middle` is the length of the thin ends; else it is 0.
+    """
 
     name: str
     between: tuple[str, str]
     p: Vector
     q: Vector
     sides: tuple[float, ...]
+    middle: float = 0.0
 
     @property
     def length(self) -> float:

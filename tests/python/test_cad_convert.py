@@ -6,6 +6,7 @@ Sizes are those that the solids are made with here, by OpenCASCADE directly.
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -240,7 +241,6 @@ def test_ground_is_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[st
         (["--fix", "1"], "--fix is for a mesh"),
         (["--declare", "stage"], "a body and its coordinates are wanted"),
         (["--declare", "stage:w"], "a body and its coordinates are wanted"),
-        (["--declare", "base:x"], "base"),
         (["--material", "cheese"], "cheese"),
     ],
 )
@@ -284,3 +284,17 @@ def test_a_mechanism_has_the_places_of_the_solids(tmp_path: Path) -> None:
     assert all(piece.triangles.size for piece in found.assembly.pieces)
     codes = {each.code for each in found.model.diagnostics}
     assert {"cad-doubt", "cad-remark"} <= codes
+
+
+def test_what_is_there_twice_counts_once(tmp_path: Path) -> None:
+    sheets = {f"s{k}": box((x, x + 0.5), (20, 60), (0, 30)) for k, x in ((1, 20), (2, 80))}
+    again = box((20, 20.5), (20, 60), (0, 30))
+    found = assembly(tmp_path, base=BASE, stage=STAGE, **sheets, again=again)
+    assert len(found.flexures) == 2
+    assert "again is there twice, and counts once" in found.doubts
+
+
+def test_nothing_of_opencascade_is_loaded_without_need() -> None:
+    """The parent of the child process needs none of it either."""
+    code = "import sys, flexact.apps.cli.convert; assert not any('OCP' in m for m in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -50,14 +50,16 @@ def is_read_as_it_is(made: Design, folder: Path) -> None:
     analysis = flexact.analyse(found.model)
     motions = analysis.under_constrained + analysis.degrees_of_freedom
     loose = 6 * len(set(truth.loose) & set(bodies.values()))
-    middles = sum(isinstance(each, Sheet) and each.middle is not None for each in truth.flexures)
+    middles = middles_in(truth)
+    struts = sum(isinstance(each, Wire) and each.middle > 0 for each in truth.flexures)
     # The stiff middle of a reinforced sheet may be a body, which has three motions of its own; a
     # bent sheet may be one that is folded, whose fold turns; a U may be three leaves in a row, of
     # which there are three.
     bent = (each for each in truth.flexures if isinstance(each, Bent))
     bends = sum(1 if len(each.corners) == 3 else 3 for each in bent)
     usual = truth.motions + truth.inner + loose
-    allowed = {usual, usual + 3 * middles + bends}
+    # The rod of a strut has all but one of its motions, held by none.
+    allowed = {usual, usual + 3 * (middles - struts) + 5 * struts + bends}
     assert analysis.over_constrained == truth.over
     assert motions in allowed
 
@@ -82,7 +84,7 @@ def bodies_of(assembly: Assembly, truth: Truth) -> dict[str, str]:
         found[owner] = name
     grounds = {body.name for body in assembly.bodies if body.is_ground}
     assert truth.ground in {found.get(ground) for ground in grounds} or truth.more_grounds
-    middles = sum(isinstance(each, Sheet) and each.middle is not None for each in truth.flexures)
+    middles = middles_in(truth)
     assert len(assembly.bodies) in (len(found), len(found) + middles)
     if truth.is_named:
         rows = {body.name: body.solids for body in assembly.bodies}
@@ -93,6 +95,15 @@ def bodies_of(assembly: Assembly, truth: Truth) -> dict[str, str]:
 
 def bodies_ground(assembly: Assembly, owner: str) -> bool:
     return any(body.is_ground for body in assembly.bodies if body.name == owner)
+
+
+def middles_in(truth: Truth) -> int:
+    """Stiff middles of reinforced sheets, and of struts."""
+    return sum(
+        bool(getattr(each, "middle", None))
+        for each in truth.flexures
+        if not isinstance(each, Notch)
+    )
 
 
 def encloses(triangles: np.ndarray, place: np.ndarray) -> bool:
@@ -124,6 +135,13 @@ def flexures_are(assembly: Assembly, truth: Truth, bodies: dict[str, str]) -> No
             continue
         if isinstance(each, Bent):
             bent_is(left, each)
+            continue
+        if isinstance(each, Wire) and each.middle:
+            p, q = np.asarray(each.p, float), np.asarray(each.q, float)
+            along = (q - p) / each.length
+            for a, b in ((p, p + each.middle * along), (q - each.middle * along, q)):
+                part = taken(left, (a + b) / 2, Kind.WIRE)
+                straight(part, a, b, max(each.sides), min(each.sides))
             continue
         if isinstance(each, Notch):
             part = taken(left, each.middle, Kind.NOTCH)

@@ -31,7 +31,6 @@ from flexact.apps.watch.scene import Broken, Shown
 from flexact.apps.watch.watch import Saved
 from flexact.apps.watch.worker import answer_of
 
-
 pytestmark = pytest.mark.dear(4)
 
 

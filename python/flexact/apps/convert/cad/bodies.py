@@ -110,7 +110,7 @@ class Recognition:
                 continue
             found += [*necks(self.scene, row), *odd_necks(self.scene, row)]
             rods += wires(self.scene, row)
-            places += regions(self.scene, row)
+            places += regions(self.scene, row, found)
         slim: dict[int, list[Thin]] = defaultdict(list)
         for thin in (*walls(self.scene, places), *rods):
             slim[thin.part].append(thin)
@@ -288,6 +288,20 @@ class Recognition:
                     )
                     if held is not None:
                         self.parent[self.root(k)] = self.root(held)
+        # What is short, and has both ends on one body, is a part of it.
+        for thin in list(self.taken):
+            ends = [
+                self.root(end.lump)
+                for end in self.ends
+                if end.thin is thin and end.lump is not None
+            ]
+            if len(set(ends)) == 1 and len(ends) == 2 and thin.length < 15 * thin.thickness:
+                loose.add(id(thin))
+                self.taken.remove(thin)
+                for k, lump in enumerate(self.lumps):
+                    if lump.thin is thin:
+                        lump.thin = None
+                        self.parent[self.root(k)] = ends[0]
         self.ends = [end for end in self.ends if id(end.thin) not in loose]
         groups: dict[int, Group] = {}
         for k, lump in enumerate(self.lumps):

@@ -56,6 +56,10 @@ class CadMechanism:
         # The doubts are told already.
         plain = Model.from_data(replace(self.model.data, besides=()))
         words: str = load("flexact.api").analyse(plain).describe()
+        count = len(self.assembly.doubts)
+        if count:
+            doubts = "the doubt" if count == 1 else f"the {count} doubts"
+            words = f"This verdict depends on {doubts} above.\n{words}"
         return words
 
 

@@ -274,7 +274,8 @@ class _Report:
                             thin.p = corner
                         else:
                             thin.q = corner
-                own_name = name if len(row) == 1 else f"{name}, leaf {k + 1}"
+                piece = "neck" if thin.kind is Kind.WIRE else "leaf"
+                own_name = name if len(row) == 1 else f"{name}, {piece} {k + 1}"
                 if apart:
                     own_name = self._once(self.parts[thin.part].name)
                 between = self.at[id(thin), 0].name, self.at[id(thin), 1].name

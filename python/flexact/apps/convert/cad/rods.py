@@ -110,7 +110,7 @@ def _free_wires(
         made, radii, is_open = [], [], []
         for level, sign, is_held in ((first, -1.0, held_first), (last, 1.0, held_last)):
             place = at + level * axis
-            more, ends = 0.0, False
+            more, stops = 0.0, False
             if not is_held:
                 outside = place + sign * max(0.05 * radius, gap) * axis
                 fastened = part.holds(outside) or any(
@@ -118,11 +118,11 @@ def _free_wires(
                 )
                 if not fastened:
                     break
-                ends = not part.holds(outside)
+                stops = not part.holds(outside)
                 more = _fillet_round(part, place, axis, radius)
             made.append(place + sign * more * axis)
             radii.append(more)
-            is_open.append(ends)
+            is_open.append(stops)
         if len(made) < 2:
             continue
         cuts = (at + first * axis, at + last * axis)

@@ -89,6 +89,7 @@ def parts_of(path: Path) -> tuple[list[Part], list[str], list[str]]:
     for part in walk.parts:
         if part not in parts:
             doubts.append(f"{part.name or 'a solid'} has no volume and is left out")
+    parts = _once(parts, doubts)
     different = Shapes()
     for part in walk.parts:
         different.Add(part.shape.Located(TopLoc_Location()))
@@ -142,6 +143,22 @@ def _units(text: bytes) -> tuple[list[str], list[str]]:
     if len(used) > 1:
         return [f"the file has lengths in several units: {words}"], []
     return [], [f"lengths of the file are in {words}"]
+
+
+def _once(parts: list[Part], doubts: list[str]) -> list[Part]:
+    """Solids without those that are there a second time, at the same place."""
+    kept: dict[tuple[float, ...], Part] = {}
+    for part in parts:
+        volume, centre, inertia = part.mass
+        key = (
+            float(f"{volume:.6g}"),
+            *np.round(centre, 3),
+            *np.round(np.diag(inertia) / volume, 2),
+        )
+        if key in kept:
+            doubts.append(f"{part.name or 'a solid'} is there twice, and counts once")
+        kept.setdefault(key, part)
+    return list(kept.values())
 
 
 def _require_size(parts: list[Part], doubts: list[str]) -> None:

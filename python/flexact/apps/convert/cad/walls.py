@@ -23,6 +23,8 @@ from .thin import GLUED, LEAST_SLENDER, NOTCH, SHEET, Scene, Thin
 
 #: Share of a clamp that may be holes, which screws fill.
 _HOLES = 0.3
+#: Planes are those of a tapered wall where the sine between them is less.
+_TAPER = 0.05
 #: From this share of the breadth of a sheet on a clamp is as broad as the sheet.
 _NEARLY = 0.7
 
@@ -77,12 +79,15 @@ class Region:
     extent: float
 
 
-def regions(scene: Scene, row: int) -> list[Region]:
-    """Where a solid may have walls."""
+def regions(scene: Scene, row: int, tapers: list[Thin]) -> list[Region]:
+    """Where a solid may have walls; what is like one but for its thickness goes to `tapers`."""
     part = scene.parts[row]
     found = []
     for a, b in itertools.combinations(_planes(part), 2):
-        if float(a.normal @ b.normal) > -0.5 or not are_parallel(a.normal, b.normal):
+        if float(a.normal @ b.normal) > -0.5 or not are_parallel(a.normal, b.normal, _TAPER):
+            continue
+        if not are_parallel(a.normal, b.normal):
+            tapers += _taper(row, part, a, b)
             continue
         thickness = float((a.at - b.at) @ a.normal)
         if thickness < NEAR or _overlap(a, b) < LEAST_SLENDER * thickness:
@@ -97,6 +102,19 @@ def regions(scene: Scene, row: int) -> list[Region]:
             if extent >= LEAST_SLENDER * thickness:
                 found.append(Region(row, face, (a, b), thickness, extent))
     return found
+
+
+def _taper(row: int, part: Part, a: _Plane, b: _Plane) -> list[Thin]:
+    """A slender wall whose faces are not quite parallel, so that its thickness changes."""
+    between = np.array([(place - b.at) @ b.normal for place in a.corners])
+    low, high = -float(between.max()), -float(between.min())
+    if low < NEAR or _overlap(a, b) < 15 * high:
+        return []
+    outline = _Outline(brep.loops(part.faces[a.rows[0]].shape), a.normal)
+    inner = outline.samples()[0] - (low + high) / 4 * a.normal
+    if not part.holds(inner):
+        return []
+    return [_web(row, outline, (low + high) / 2, f"it is {low:.3g} to {high:.3g} mm thick")]
 
 
 def walls(scene: Scene, found: Sequence[Region]) -> list[Thin]:
@@ -162,8 +180,11 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
     def goes_on(place: FloatArray) -> bool:
         return part.holds(place) or is_held(place)
 
+    left = without([region.face], clamps) if clamps else [region.face]
+    if not left and region.extent > 15 * thickness:
+        return _packed(scene, region, others)
     found = []
-    for face in without([region.face], clamps) if clamps else [region.face]:
+    for face in left:
         if _extent(face) < LEAST_SLENDER * thickness or brep.area_of(face) < thickness**2:
             continue
         outline = _Outline(brep.loops(face), normal)
@@ -182,6 +203,18 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
         elif len(chains) > 2:
             found.append(_web(row, outline, thickness, f"it is fastened at {len(chains)} places"))
     return found
+
+
+def _packed(scene: Scene, region: Region, others: Sequence[int]) -> list[Thin]:
+    """A wall that others cover all over, where one of them is as thin: a pack of sheets."""
+    for row in others:
+        part = scene.parts[row]
+        area = sum(face.area for face in part.faces)
+        if 2 * part.volume < 1.5 * region.thickness * area and part.size > 0.6 * region.extent:
+            words = f"{part.name or 'another sheet'} lies on it, as in a pack"
+            outline = _Outline(brep.loops(region.face), region.planes[0].normal)
+            return [_web(region.part, outline, region.thickness, words)]
+    return []
 
 
 def _across_all(clamp: TopoDS_Shape, face: TopoDS_Shape, normal: FloatArray) -> TopoDS_Shape:
@@ -590,10 +623,14 @@ def _beyond(
     if face is None:
         return far, 0.0
     if face.kind == "plane":
-        return _meets(face, middle, out, far, thickness), 0.0
-    if face.kind == "cylinder" and not face.is_convex and are_parallel(face.axis, width, 1e-3):
+        body = _behind_chamfer(part, face, edge, width, thickness, out)
+        return _meets(body or face, middle, out, far, thickness), 0.0
+    normal = part.faces[row].axis
+    away = abs(float((face.at - part.edges[edge].ends[0]) @ normal))
+    # A fillet is tangent to the wall; the inside of a ring is none.
+    is_fillet = face.kind == "cylinder" and abs(away - face.radius) < 0.02 * face.radius
+    if is_fillet and not face.is_convex and are_parallel(face.axis, width, 1e-3):
         # The other edges of a fillet lead to the body.
-        normal = part.faces[row].axis
         own = next(k for k, each in enumerate(part.faces) if each is face)
         for k in face.edges:
             if k == edge or not part.edges[k].is_along(width):
@@ -606,6 +643,26 @@ def _beyond(
             return _meets(body, middle, out, far + face.radius, thickness), face.radius
         return far + face.radius, face.radius
     return far, 0.0
+
+
+def _behind_chamfer(
+    part: Part, face: Face, edge: int, width: FloatArray, thickness: float, out: FloatArray
+) -> Face | None:
+    """The body behind a plane face that is small and slanted, as chamfers are."""
+    own = next(k for k, each in enumerate(part.faces) if each is face)
+    slope = abs(float(face.axis @ out))
+    if not 0.2 < slope < 0.98:
+        return None
+    for k in face.edges:
+        if k == edge or not part.edges[k].is_along(width):
+            continue
+        away = part.edges[k].ends[0] - part.edges[edge].ends[0]
+        across = float(np.linalg.norm(away - away @ width * width))
+        body = part.beyond(own, k)
+        is_near = body is not None and body.kind == "plane" and across < 4 * thickness
+        if is_near and body is not None and abs(float(body.axis @ out)) > slope + 0.05:
+            return body
+    return None
 
 
 def _meets(
