@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,13 +20,17 @@ from . import brep
 from .assembly import Choices, Kind
 from .brep import Part, are_parallel, unit
 from .contacts import TOUCHING, contact
-from .names import is_ground_name
+from .names import begins_as_ground, is_ground_name
 from .necks import necks, odd_necks
 from .purchased import bounding_cylinder, is_purchased
 from .rods import wires
 from .selection import apart, sorted_out
 from .thin import GLUED, Scene, Thin
 from .walls import Region, regions, walls
+
+
+def _says_ground(name: str) -> bool:
+    return name.lower().startswith("ground")
 
 
 @dataclass(eq=False)
@@ -380,15 +384,7 @@ class Recognition:
             self.why_ground = "as was said"
             found = [self.group_of(choice) for choice in self.choices.ground]
             return list({id(group): group for group in found}.values())
-        named = [
-            group
-            for group in held
-            if any(
-                is_ground_name(self.parts[self.lumps[k].solid].name)
-                and self.is_whole(self.lumps[k].solid)
-                for k in group.lumps
-            )
-        ]
+        named = [group for group in held if self._begins(group, is_ground_name)]
         if not named:
             named = [
                 group
@@ -400,7 +396,14 @@ class Recognition:
                     for k in group.lumps
                 )
             ]
-        if named and (len(named) < len(held) or len(held) == 1):
+        # Of a base and an upper base the first is meant; clamps of the ground are so all of them.
+        named = [group for group in named if self._begins(group, begins_as_ground)] or named
+        if len(named) == len(held) > 1:
+            named = [group for group in named if self._begins(group, _says_ground)] or named
+            meant = all(self._begins(group, _says_ground) for group in named)
+        else:
+            meant = bool(named)
+        if meant:
             self.why_ground = "by its name" if len(named) == 1 else "by their names"
             return named
         self.why_ground = (
@@ -409,6 +412,11 @@ class Recognition:
             else "the largest of those that have such a name"
         )
         return [max(held, key=self.volume)]
+
+    def _begins(self, group: Group, says: Callable[[str], bool]) -> bool:
+        """Whether the name of a whole solid of a group says something."""
+        solids = (self.lumps[k].solid for k in group.lumps)
+        return any(says(self.parts[solid].name) and self.is_whole(solid) for solid in solids)
 
     def is_whole(self, solid: int) -> bool:
         """Whether a solid is not cut by flexures, so that its name is that of one body."""

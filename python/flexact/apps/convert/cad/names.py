@@ -44,6 +44,12 @@ def is_ground_name(name: str) -> bool:
     return bool(_GROUND.search(name))
 
 
+def begins_as_ground(name: str) -> bool:
+    """Whether a name begins so: "base plate", and not "upper base"."""
+    found = _GROUND.search(name)
+    return found is not None and not any(c.isalpha() for c in name[: found.start(1)])
+
+
 def says_nothing(name: str) -> bool:
     """Whether a name is one that CAD gives by itself."""
     return bool(_NAMELESS.match(name))

@@ -151,13 +151,13 @@ def _extent(face: TopoDS_Shape) -> float:
 def _walls_of(scene: Scene, region: Region, before: Sequence[Thin]) -> list[Thin]:
     """The walls in one region; those of thinner walls are passed over.
 
-    Where nothing holds a slender one, it may be glued: then a wider gap counts.
+    Where nothing holds a slender one at two ends, it may be glued: then a wider gap counts.
     """
     made = _free_walls(scene, region, before, min(0.02, 0.05 * region.thickness))
-    if made or region.extent < 15 * region.thickness:
+    if region.extent < 15 * region.thickness or any(thin.contour != "web" for thin in made):
         return made
-    made = _free_walls(scene, region, before, min(GLUED, 0.5 * region.thickness))
-    return made
+    glued = _free_walls(scene, region, before, min(GLUED, 0.5 * region.thickness))
+    return made if all(thin.contour == "web" for thin in glued) and made else glued
 
 
 def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float) -> list[Thin]:
