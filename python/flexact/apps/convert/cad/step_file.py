@@ -153,7 +153,7 @@ def _once(parts: list[Part], doubts: list[str]) -> list[Part]:
         key = (
             float(f"{volume:.6g}"),
             *np.round(centre, 3),
-            *np.round(np.diag(inertia) / volume, 2),
+            *np.round(inertia[np.triu_indices(3)] / volume, 2) + 0.0,
         )
         if key in kept:
             doubts.append(f"{part.name or 'a solid'} is there twice, and counts once")

@@ -167,6 +167,8 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
     step = max(0.05 * thickness, gap)
     box = brep.box_of(region.face, thickness / 2 + 2 * gap)
     others = scene.near(box, row)
+    through = [k for k in others if _runs_through(scene, region, k)]
+    others = [k for k in others if k not in through]
     levels = [side * (thickness / 2 + gap) * normal for side in (0.0, -1.0, 1.0)]
     clamps: list[TopoDS_Shape] = []
     for level in levels if others else ():
@@ -202,7 +204,21 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
                 found.append(_web(row, outline, thickness, "it is fastened all around"))
         elif len(chains) > 2:
             found.append(_web(row, outline, thickness, f"it is fastened at {len(chains)} places"))
+    for thin in found:
+        names = " and ".join(scene.parts[k].name or "another sheet" for k in through)
+        thin.doubts += [f"{names} runs through it, and is taken as apart"] * bool(through)
     return found
+
+
+def _runs_through(scene: Scene, region: Region, row: int) -> bool:
+    """Whether another sheet or wire crosses a wall somewhere between its ends."""
+    part = scene.parts[row]
+    area = sum(face.area for face in part.faces)
+    if part.volume > 2.0 * region.thickness * area or part.size < 15 * region.thickness:
+        return False
+    cut = _held(scene, region.face, region.planes[0].normal, [row])
+    left = without([region.face], cut) if cut else []
+    return sum(_extent(face) > LEAST_SLENDER * region.thickness for face in left) > 1
 
 
 def _packed(scene: Scene, region: Region, others: Sequence[int]) -> list[Thin]:
