@@ -625,9 +625,12 @@ def _beyond(
     if face.kind == "plane":
         body = _behind_chamfer(part, face, edge, width, thickness, out)
         return _meets(body or face, middle, out, far, thickness), 0.0
-    if face.kind == "cylinder" and not face.is_convex and are_parallel(face.axis, width, 1e-3):
+    normal = part.faces[row].axis
+    away = abs(float((face.at - part.edges[edge].ends[0]) @ normal))
+    # A fillet is tangent to the wall; the inside of a ring is none.
+    is_fillet = face.kind == "cylinder" and abs(away - face.radius) < 0.02 * face.radius
+    if is_fillet and not face.is_convex and are_parallel(face.axis, width, 1e-3):
         # The other edges of a fillet lead to the body.
-        normal = part.faces[row].axis
         own = next(k for k, each in enumerate(part.faces) if each is face)
         for k in face.edges:
             if k == edge or not part.edges[k].is_along(width):
