@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -225,3 +226,18 @@ def test_convert_reads_what_is_kept(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert "Over-constrained by 1" in told[0]
     assert "ground is base: as was said" in told[1]
     assert "motions of base are declared, which stands still" in told[1]
+
+
+def test_the_file_of_the_docs_says_what_it_means(tmp_path: Path) -> None:
+    page = Path(__file__).resolve().parents[2] / "docs" / "watching.md"
+    (text,) = re.findall(r"```toml\n(.*?)```", page.read_text("utf-8"), re.S)
+    step = tmp_path / "guide.step"
+    choices_beside(step).write_text(text)
+    assert read_choices(step) == Kept(
+        (
+            Said("frame/outer", "ground"),
+            Said("sheet 2", "body", (), (20.0, 40.0, 15.0), (40.0, 30.0, 0.5)),
+            Said("stage", "", ("x", "rz")),
+        ),
+        "titanium",
+    )

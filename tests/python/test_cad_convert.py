@@ -232,7 +232,8 @@ def test_ground_is_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert "ground is stage: as was said" in capsys.readouterr().out
     assert main(["convert", str(path), "-o", str(deck), "--ground", "table"]) == 1
     said = capsys.readouterr().err
-    assert "no solid is called 'table'; the names are base, cover, sheet 1, sheet 2, stage" in said
+    assert "no solid is called 'table'" in said
+    assert "The names are base, cover, sheet 1, sheet 2, stage" in said
 
 
 @pytest.mark.parametrize(
