@@ -63,6 +63,18 @@ def declared(text: str) -> tuple[str, tuple[str, ...]]:
     return body, coordinates
 
 
+def _material(text: str) -> str:
+    """The name of a known material.
+
+    Raises:
+        BatchError: it is none.
+    """
+    known = {name.lower(): name for name in MATERIALS}
+    if text.lower() not in known:
+        raise BatchError(f"no material is called {text!r}; known are {', '.join(MATERIALS)}")
+    return known[text.lower()]
+
+
 def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
     """How the file is to be taken.
 
@@ -73,7 +85,7 @@ def _options(chosen: argparse.Namespace, form: str) -> dict[str, Any]:
     choices = Choices(
         ground=tuple(chosen.ground),
         declared=tuple(chosen.declared),
-        material=chosen.material or "",
+        material=_material(chosen.material) if chosen.material else "",
     )
     for option, name, value, wanted in (
         ("--ground", "choices", choices if chosen.ground else None, CAD),
@@ -217,7 +229,6 @@ VERB = Verb(
         ),
         argument(
             "--material",
-            choices=tuple(MATERIALS),
             metavar="NAME",
             help="of what solids of a STEP file are made that says it not (default: steel)",
         ),

@@ -15,6 +15,7 @@ import numpy as np
 from OCP.TopoDS import TopoDS_Shape
 
 from ....core.arrays import FloatArray
+from ....model.names import nearest
 from ....util.errors import BatchError
 from . import brep
 from .assembly import Choices, Kind
@@ -431,9 +432,11 @@ class Recognition:
                     named = (name for part in solids for name in (part.name, part.title))
                     if wanted in map(spell, (*named, group.name)):
                         return group
-            names = sorted({part.name for part in self.parts if part.name})
+            parts = sorted(self.parts, key=lambda part: (part.is_purchased, part.name))
+            names = list(dict.fromkeys(part.name for part in parts if part.name))
+            close = [f"; is it {each}?" for each in nearest(choice, names)[:1]]
             raise BatchError(
-                f"no solid is called {choice!r}; the names are "
+                f"no solid is called {choice!r}{''.join(close) or '.'} The names are "
                 + (", ".join(names[:12]) + (", ..." if len(names) > 12 else "") or "none")
             )
         place = 1000.0 * np.asarray(choice, float)

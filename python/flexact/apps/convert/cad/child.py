@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import signal
 import sys
 from pathlib import Path
 
@@ -55,6 +56,8 @@ def answer(path: str, choices: Choices, drawing: bool) -> object:
 
 def main() -> None:
     """Answer the question that comes by stdin; what the library prints goes nowhere."""
+    # Ctrl-C is to end it at once, also within the library.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     out = os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)

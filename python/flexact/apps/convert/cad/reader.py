@@ -51,7 +51,8 @@ def recognised(
     require_step(path)
     if find_spec("OCP") is None:
         raise BatchError(
-            "STEP files need OpenCASCADE, the extra cad: pip install cadquery-ocp-novtk"
+            "STEP files need OpenCASCADE, the extra cad: pip install cadquery-ocp-novtk "
+            "(Python 3.11 or later)"
         )
     question = pickle.dumps((os.path.abspath(path), choices or Choices(), drawing, memory, seconds))
     try:

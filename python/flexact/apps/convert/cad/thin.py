@@ -87,8 +87,8 @@ class Thin:
 
     @property
     def bending(self) -> float:
-        """Stiffness against bending, without the modulus."""
-        return self.breadth * self.thickness**3 / self.length**3
+        """Stiffness against bending for each breadth, so that wires and sheets compare."""
+        return (self.thickness / self.length) ** 3
 
     def has(self, place: FloatArray, more: float = 0.0) -> bool:
         """Whether a place is within it."""

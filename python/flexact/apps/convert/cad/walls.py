@@ -207,10 +207,14 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
 
 def _packed(scene: Scene, region: Region, others: Sequence[int]) -> list[Thin]:
     """A wall that others cover all over, where one of them is as thin: a pack of sheets."""
-    for row in others:
+
+    def is_sheet(part: Part) -> bool:
+        """Whether all of a solid is about as thin as the wall."""
+        return 2 * part.volume < 1.5 * region.thickness * sum(face.area for face in part.faces)
+
+    for row in others if is_sheet(scene.parts[region.part]) else ():
         part = scene.parts[row]
-        area = sum(face.area for face in part.faces)
-        if 2 * part.volume < 1.5 * region.thickness * area and part.size > 0.6 * region.extent:
+        if is_sheet(part) and part.size > 0.6 * region.extent:
             words = f"{part.name or 'another sheet'} lies on it, as in a pack"
             outline = _Outline(brep.loops(region.face), region.planes[0].normal)
             return [_web(region.part, outline, region.thickness, words)]
