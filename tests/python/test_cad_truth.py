@@ -51,7 +51,7 @@ def test_flexures_are_where_they_are_said_to_be(name: str) -> None:
             normal = np.cross(q - p, each.across)
         elif isinstance(each, Wire):
             p, q = map(np.asarray, (each.p, each.q))
-            at, half = p + 0.45 * (q - p), min(each.sides) / 2
+            at, half = p + 0.1 * (q - p), min(each.sides) / 2
             normal = np.cross(q - p, (0.36, 0.48, 0.8))
         else:
             assert isinstance(each, Sheet)
