@@ -127,10 +127,10 @@ def test_a_file_is_wanted(deck: Path, capsys: pytest.CaptureFixture[str]) -> Non
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("x.nonsense", "'nonsense' is not known: it is one of vtu, .*pvd, which plays, and vtp"),
-        ("x.stl", "'stl' is not known: it is one of vtu, vtk, xdmf, "),
+        ("x.nonsense", "'nonsense' is not known: it is one of vtu, .*pvd, which plays, vtp, "),
+        ("x.ply", "'ply' is not known: it is one of vtu, vtk, xdmf, "),
         ("x.dat", "'dat' is not known"),
-        ("x", r"the suffix of .*x is to say what to write: \.vtu, \.pvd"),
+        ("x", r"the suffix of .*x is to say what to write: \.vtu, \.step"),
     ],
 )
 def test_suffixes_that_cannot_be_are_refused(

@@ -168,7 +168,7 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     text = f"{harmless(source.path)}: written to {name}, {size}"
     tell(text)
     if found is not None:
-        tell("\n" + found.verdict())
+        tell("\n" + found.verdict(name if format_of(named) is DECK and target != STDOUT else ""))
     return ExitCode.ANALYSED
 
 

@@ -15,6 +15,7 @@ from ....deck.diagnostics import Diagnostic, Severity
 from ....model.handles import Node
 from ....model.model import Model
 from ....model.names import one_line
+from ....model.reading import read_text
 from ....util.errors import BatchError
 from ....util.loading import load
 from ....util.text import harmless, wrapped
@@ -47,14 +48,17 @@ class CadMechanism:
         """What was recognised, and then what is in doubt, in words."""
         return described(self.assembly)
 
-    def verdict(self) -> str:
+    def verdict(self, deck: str = "") -> str:
         """The analysis of the model, in words.
+
+        Args:
+            deck: What its deck is called; as the model without one.
 
         Raises:
             AnalysisError: it could not be analysed.
         """
-        # The doubts are told already.
-        plain = Model.from_data(replace(self.model.data, besides=()))
+        # The doubts are told already, and steps are those of the deck.
+        plain = read_text(self.model.to_deck(), deck or self.model.name)
         words: str = load("flexact.api").analyse(plain).describe()
         count = len(self.assembly.doubts)
         if count:

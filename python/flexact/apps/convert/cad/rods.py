@@ -156,6 +156,7 @@ def _fillet_round(part: Part, end: FloatArray, axis: FloatArray, radius: float) 
         if face.kind == "torus" and not face.is_convex and are_parallel(face.axis, axis, 1e-3):
             away = face.at - end
             off = np.linalg.norm(away - away @ axis * axis)
-            if off < NEAR and abs(away @ axis) < 1.01 * face.radius + NEAR:
+            # That of a neck, which gets thinner, has its middle further on.
+            if off < NEAR and abs(away @ axis) < 0.2 * face.radius + NEAR:
                 return face.radius
     return 0.0
