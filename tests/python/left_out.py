@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Generator, Mapping
 from typing import TypeVar
 
@@ -33,7 +34,9 @@ def failed_in_ci(report: Report) -> Report:
     """The report; a failure where it skips, in CI, what is not installed."""
     if in_ci() and report.outcome == "skipped" and not hasattr(report, "wasxfail"):
         _, _, reason = report.longrepr  # type: ignore[misc]
-        if _NOT_INSTALLED.search(str(reason)):
+        # OpenCASCADE 8 has no wheel for Python 3.10.
+        is_for_it = sys.version_info >= (3, 11) or "'OCP" not in str(reason)
+        if _NOT_INSTALLED.search(str(reason)) and is_for_it:
             report.outcome = "failed"
             report.longrepr = f"Not to be left out in CI. {reason}"
     return report
