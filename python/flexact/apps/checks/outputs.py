@@ -227,6 +227,7 @@ _RULES: dict[str, tuple[str, str]] = {
     "no-decks": ("A folder holds no decks.", "Name a folder with decks, *.dat."),
     "no-such-file": ("There is no such file.", "Check its name and its folder."),
     "not-a-file": ("This is no regular file.", "Write the deck to a file first."),
+    "step-file": ("A STEP file stands where a deck is wanted.", "Make a deck: flexact convert."),
     "too-large": ("The deck is too large.", "Divide the mechanism, or use more memory."),
     "more-problems": ("There are more problems.", "Mend those that are shown first."),
     "not-analysed": ("The deck could not be analysed.", "The message says what to do."),
