@@ -62,7 +62,8 @@ def unknown_format(name: str) -> MeshFormatError:
     return MeshFormatError(
         f"mesh format {name.lower().removeprefix('.')!r} is not known: it is one of "
         f"{', '.join(FORMATS)}, for export also pvd, which plays, vtp, solids as step, glb, 3mf "
-        "or stl, and tables of flexures as csv or xlsx; meshio.write(..., analysis.to_meshio()) has others"
+        "or stl, and tables of flexures as csv or xlsx; "
+        "meshio.write(..., analysis.to_meshio()) has others"
     )
 
 
