@@ -240,11 +240,12 @@ def _add_notch(model: Model, flexure: Flexure, p: Node, q: Node, material: str) 
 
 
 def _no_flexures(assembly: Assembly) -> str:
-    thin = [f"{each.name}: {each.doubt}" for each in assembly.candidates if each.doubt][:4]
+    count = len(assembly.solids)
+    seen = "; ".join(assembly.doubts[:4])
     return (
-        f"no flexure was recognised in {len(assembly.solids)} solids: sheets lie "
-        "between parallel planes, wires are round or square bars, notches lie between two bores"
-        + (f"; taken as bodies were {'; '.join(thin)}" if thin else "")
+        f"no flexure was recognised in {count} solid{'s' * (count != 1)}: sheets lie between "
+        "parallel planes, wires are round or square bars, notches lie between two bores"
+        + (f". What was seen: {seen}" if seen else "")
     )
 
 
