@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import io
+import runpy
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import flexact
 from flexact.apps.convert.flexure_table import bytes_of_flexures, model_of_flexures
 from flexact.apps.convert.table_input import TablesError
 
+GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 #: Decks of which a table cannot hold all; what is lost is told.
 LOSING = {
     "flexures/cross_hinge_four_beams_undeclared": "releases inside divided flexures",
@@ -69,6 +71,17 @@ def test_a_deck_through_its_table_has_the_same_counts(name: str, suffix: str) ->
         assert (mine["kind"], mine["name"]) == (theirs["kind"], theirs["name"])
         for name in (name for name in mine if name[0] in "xyzl" and mine[name]):
             assert float(theirs[name]) == pytest.approx(float(mine[name]), rel=near, abs=0.0)
+
+
+@pytest.mark.parametrize("script", sorted(GALLERY.glob("*.py")), ids=lambda path: path.stem)
+def test_a_mechanism_of_the_gallery_through_its_table_is_the_same(script: Path) -> None:
+    """Struts on crossed notches among them, between which a piece is at no place of its own."""
+    model = runpy.run_path(str(script))["model"]
+    content, notes = bytes_of_flexures(model, ".csv")
+    assert not [note for note in notes if note.severity == "warning"]
+    mine, again = flexact.analyse(model), flexact.analyse(model_of_flexures(content, Path("t.csv")))
+    for name in ("under_constrained", "over_constrained", "degrees_of_freedom"):
+        assert getattr(again, name) == getattr(mine, name)
 
 
 def test_sizes_and_material_come_back() -> None:

@@ -201,25 +201,37 @@ class _Writing:
     def _place_of_hinge(self, position: int, *orientations: int) -> int:
         """The position node at which both sides of a hinge are.
 
-        A side that is at no place, as the ground often is, is where the other side is held.
+        A side that is at no place is between two hinges at one point, or the ground, which is
+        where the other side is held.
         """
         if position >= 0:
             return position
-        sides: list[set[int]] = []
-        for orientation in orientations:
-            body = self.parts.body_at.get(orientation)
-            found = set(self.parts.bodies[body].positions) if body is not None else set()
-            used = np.argwhere(self.slots[[1, 3]] == orientation)
-            sides.append((found | {int(self.slots[2 * side, i]) for side, i in used}) - {-1})
-        both = sides[0] & sides[1]
-        if not all(sides):
-            both = {node for node in sides[0] | sides[1] if self.parts.is_held(node)}
+        reached, front, alone = set(orientations), list(orientations), []
+        places: list[set[int]] = []
+        while front:
+            node = front.pop()
+            if where := self._places_of(node):
+                places.append(where)
+                continue
+            alone.append(node)
+            ends = self.slots[[1, 3]][:, (self.slots[[0, 2]] < 0).all(axis=0)]
+            beside = set(ends[:, (ends == node).any(axis=0)].ravel().tolist()) - reached
+            reached |= beside
+            front += beside
+        if len(places) == 1:
+            places.append({node for node in places[0] if self.parts.is_held(node)})
+        both = set.intersection(*places) if places else set()
         self._lose("hinges whose sides have no point in common", int(not both))
-        place = min(both or sides[0] | sides[1] or {0})
-        self.placed |= {
-            node: place for node, side in zip(orientations, sides, strict=True) if not side
-        }
+        place = min(both or set().union(*places) or {0})
+        self.placed |= dict.fromkeys(alone, place)
         return place
+
+    def _places_of(self, orientation: int) -> set[int]:
+        """Position nodes at which an orientation is, or the body that it turns with."""
+        body = self.parts.body_at.get(orientation)
+        found = set(self.parts.bodies[body].positions) if body is not None else set()
+        used = np.argwhere(self.slots[[1, 3]] == orientation)
+        return (found | {int(self.slots[2 * side, i]) for side, i in used}) - {-1}
 
     def _end(self, position: int, orientation: int) -> str:
         label = self._label(position, orientation)
