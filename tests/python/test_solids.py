@@ -429,6 +429,25 @@ def test_no_tool_of_cad_is_loaded() -> None:
     assert done.stdout.strip() == "[]"
 
 
+def test_analyse_loads_nothing_that_makes_solids() -> None:
+    """The command starts in 1.5 times `import numpy`, and most of its runs write no solids."""
+    deck = str(DECKS / "flexures" / "parallel_guide.dat")
+    code = (
+        f"import sys; from flexact.apps.cli.main import main; main(['analyse', {deck!r}, '-q']);"
+        "print([name for name in sys.modules if name.startswith('flexact.show.solids')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_table_of_flexures_is_saved_and_shows_no_motion(tmp_path: Path) -> None:
+    analysis = flexact.analyse(DECKS / "flexures" / "parallel_guide.dat")
+    analysis.save(tmp_path / "x.csv")
+    assert (tmp_path / "x.csv").read_text().startswith("kind,name,from,to,")
+    with pytest.raises(flexact.FlexactError, match="shows no freedom of its own choice"):
+        analysis.save(tmp_path / "y.csv", freedom=1)
+
+
 # What the command says ----------------------------------------------------------------------
 
 

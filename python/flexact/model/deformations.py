@@ -51,10 +51,25 @@ WORDS = (*_ROLES, *_IN_PLANES)
 #: Of a flexure, the bendings in its plane and out of it.
 Planes = tuple[tuple[Role, ...], tuple[Role, ...]]
 #: Of a sheet whose width is along local z, as the builder makes it.
-_WIDE_Z: Planes = (XZ, XY)
-_WIDE_Y: Planes = (XY, XZ)
+WIDE_Z: Planes = (XZ, XY)
+WIDE_Y: Planes = (XY, XZ)
 #: Of a sheet in a planar model, which sees it from its side.
 _SIDE_VIEW: Planes = ((), PLANAR)
+
+
+def word_of(role: Role, planes: Planes | None = None) -> str:
+    """The word that means a deformation, and of all these the fewest besides.
+
+    Args:
+        role: What it is to its element.
+        planes: Which bending of a sheet is in its plane, and which out of it.
+    """
+    for word, of_it in zip(_IN_PLANES, planes or (), strict=False):
+        if role in of_it:
+            return word
+    if role in PLANAR:
+        return "bending"
+    return min((word for word in _ROLES if role in _ROLES[word]), key=lambda w: len(_ROLES[w]))
 
 
 def is_word(given: str) -> bool:
@@ -145,13 +160,13 @@ def _planes_of(draft: Draft, made: Part | Element, indices: list[int]) -> Planes
     held_xz = (first[2] == Class.FIXED) + (last[3] == Class.FIXED)
     held_xy = (first[4] == Class.FIXED) + (last[5] == Class.FIXED)
     if held_xz != held_xy:
-        return _WIDE_Z if held_xz > held_xy else _WIDE_Y
+        return WIDE_Z if held_xz > held_xy else WIDE_Y
     shape = draft.said.get(indices[0], {}).get("shape")
     if shape is not None and shape.y != shape.z:
-        return _WIDE_Z if shape.z > shape.y else _WIDE_Y
+        return WIDE_Z if shape.z > shape.y else WIDE_Y
     # A round wire has no vector as a rule, a sheet of the builder has one.
     own = draft.vectors[indices[0]] != NO_VECTOR
-    return _WIDE_Z if own or isinstance(made, Sheet) else None
+    return WIDE_Z if own or isinstance(made, Sheet) else None
 
 
 def classes_of_division(

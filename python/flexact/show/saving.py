@@ -11,11 +11,11 @@ from ..analysis.result import Result
 from ..util.errors import BatchError
 from ..util.partial import attempted
 from .drawing.selection import require_there, select_motion
-from .mesh.collection import MESHES, POSED
+from .mesh.collection import MESHES
 from .page import page, with_way_back
 from .picture import check_packages, picture_bytes, still_of
 from .picture.files import fewer_colours
-from .writers import PAGES, PICTURES, Contents, Writers, as_bytes
+from .writers import FLEXURES, PAGES, PICTURES, STILL_SOLIDS, Contents, Writers, as_bytes
 
 #: Width and height of a small picture [px].
 _SMALL = (480, 360)
@@ -38,22 +38,16 @@ def _page(analysis: Result, path: Path) -> bytes:
     return page_bytes(analysis)
 
 
-@RESULTS.register(MESHES.suffixes, shows=("motion", "freedom"))
-def _mesh(analysis: Result, path: Path, **chosen: int) -> Contents:
-    if len(chosen) > 1:
-        raise BatchError(f"{path.name} shows a motion or a degree of freedom, not both")
-    is_still = path.suffix.lower() in POSED and not chosen
-    shown = None if is_still else select_motion(analysis, **chosen)
-    return MESHES.contents((analysis, None if shown is None else shown.motion), path)
-
-
+@RESULTS.register(FLEXURES)
 @RESULTS.register((".glb",), shows=("motion", "freedom", "stress"))
-def _playing(analysis: Result, path: Path, stress: int | None = None, **chosen: int) -> Contents:
+@RESULTS.register(MESHES.suffixes, shows=("motion", "freedom"))
+def _mesh(analysis: Result, path: Path, stress: int | None = None, **chosen: int) -> Contents:
     if len(chosen) > 1:
         raise BatchError(f"{path.name} shows a motion or a degree of freedom, not both")
     if stress is not None:
         require_there(stress, len(analysis.self_stresses), "self-stress", "self-stresses")
-    shown = select_motion(analysis, **chosen)
+    is_still = path.suffix.lower() in (*STILL_SOLIDS, *FLEXURES) and not chosen
+    shown = None if is_still else select_motion(analysis, **chosen)
     drawn = analysis, None if shown is None else shown.motion
     return MESHES.contents(drawn, path, **({} if stress is None else {"stress": stress}))
 

@@ -24,11 +24,13 @@ STILLS = (".png", ".svg", ".pdf")
 VIDEOS = (".mp4", ".webm")
 MOVING = (".gif", *VIDEOS)
 PICTURES = (*STILLS, *MOVING)
-#: Of pages, of tables, of solids, and of what plays in ParaView.
+#: Of pages, of tables, of flexures in tables, of solids that stand still and of all, and of what
+#: plays in ParaView.
 PAGES = (".html", ".htm")
 TABLES = (".csv", ".jsonl", ".parquet")
 FLEXURES = (".csv", ".xlsx")
-SOLIDS = (".step", ".stp", ".3mf", ".stl", ".glb")
+STILL_SOLIDS = (".step", ".stp", ".3mf", ".stl")
+SOLIDS = (*STILL_SOLIDS, ".glb")
 PLAYING = ".pvd"
 
 #: What a file holds, or each of several files that belong together.

@@ -13,10 +13,10 @@ from ...analysis.naming import motion_in_words
 from ...analysis.result import Result
 from ...show.drawing.selection import require_there, select_motion
 from ...show.mesh import Meshes
-from ...show.mesh.collection import ENDINGS, MESHES, POSED
+from ...show.mesh.collection import ENDINGS, MESHES
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.spacar_log import log_text, spacar_log
-from ...show.writers import FLEXURES, SOLIDS, write
+from ...show.writers import FLEXURES, STILL_SOLIDS, write
 from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
@@ -34,7 +34,8 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
     deck = one_deck(chosen)
     target: Path = chosen.output
     with unwinding():
-        MESHES.require(target)
+        _, shows, _ = MESHES.require(target)
+    takes_notes = "notes" in shows
     plan_shown(deck, target, ENDINGS)
 
     def step(deck: DeckFile) -> Outcome:
@@ -45,13 +46,13 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
             wanted, suffix = (chosen.motion, chosen.freedom), target.suffix.lower()
             if suffix in FLEXURES and wanted != (None, None):
                 raise BatchError(f"a table of flexures shows no motion; {target.name} is one")
-            if wanted == (None, None) and suffix in (*POSED, *FLEXURES):
+            if wanted == (None, None) and suffix in (*STILL_SOLIDS, *FLEXURES):
                 shown = None
             elif wanted == (None, None):
                 shown = attempted("Its motion", lambda: select_motion(analysis), None, missing)
             else:
                 shown = select_motion(analysis, *wanted)
-            told: dict[str, Any] = {"notes": missing} if suffix in (*SOLIDS, *FLEXURES) else {}
+            told: dict[str, Any] = {"notes": missing} if takes_notes else {}
             if chosen.stress is not None:
                 require_there(
                     chosen.stress, len(analysis.self_stresses), "self-stress", "self-stresses"
@@ -63,7 +64,7 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
         name = harmless(deck.name)
         for note in missing:
             complain(f"{name}: note: {harmless(note)}")
-        if shown is None and not missing and suffix not in (*SOLIDS, *FLEXURES):
+        if shown is None and not missing and not takes_notes:
             complain(f"{name}: note: the mechanism does not move; displacements are zero")
         what = ""
         if shown is not None:

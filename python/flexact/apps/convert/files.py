@@ -418,5 +418,5 @@ def bytes_of(model: Model, path: Path) -> tuple[bytes, tuple[Diagnostic, ...]]:
     mesh, noted = mesh_of(model)
     content, lost = mesh_bytes(mesh, path.suffix.lower())
     for name in lost:
-        noted.lost[f"{name}, which a {path.suffix} does not keep"] += 1
+        noted.lose(f"{name}, which a {path.suffix} does not keep")
     return content, noted.diagnostics()

@@ -26,7 +26,7 @@ from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Place, Source
 from ...deck.rendering import ModelError
 from ...model.data import CrossSection, ModelData
-from ...model.deformations import AT_P, AT_Q, LOCAL_AXIS
+from ...model.deformations import AT_P, AT_Q, WIDE_Y, WIDE_Z, Planes, word_of
 from ...model.draft import Shape
 from ...model.handles import Element, Node, Part
 from ...model.model import Model
@@ -73,27 +73,14 @@ Row = dict[str, Any]
 
 
 def _words_of(
-    kind: ElementKind, classes: Sequence[int], value: Class, planes: tuple[int, int] | None
+    kind: ElementKind, classes: Sequence[int], value: Class, planes: Planes | None
 ) -> list[str]:
-    """The deformations of a class in words; `planes` are the local axes across a sheet."""
+    """The deformations of a class in words; `planes` are those of a sheet."""
     made: dict[str, list[str]] = {}
     for role, found in zip(kind.role, classes, strict=True):
-        if not role or found != value:
-            continue
-        word = {
-            Role.ELONGATION: "elongation",
-            Role.TORSION: "twist",
-            Role.ROTATION: "rotation",
-            Role.ANGLE: "rotation",
-            Role.TILT_Y: "tilt",
-            Role.TILT_Z: "tilt",
-        }.get(Role(role), "bending")
-        if role in LOCAL_AXIS and word == "bending":
-            word = f"bending about {'xyz'[LOCAL_AXIS[role]]}"
-            if planes is not None:
-                word = ("in-plane", "out-of-plane")[LOCAL_AXIS[role] == planes[0]] + " bending"
-        end = "from" if role in AT_P else "to" if role in AT_Q else ""
-        made.setdefault(word, []).append(end)
+        if role and found == value:
+            end = "from" if role in AT_P else "to" if role in AT_Q else ""
+            made.setdefault(word_of(Role(role), planes), []).append(end)
     return [
         word if len(ends) != 1 or not ends[0] else f"{word} at {ends[0]}"
         for word, ends in made.items()
@@ -122,10 +109,6 @@ class _Writing:
         self.hinged: set[tuple[int, frozenset[str]]] = set()
         #: Where orientations stand that are only at a hinge.
         self.placed: dict[int, int] = {}
-
-    def _lose(self, what: str, times: int) -> None:
-        if times:
-            self.remarks.lost[what] += times
 
     def rows(self) -> list[Row]:
         """Flexures in the order of the model, then joints and points."""
@@ -156,6 +139,7 @@ class _Writing:
         kind = element_kinds()[data.arrays.element_kind[first] - 1]
         p, op, q, oq = self.slots[:, first].tolist()
         classes: Sequence[int] = data.arrays.deformation_class[:, first].tolist()
+        planes: Planes | None = None
         if part.kind is PartKind.HINGE:
             place = self._place_of_hinge(p, op, oq)
             row = self._row(
@@ -164,15 +148,16 @@ class _Writing:
             self.hinged.add((place, frozenset((row["from"], row["to"]))))
             direction = data.arrays.element_vector[:, first]
             offsets = [k for k, role in enumerate(kind.role) if role in _OFFSETS]
-            self._lose("displacements of bearings", int(any(classes[k] != 1 for k in offsets)))
+            self.remarks.lose(
+                "displacements of bearings", int(any(classes[k] != 1 for k in offsets))
+            )
             classes = [Class.NONE if k in offsets else value for k, value in enumerate(classes)]
-            planes = None
         else:
             chain = next((each for each in data.chains if each.elements == part.elements), None)
             if chain is not None:
                 p, op, q, oq = chain.ends
                 inner = chain.condensed_classes
-                self._lose("releases inside divided flexures", int(inner is None))
+                self.remarks.lose("releases inside divided flexures", int(inner is None))
                 classes = inner or chain.classes[0]
             ends = self._end(p, op), self._end(q, oq)
             row = self._row(part.kind.value, part.name, (p, q), *ends)
@@ -183,7 +168,8 @@ class _Writing:
             direction = data.frames.frame[first][:, wide or 1]
             if len(part.elements) > 1:
                 row["beams"] = len(part.elements)
-            planes = (wide, 3 - wide) if part.kind is PartKind.SHEET and not data.planar else None
+            if part.kind is PartKind.SHEET and not data.planar:
+                planes = WIDE_Z if wide == 2 else WIDE_Y
             self._sizes(row, part, kind, wide)
         if not data.planar and kind.member in (Member.BEAM, Member.HINGE):
             row |= {name: float(v) + 0.0 for name, v in zip(_DIRECTION, direction, strict=True)}
@@ -221,7 +207,7 @@ class _Writing:
         if len(places) == 1:
             places.append({node for node in places[0] if self.parts.is_held(node)})
         both = set.intersection(*places) if places else set()
-        self._lose("hinges whose sides have no point in common", int(not both))
+        self.remarks.lose("hinges whose sides have no point in common", int(not both))
         place = min(both or set().union(*places) or {0})
         self.placed |= dict.fromkeys(alone, place)
         return place
@@ -318,7 +304,7 @@ class _Writing:
                     said[value].append(coordinate_name(kind, axis))
             position = self.placed.get(node, self.parts.place_of(node))
             if not any(said.values()) or position is None:
-                self._lose("what is fixed or driven at no place", int(any(said.values())))
+                self.remarks.lose("what is fixed or driven at no place", int(any(said.values())))
                 continue
             label = self._label(position, -1 if kind <= NodeKind.POSITION else node)
             if label.startswith(_HELD):
@@ -364,17 +350,15 @@ def bytes_of_flexures(model: Model, suffix: str) -> tuple[bytes, tuple[Diagnosti
         BatchError: a package is missing.
     """
     model.check()
-    content, remarks = _table_of(model.data, suffix)
-    return content, remarks.diagnostics()
+    return table_of_flexures(model.data, suffix)
 
 
-def table_of_flexures(data: ModelData, suffix: str) -> tuple[bytes, list[str]]:
-    """The same of the data of a sound model, with what it does not hold in words."""
-    content, remarks = _table_of(data, suffix)
-    return content, [each.message for each in remarks.diagnostics()]
+def table_of_flexures(data: ModelData, suffix: str) -> tuple[bytes, tuple[Diagnostic, ...]]:
+    """The same of the data of a sound model.
 
-
-def _table_of(data: ModelData, suffix: str) -> tuple[bytes, Remarks]:
+    Raises:
+        BatchError: a package is missing.
+    """
     writing = _Writing(data)
     rows, units = writing.rows(), data.units
     shown = [name for name in _COLUMNS if any(row.get(name, "") != "" for row in rows)]
@@ -385,7 +369,7 @@ def _table_of(data: ModelData, suffix: str) -> tuple[bytes, Remarks]:
     if suffix == CSV:
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows(lines)
-        return text.getvalue().encode("utf-8", "backslashreplace"), writing.remarks
+        return text.getvalue().encode("utf-8", "backslashreplace"), writing.remarks.diagnostics()
     book = _openpyxl().Workbook()
     sheet = book.active
     sheet.title = "flexures"
@@ -401,7 +385,7 @@ def _table_of(data: ModelData, suffix: str) -> tuple[bytes, Remarks]:
                 cells[0].number_format = "0.######"
     made = io.BytesIO()
     book.save(made)
-    return made.getvalue(), writing.remarks
+    return made.getvalue(), writing.remarks.diagnostics()
 
 
 def _openpyxl() -> ModuleType:

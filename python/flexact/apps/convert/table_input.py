@@ -323,6 +323,11 @@ class Remarks:
     own: Counter[str] = field(default_factory=Counter)
     renamed: Counter[str] = field(default_factory=Counter)
 
+    def lose(self, what: str, times: int = 1) -> None:
+        """Note something that the other format does not hold, and the verdict depends on."""
+        if times:
+            self.lost[what] += times
+
     def leave_out(self, what: str, times: int = 1) -> None:
         """Note something that the other format does not hold."""
         if times:

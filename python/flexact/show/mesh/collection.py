@@ -11,11 +11,10 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ...analysis.result import Result
-from ...util.loading import feature
+from ...util.loading import feature, load
 from ...util.outputs import OutputError
 from ..drawing import Moving, move
-from ..solids.files import STILL, solid_bytes
-from ..writers import FLEXURES, PLAYING, Writers
+from ..writers import FLEXURES, PLAYING, STILL_SOLIDS, Writers
 from .content import Mesh, Meshes, mesh_of
 from .file import (
     FORMATS,
@@ -136,14 +135,12 @@ def _playing(drawn: tuple[Result, Moving | None], path: Path) -> Collection:
     return cycle(*drawn, path)
 
 
-#: What shows a position of a motion, and that only where the motion is asked for.
-POSED = tuple(STILL)
-
-
-@MESHES.register(POSED, shows=("notes",))
+@MESHES.register(STILL_SOLIDS, shows=("notes",))
 @MESHES.register((".glb",), shows=("notes", "stress"))
 def _solids(drawn: tuple[Result, Moving | None], path: Path, **chosen: Any) -> bytes:
-    return solid_bytes(*drawn, path.suffix.lower(), **chosen)
+    # Whoever writes meshes, as analyse does, has no need of what makes solids.
+    files: Any = load("flexact.show.solids.files")
+    return bytes(files.solid_bytes(*drawn, path.suffix.lower(), **chosen))
 
 
 @MESHES.register(FLEXURES, shows=("notes",))
@@ -152,5 +149,5 @@ def _flexures(
 ) -> bytes:
     content, told = feature("flexures")(drawn[0].given, path.suffix.lower())
     if notes is not None:
-        notes += told
+        notes += [each.message for each in told]
     return bytes(content)
