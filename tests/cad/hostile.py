@@ -69,6 +69,10 @@ def good_text() -> str:
 # No STEP
 
 
+#: How the unit of length stands in the files that are changed.
+_MILLIMETRE = r"\( LENGTH_UNIT\(\) NAMED_UNIT\(\*\) SI_UNIT\(\.MILLI\.,\.METRE\.\) \)"
+
+
 @hostile("nothing")
 def nothing(path: Path, size: int) -> None:
     path.write_bytes(b"")
@@ -255,7 +259,7 @@ def grams(path: Path, size: int) -> None:
     _replaced(
         path,
         (
-            r"\( LENGTH_UNIT\(\) NAMED_UNIT\(\*\) SI_UNIT\(\.MILLI\.,\.METRE\.\) \)",
+            _MILLIMETRE,
             "( MASS_UNIT() NAMED_UNIT(*) SI_UNIT(.KILO.,.GRAM.) )",
         ),
     )
@@ -278,7 +282,7 @@ def no_inch(path: Path, size: int) -> None:
     _replaced(
         path,
         (
-            r"\( LENGTH_UNIT\(\) NAMED_UNIT\(\*\) SI_UNIT\(\.MILLI\.,\.METRE\.\) \)",
+            _MILLIMETRE,
             "( CONVERSION_BASED_UNIT('INCH',#900001) LENGTH_UNIT() NAMED_UNIT(#900002) )",
         ),
         (

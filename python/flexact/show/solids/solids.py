@@ -327,7 +327,7 @@ class _Making:
     def _cut_short(self, ends: dict[Hashable, list[End]]) -> None:
         """Cut flexures short that would run through each other where one thing holds them."""
         told = []
-        for owner, mine in ends.items():
+        for mine in ends.values():
             if len(mine) < 2:
                 continue
             places = np.array([end.place for end in mine])
@@ -350,7 +350,6 @@ class _Making:
                 elif len(cluster) > 1:
                     names = listed([self.flexures[end.flexure].name for end in cluster])
                     self.notes.append(f"{names} overlap where they end: there is no room.")
-            del owner
         if told:
             self.notes.append(
                 f"{listed(list(dict.fromkeys(told)))}: they meet at one point; cut short, so that "
@@ -559,11 +558,8 @@ class _Making:
                     ends, owner, margin, thick * scale if not wish else thick, self.world
                 )
                 size = self.thick * scale
-                lumps += [
-                    Lump(box(point, np.eye(3), (size, size, size)), ())
-                    for point in carried
-                    if self.world.hits(box(point, np.eye(3), (size, size, size)), ()) is None
-                ]
+                cubes = (box(point, np.eye(3), (size, size, size)) for point in carried)
+                lumps += [Lump(cube, ()) for cube in cubes if self.world.hits(cube, ()) is None]
                 if not lumps:
                     continue
                 if (disc := self._disc(lumps, owner, thick, wish)) is not None:

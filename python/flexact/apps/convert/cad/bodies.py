@@ -12,26 +12,24 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from OCP.TopAbs import TopAbs_SOLID
 from OCP.TopoDS import TopoDS_Shape
 
 from ....core.arrays import FloatArray
 from ....model.names import nearest
 from ....util.errors import BatchError
+from ....util.rotations import unit
 from . import brep
 from .assembly import Choices, Kind
-from .brep import Part, are_parallel, unit
+from .brep import Part, are_parallel
 from .contacts import TOUCHING, contact
-from .names import begins_as_ground, is_ground_name
+from .names import begins_as_ground, is_ground_name, says_ground
 from .necks import necks, odd_necks
 from .purchased import bounding_cylinder, is_purchased
 from .rods import wires
 from .selection import apart, sorted_out
 from .thin import GLUED, Scene, Thin
 from .walls import Region, regions, walls
-
-
-def _says_ground(name: str) -> bool:
-    return name.lower().startswith("ground")
 
 
 @dataclass(eq=False)
@@ -141,7 +139,7 @@ class Recognition:
                 continue
             while True:
                 cuts = [cut for thin in inside for cut in _cuts(thin)]
-                pieces = brep.split(part.shape, cuts) if cuts else [part.shape]
+                pieces = brep.split(part.shape, cuts, TopAbs_SOLID) if cuts else [part.shape]
                 lumps = [Lump(Part(shape), row) for shape in pieces]
                 failed = [thin for thin in inside if not self._claim(thin, lumps)]
                 if not failed:
@@ -399,14 +397,12 @@ class Recognition:
             ]
         # Of a base and an upper base the first is meant; clamps of the ground are so all of them.
         named = [group for group in named if self._begins(group, begins_as_ground)] or named
+        meant = named
         if len(named) == len(held) > 1:
-            named = [group for group in named if self._begins(group, _says_ground)] or named
-            meant = all(self._begins(group, _says_ground) for group in named)
-        else:
-            meant = bool(named)
+            meant = [group for group in named if self._begins(group, says_ground)]
         if meant:
-            self.why_ground = "by its name" if len(named) == 1 else "by their names"
-            return named
+            self.why_ground = "by its name" if len(meant) == 1 else "by their names"
+            return meant
         self.why_ground = (
             "the largest body; flexact convert --ground NAME says another"
             if not named

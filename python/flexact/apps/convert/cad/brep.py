@@ -53,7 +53,6 @@ from OCP.TopAbs import (
     TopAbs_ON,
     TopAbs_REVERSED,
     TopAbs_ShapeEnum,
-    TopAbs_SOLID,
     TopAbs_VERTEX,
 )
 from OCP.TopExp import TopExp, TopExp_Explorer
@@ -62,6 +61,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Shape
 
 from ....core.arrays import FloatArray, IntArray
 from ....util.records import cached_property
+from ....util.rotations import unit
 
 #: Within this two places are one [mm].
 NEAR = 1e-4
@@ -77,12 +77,6 @@ def xyz(p: gp_Pnt | gp_Dir | gp_Vec) -> FloatArray:
 def point(p: FloatArray) -> gp_Pnt:
     """A point of OpenCASCADE."""
     return gp_Pnt(float(p[0]), float(p[1]), float(p[2]))
-
-
-def unit(v: FloatArray) -> FloatArray:
-    """A vector of length 1."""
-    made: FloatArray = np.asarray(v / np.linalg.norm(v))
-    return made
 
 
 def across(v: FloatArray) -> FloatArray:
@@ -463,26 +457,17 @@ def cylinder(start: FloatArray, axis: FloatArray, radius: float, length: float) 
     return BRepPrimAPI_MakeCylinder(place, radius, length).Shape()
 
 
-def split(shape: TopoDS_Shape, cuts: Sequence[TopoDS_Shape]) -> list[TopoDS_Shape]:
-    """The solids into which a solid falls where faces cut it."""
+def split(
+    shape: TopoDS_Shape, cuts: Sequence[TopoDS_Shape], kind: TopAbs_ShapeEnum
+) -> list[TopoDS_Shape]:
+    """The solids, or plane faces, of a kind into which a shape falls where faces cut it."""
     splitter = BRepAlgoAPI_Splitter()
     splitter.SetArguments(listed([shape]))
     splitter.SetTools(listed(cuts))
     splitter.Build()
     if not splitter.IsDone():
         return [shape]
-    return list(each(splitter.Shape(), TopAbs_SOLID)) or [shape]
-
-
-def split_face(shape: TopoDS_Shape, cuts: Sequence[TopoDS_Shape]) -> list[TopoDS_Shape]:
-    """The faces into which a plane face falls where others cross it."""
-    splitter = BRepAlgoAPI_Splitter()
-    splitter.SetArguments(listed([shape]))
-    splitter.SetTools(listed(cuts))
-    splitter.Build()
-    if not splitter.IsDone():
-        return [shape]
-    return list(each(splitter.Shape(), TopAbs_FACE)) or [shape]
+    return list(each(splitter.Shape(), kind)) or [shape]
 
 
 def corner(shape: TopoDS_Shape) -> FloatArray:

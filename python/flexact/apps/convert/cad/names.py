@@ -44,6 +44,11 @@ def is_ground_name(name: str) -> bool:
     return bool(_GROUND.search(name))
 
 
+def says_ground(name: str) -> bool:
+    """Whether a name is that of the ground itself, which nothing that moves is called."""
+    return name.lower().startswith("ground")
+
+
 def begins_as_ground(name: str) -> bool:
     """Whether a name begins so: "base plate", and not "upper base"."""
     found = _GROUND.search(name)

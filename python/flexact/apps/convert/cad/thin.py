@@ -12,9 +12,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ....core.arrays import FloatArray
+from ....util.rotations import unit
 from . import brep
 from .assembly import Kind
-from .brep import NEAR, Face, Part, are_parallel, unit
+from .brep import NEAR, Face, Part, are_parallel
 
 #: A wall is at least so many thicknesses long.
 LEAST_SLENDER = 4.0

@@ -10,15 +10,17 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from OCP.TopAbs import TopAbs_FACE
 from OCP.TopoDS import TopoDS_Shape
 
 from ....core.arrays import FloatArray
+from ....util.rotations import unit
 from . import brep
 from .assembly import Kind
-from .brep import NEAR, Face, Part, are_parallel, unit, without
+from .brep import NEAR, Face, Part, are_parallel, without
 from .thin import GLUED, LEAST_SLENDER, NOTCH, SHEET, Scene, Thin
 
 #: Share of a clamp that may be holes, which screws fill.
@@ -204,9 +206,10 @@ def _free_walls(scene: Scene, region: Region, before: Sequence[Thin], gap: float
                 found.append(_web(row, outline, thickness, "it is fastened all around"))
         elif len(chains) > 2:
             found.append(_web(row, outline, thickness, f"it is fastened at {len(chains)} places"))
-    for thin in found:
+    if through:
         names = " and ".join(scene.parts[k].name or "another sheet" for k in through)
-        thin.doubts += [f"{names} runs through it, and is taken as apart"] * bool(through)
+        for thin in found:
+            thin.doubts.append(f"{names} runs through it, and is taken as apart")
     return found
 
 
@@ -280,7 +283,7 @@ def _held(
                     continue
             cuts.append(each.shape)
     made = []
-    for piece in brep.split_face(face, cuts) if cuts else [face]:
+    for piece in brep.split(face, cuts, TopAbs_FACE) if cuts else [face]:
         inner = _Outline(brep.loops(piece), normal).samples(3)[0]
         if scene.where(inner, others) is not None:
             made.append(piece)
@@ -550,30 +553,9 @@ def _wall(
         # Of ends that are not opposite by rounding the line between both is the axis.
         width = unit(width - width @ (q - p) * (q - p) / ((q - p) @ (q - p)))
     nominal = float(np.linalg.norm(q - p))
-    if min(radii) >= 0.4 * thickness and nominal < NOTCH * thickness and breadth > thickness:
-        half = (m1 - m0) / 2
-        return Thin(
-            part=row,
-            kind=Kind.NOTCH,
-            p=p,
-            q=q,
-            cuts=(m0 + half,),
-            width=width,
-            normal=normal,
-            breadth=breadth,
-            thickness=thickness,
-            span=span,
-            outline=ring,
-            radius=min(radii),
-            contour="fillet",
-            doubts=doubts,
-        )
-    if nominal < LEAST_SLENDER * thickness:
-        return None
-    kind = Kind.SHEET if breadth >= SHEET * thickness else Kind.WIRE
-    return Thin(
+    made = Thin(
         part=row,
-        kind=kind,
+        kind=Kind.SHEET if breadth >= SHEET * thickness else Kind.WIRE,
         p=p,
         q=q,
         cuts=cuts,
@@ -584,10 +566,13 @@ def _wall(
         span=span,
         outline=ring,
         radius=min(radii),
-        contour="",
         doubts=doubts,
         is_open=(is_open[0], is_open[1]),
     )
+    if min(radii) >= 0.4 * thickness and nominal < NOTCH * thickness and breadth > thickness:
+        middle = (m0 + (m1 - m0) / 2,)
+        return replace(made, kind=Kind.NOTCH, cuts=middle, contour="fillet", is_open=(False, False))
+    return None if nominal < LEAST_SLENDER * thickness else made
 
 
 def _to_the_body(
