@@ -604,7 +604,8 @@ def in_plane(
     area: float, second: float, lengths: FloatArray, shear: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Stiffness of a sheet in its plane about its middle, in parts of the modulus: along it,
-    across, and of turning (Timoshenko, with a shear factor of 5/6)."""
+    across, and of turning (Timoshenko, with a shear factor of 5/6).
+    """
     lag = 12.0 * second * shear / (5.0 / 6.0 * area * lengths**2)
     return area / lengths, 12.0 * second / (lengths**3 * (1.0 + lag)), second / lengths
 

@@ -9,7 +9,6 @@ images.
 from __future__ import annotations
 
 import itertools
-import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
@@ -19,7 +18,7 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray
 from .candidates import Candidates, Place, folded, sheets, waisted, wires
 from .choice import Blocks, Chosen, Clearances, blocks_of, chosen_sets, clear_of
-from .symmetry import Group, groups, orbits
+from .symmetry import Group, orbits
 
 #: How much flexures of each kind hold.
 HOLDS = {"wire": 1, "folded sheet": 1, "waisted sheet": 2, "sheet": 3}
@@ -43,6 +42,32 @@ class Found(NamedTuple):
     recipe: tuple[str, ...]
     group: Group | None
     chosen: Chosen
+
+
+class Part(NamedTuple):
+    """A set of flexures between two bodies of a layout, in the frame of the problem.
+
+    Attributes:
+        between: The bodies at the two ends of each flexure: "stage", "ground", or a body between.
+        found: The set.
+    """
+
+    between: tuple[str, str]
+    found: Found
+
+
+class Arrangement(NamedTuple):
+    """All flexures of a layout, in the frame of the problem.
+
+    Attributes:
+        kind: What differs between kinds of layouts, such as "a sheet and two wires".
+        parts: Of one layer one; of layers and limbs several.
+        bodies: Names of bodies between, and further points of each, (n, 3).
+    """
+
+    kind: str
+    parts: tuple[Part, ...]
+    bodies: tuple[tuple[str, FloatArray], ...] = ()
 
 
 class Stock:
@@ -106,8 +131,7 @@ def thinned(candidates: Candidates, most: int) -> Candidates:
 
 
 def recipes(count: int, kinds: Sequence[str], over: int = 0) -> list[tuple[str, ...]]:
-    """How many flexures of which kinds hold a space of `count` dimensions, those that hold most
-    first.
+    """Recipes for a space of wrenches: how many flexures of which kinds hold it.
 
     One kind that holds a single force fills up what sheets leave; exact ones come first. Two whole
     sheets are never exact together (theorem 2).
