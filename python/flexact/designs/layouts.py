@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,9 @@ from ..core.arrays import FloatArray
 from ..model.model import Model
 from ..util.records import Frozen
 from ..util.text import number_in_words
+from .frame import Scaled
 from .problem import KINDS, Problem
+from .search import Arrangement
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,6 +188,44 @@ def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
                 flexure.via[0] - flexure.ends[1]
             )
             model.release(sheet, "in-plane bending", at="p" if at_p else "q")
+
+
+def flexures_of(
+    problem: Problem, frame: Scaled, arrangement: Arrangement
+) -> tuple[tuple[Flexure, ...], tuple[tuple[str, FloatArray], ...]]:
+    """Flexures and bodies of an arrangement, with true lengths, places as one would type them."""
+    size, limits = problem.size, problem.limits
+    thickness, diameter = (
+        math.sqrt(low * high) for low, high in (limits.thickness, limits.diameter)
+    )
+    found: list[tuple[tuple[object, ...], Flexure]] = []
+
+    def placed(places: FloatArray) -> FloatArray:
+        return snapped(frame.back(places), size)
+
+    for part in arrangement.parts:
+        for candidates, k in part.found.chosen.members:
+            kind = candidates.kind
+            is_wire = kind == "wire"
+            flexure = Flexure(
+                *(kind, kind, part.between, placed(candidates.ends[k])),
+                0.0 if not is_wire else snapped(np.array(diameter), size).item(),
+                snapped(candidates.width[k] * size, size).item(),
+                0.0 if is_wire else snapped(np.array(thickness), size).item(),
+                snapped(frame.turned_back(candidates.normal[k]), 1.0),
+                placed(candidates.via[k]),
+                snapped(frame.turned_back(candidates.axes[k]), 1.0),
+            )
+            # Within a part those that hold most come first, then by their places in the frame.
+            place = np.round(candidates.ends[k].ravel(), 6) + 0.0
+            found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
+    order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
+    found.sort(key=lambda each: (order.index(each[1].between), each[0]))
+    names = named(flexure.kind for _, flexure in found)
+    flexures = tuple(
+        replace(flexure, name=name) for name, (_, flexure) in zip(names, found, strict=True)
+    )
+    return flexures, tuple((name, placed(points)) for name, points in arrangement.bodies)
 
 
 class Verified(NamedTuple):
