@@ -18,7 +18,7 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray
 from .candidates import Candidates, Place, folded, sheets, waisted, wires
 from .choice import Blocks, Chosen, Clearances, blocks_of, chosen_sets, clear_of
-from .symmetry import Group, orbits
+from .images import Group, orbits
 
 #: How much flexures of each kind hold.
 HOLDS = {"wire": 1, "folded sheet": 1, "waisted sheet": 2, "sheet": 3}
