@@ -97,7 +97,7 @@ class Possible(Frozen):
     @cached_property
     def forces(self) -> ScrewSpace:
         """What the forces of W along lines span: all that wires can hold."""
-        return self.constraint.of_scaled(_orthonormal(self.constraint.span_of_lines))
+        return self.constraint.of_scaled(orthonormal(self.constraint.span_of_lines))
 
     @cached_property
     def alone(self) -> ScrewSpace:
@@ -114,7 +114,7 @@ class Possible(Frozen):
         """What wires alone leave besides, of that the part at right angles to the freedom."""
         rows = self.alone.scaled
         rest = rows - (rows @ self.freedom.scaled.T) @ self.freedom.scaled
-        return self.freedom.of_scaled(_orthonormal(rest))
+        return self.freedom.of_scaled(orthonormal(rest))
 
     @property
     def parallel(self) -> bool:
@@ -191,7 +191,7 @@ class Possible(Frozen):
         wrench with pitch a limb with two skew wires.
         """
         both = np.concatenate((self.forces.scaled, self.constraint.directions))
-        spanned, lines = len(_orthonormal(both)), self.forces.dimension
+        spanned, lines = len(orthonormal(both)), self.forces.dimension
         return lines, spanned - lines, self.needed - spanned
 
     @property
@@ -218,7 +218,7 @@ def possible(freedom: ScrewSpace) -> Possible:
     by how much. One that is off by less than `DOUBTFUL` is taken as it is given, and
     `Possible.nearly` is the special one.
     """
-    rows = _orthonormal(freedom.scaled)
+    rows = orthonormal(freedom.scaled)
     given = ScrewSpace(rows / freedom.factors, freedom.about, freedom.length, tolerance=EXACT)
     near = _special(given, NEAR)
     if near is not None:
@@ -242,7 +242,7 @@ def _special(given: ScrewSpace, limit: float) -> ScrewSpace | None:
         values, vectors = np.linalg.eigh(_form(rows))
         screws = vectors.T @ rows
         small = np.where(np.abs(values) < limit, values, 0.0)[:, None]
-        rows = _orthonormal(screws - small * np.roll(screws, 3, axis=1))
+        rows = orthonormal(screws - small * np.roll(screws, 3, axis=1))
     made = given.of_scaled(rows)
     is_other = _kind(made) != _kind(given)
     return made if is_other and given.sine_to(made) < 10.0 * limit else None
@@ -261,7 +261,12 @@ def _is_between(rows: FloatArray, limit: float) -> bool:
     return bool(np.any((sizes > _ROUNDING) & (sizes < limit)))
 
 
-def _orthonormal(rows: FloatArray) -> FloatArray:
+def q_of(one: FloatArray, other: FloatArray) -> float:
+    """The bilinear form of q: half the work of a screw on another, (6,) each."""
+    return float(one[:3] @ other[3:] + one[3:] @ other[:3]) / 2.0
+
+
+def orthonormal(rows: FloatArray) -> FloatArray:
     """Orthonormal rows that span what some rows span."""
     if not len(rows):
         return rows
@@ -304,7 +309,7 @@ def layers_of(
             for order in (1, -1):
                 for cut in upright:
                     spaces = tuple(
-                        found.freedom.of_scaled(_orthonormal(basis[list(part)]))
+                        found.freedom.of_scaled(orthonormal(basis[list(part)]))
                         for part in cut[::order]
                     )
                     key = tuple(_key(space) for space in spaces)
@@ -324,7 +329,7 @@ def _bases(freedom: ScrewSpace, typed: Sequence[FloatArray]) -> Iterator[FloatAr
     wanted = np.array(typed).reshape(-1, 6) * freedom.factors
     # What is taken for special is a little off what was typed.
     wanted = unit_rows((wanted @ rows.T) @ rows)
-    if len(wanted) == count and len(_orthonormal(wanted)) == count:
+    if len(wanted) == count and len(orthonormal(wanted)) == count:
         yield wanted
     free, lined = parted(rows, freedom.tolerance)
     yield np.concatenate((lined, free))
