@@ -13,7 +13,15 @@ from itertools import combinations
 
 import numpy as np
 
-from ..advice.spaces.screws import EXACT, Family, FamilyKind, ScrewSpace, parted
+from ..advice.spaces.screws import (
+    EXACT,
+    Family,
+    FamilyKind,
+    ScrewSpace,
+    canonical,
+    parted,
+    principal_rows,
+)
 from ..core.arrays import FloatArray
 from ..util.records import Frozen, cached_property
 
@@ -111,10 +119,13 @@ class Possible(Frozen):
 
     @cached_property
     def extra(self) -> ScrewSpace:
-        """What wires alone leave besides, of that the part at right angles to the freedom."""
-        rows = self.alone.scaled
-        rest = rows - (rows @ self.freedom.scaled.T) @ self.freedom.scaled
-        return self.freedom.of_scaled(orthonormal(rest))
+        """What wires alone leave besides: translations, where there are such, else screws."""
+        free, lined = parted(self.alone.scaled, EXACT)
+        spanned = self.freedom.scaled
+        for row in (*canonical(free), *principal_rows(lined), *lined):
+            more = np.concatenate((spanned, row[None]))
+            spanned = more if len(orthonormal(more)) == len(more) else spanned
+        return self.freedom.of_scaled(orthonormal(spanned[self.dimension :]))
 
     @property
     def parallel(self) -> bool:

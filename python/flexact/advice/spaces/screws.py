@@ -256,12 +256,8 @@ def principal_screws(
     """
     if _rank(spanned, same) == count:
         return []
-    # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
-    back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
-    form = lined[:, :3] @ lined[:, 3:].T
-    pitches, vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)
     made = []
-    for row in _told(pitches, vectors.T @ back @ lined, same):
+    for row in principal_rows(lined, same):
         more = np.concatenate((spanned, row[None]))
         if _rank(more, same) > _rank(spanned, same):
             spanned = more
@@ -269,6 +265,17 @@ def principal_screws(
             kind = FamilyKind.SCREW if abs(pitch) > same else FamilyKind.LINE
             made.append(Family(kind, point, direction, pitch=pitch * (kind is FamilyKind.SCREW)))
     return made
+
+
+def principal_rows(lined: FloatArray, same: float = SAME) -> FloatArray:
+    """(n, 6) the principal screws of rows as of `principal_screws`, with unit axes."""
+    if not len(lined):
+        return lined
+    # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
+    back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
+    form = lined[:, :3] @ lined[:, 3:].T
+    pitches, vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)
+    return np.array(list(_told(pitches, vectors.T @ back @ lined, same)))
 
 
 def _told(pitches: FloatArray, rows: FloatArray, same: float) -> Iterator[FloatArray]:
@@ -501,6 +508,14 @@ class ScrewSpace(Frozen):
     def families(self) -> tuple[Family, ...]:
         """The lines, directions and screws in it (`flexact.advice.spaces.screws`)."""
         return families_of(self.scaled, self.about, self.length, self.tolerance)
+
+    @cached_property
+    def principal(self) -> tuple[Family, ...]:
+        """The principal screws, lines among them, then what directions there are."""
+        free, lined = parted(self.scaled, self.tolerance)
+        found = principal_screws(lined, np.zeros((0, 6)), self.dimension, self.tolerance)
+        found += [directions_of(row[None]) for row in canonical(free)]
+        return tuple(_placed(family, self.about, self.length) for family in found)
 
     @property
     def lines(self) -> tuple[Family, ...]:
