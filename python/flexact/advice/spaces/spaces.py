@@ -22,7 +22,7 @@ from ..step import Step
 from .flexures import added_in_words, sheets_for, wire_in_words, wires_for
 from .screws import ScrewSpace
 from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
-from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read, wanted_of
+from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read_all, wanted_of
 from .words import Geometry, space_in_words
 
 
@@ -87,8 +87,9 @@ def spaces_of(
         raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
     if isinstance(wanted, str):
         raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
-    written = [read(each, planar=result.given.planar) for each in wanted]
-    names = [each.body for each in written if each.body is not None]
+    told = [one for each in wanted for one in read_all(each, planar=result.given.planar)]
+    names = [each.body for each in told if each.body is not None]
+    written = [each for each in told if each.kind is not ScrewKind.NONE]
     freed = Freed(result)
     subject = _subject(freed, body if body is not None else next(iter(names), None))
     if subject is None:
@@ -104,9 +105,9 @@ def spaces_of(
     freedom = freed.space(subject)
     is_tried = wires and result.is_told_by_parts
     meant = tuple(wanted_of(result, freedom, each) for each in written)
-    meant = meant or declared_of(result, subject, freedom)
+    meant = meant if told else declared_of(result, subject, freedom)
     aim = Aim.of(freedom, [each.twist for each in meant if each.is_free])
-    besides = not_wanted(result, subject, aim) if written else Change()
+    besides = not_wanted(result, subject, aim) if told else Change()
     site = Site(freed.result, subject)
     return Spaces(
         *(subject, freedom, freedom.reciprocal, meant, len(aim.unwanted), aim.stoppable),
