@@ -160,7 +160,7 @@ def spaces_lines(result: Result, spaces: Spaces | None, *, added: bool = True) -
 
 
 def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
-    geometry, body = Geometry(result), body_words(result, spaces)
+    geometry, body = Geometry.of_mechanism(result), body_words(result, spaces)
     start = f"{body[:1].upper()}{body[1:]}"
     free, held = spaces.freedom.dimension, spaces.constraint.dimension
     if free:
@@ -230,7 +230,7 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
 
 def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
     """Wires and sheets that stop what is unwanted."""
-    geometry, count = Geometry(result), spaces.unwanted
+    geometry, count = Geometry.of_mechanism(result), spaces.unwanted
     what = " and nothing that is wanted" if any(each.is_free for each in spaces.wanted) else ""
     single = [each for each in spaces.steps if len(each.change.wires) == 1]
     if single:
@@ -243,7 +243,7 @@ def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
         many = len(step.change.wires)
         if many > 1:
             which = "all" if many == count else in_words(many)
-            items = tuple(wire_in_words(geometry, wire) for wire in step.change.wires)
+            items = tuple(wire_in_words(result, geometry, wire) for wire in step.change.wires)
             yield Line((f"To stop {which} of them, add all of: ",), items)
     sheets = [each for each in spaces.steps if each.change.sheets]
     if sheets:
@@ -260,7 +260,7 @@ def _wanted(geometry: Geometry, wanted: Wanted) -> str:
     line = geometry.line(wanted.point, wanted.direction)
     if wanted.kind is ScrewKind.ROTATION:
         return f"rotation about {line}"
-    return f"a screw about {line}, pitch {geometry.outcome.given.units.said(wanted.pitch, 'm/rad')}"
+    return f"a screw about {line}, pitch {geometry.units.said(wanted.pitch, 'm/rad')}"
 
 
 def dashed_in_words(wires: int) -> str:
