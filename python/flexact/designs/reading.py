@@ -31,7 +31,8 @@ from ..model.sections import MATERIALS, Material, MaterialLike, material_of
 from ..util.quantities import Quantity, QuantityError
 from ..util.text import in_short
 from ..util.units import METRES, Units, units_of
-from .problem import KINDS, RANKS, Box, Limits, Motion, Problem, Region
+from .problem import KINDS, Box, Limits, Motion, Problem, Region
+from .scores import rank_given
 from .texts import FileText, Path, file_text
 
 #: What stands for a region in Python.
@@ -108,7 +109,7 @@ def box(low: Sequence[float | str], high: Sequence[float | str]) -> Box:
         ModelError: they are not three numbers each, or a least one is larger.
     """
     reader = _Reader()
-    made = reader.box((), [low, high], "the box")
+    made = reader.box((), reader.plain([low, high]), "the box")
     reader.finish()
     assert made is not None
     return made
@@ -600,6 +601,8 @@ class _Reader:
         stage, centre, size = self.placed(keys, regions.get("stage"), regions.get("ground"), lines)
         ground, limits = self.limits(keys, stage, regions.get("ground"), size)
         motions = self.motions(lines, centre, size)
+        if held is not None:
+            self.held_already(lines, motions, centre, held)
         keep_out, between = (
             each.boxes if (each := regions.get(name)) is not None else ()
             for name in ("keep_out", "intermediate")
@@ -895,6 +898,22 @@ class _Reader:
             break
         return tuple(made)
 
+    def held_already(
+        self, lines: Sequence[Line], made: Sequence[Motion], centre: FloatArray, held: Spaces
+    ) -> None:
+        """Say which motions the model that the stage is of stops already."""
+        away = held.freedom.about - centre
+        for line, motion in zip(lines, made, strict=False):
+            turn, velocity = motion.twist[:3], motion.twist[3:]
+            if not held.freedom.has(np.concatenate((turn, velocity + np.cross(turn, away)))):
+                name = in_short(held.subject.name)
+                self.wrong(
+                    line.path,
+                    f"{in_short(motion.text)} is stopped by what holds {name} already",
+                    "take that out of the deck, or want something else",
+                    code="bad-wanted",
+                )
+
     def dependent(
         self, lines: Sequence[Line], made: Sequence[Motion], others: list[int], k: int, least: float
     ) -> None:
@@ -1187,20 +1206,14 @@ class _Reader:
 
     def rank(self, keys: Mapping[str, tuple[Path, Any]]) -> tuple[str, bool]:
         """The key of scores by which layouts are ordered, and whether less is better."""
-        path, given = keys.get("by", keys.get("rank", ((), "worst_stiffness")))
+        path, given = keys.get("by", keys.get("rank", ((), {})))
         if isinstance(given, dict):
-            path, given = (), "worst_stiffness"
-        word = given if isinstance(given, str) else ""
-        way, _, key = word.rpartition(":")
-        name = "_".join(re.split(r"[\s_-]+", key.strip().lower()))
-        if name not in RANKS or way.strip() not in ("", "lower", "higher"):
-            near = nearest(name, RANKS)
-            hint = f"did you mean {near[0].replace('_', ' ')}?" if near else ""
-            listed = ", ".join(each.replace("_", " ") for each in RANKS)
-            hint = hint or f"there are {listed}; lower:KEY or higher:KEY turns one round"
-            self.wrong(path, f"there is no score {in_short(given)} to rank by", hint)
+            given = "worst stiffness"
+        try:
+            return rank_given(self.word(path, given, "rank"))
+        except ModelError as error:
+            self.told(path, error)
             return "worst_stiffness", False
-        return name, way.strip() == "lower" if way.strip() else RANKS[name]
 
 
 def _in_two_digits(value: float) -> float:
