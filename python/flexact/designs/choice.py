@@ -179,12 +179,16 @@ def chosen_sets(
     stiffest = int(np.argmax(np.round(np.linalg.norm(first.weighted[usable], axis=(1, 2)), 9)))
     known: set[tuple[tuple[int, int], ...]] = set()
     for place in usable[spread(first.rows[usable], starts, stiffest)]:
-        places = _filled(slots, int(place), count, clearances, allowed)
-        if places is None:
+        filled = _filled(slots, int(place), count, clearances, allowed)
+        if filled is None:
             continue
-        places = _exchanged(slots, places, count, clearances, allowed)
-        key = tuple(sorted((id(slot), p) for slot, p in zip(slots, places, strict=True)))
-        if key in known:
+        for kept in (0, 1):
+            # Where all exchanges lead to a set that is known, the first member stays.
+            places = _exchanged(slots, list(filled), count, clearances, allowed, kept)
+            key = tuple(sorted((id(slot), p) for slot, p in zip(slots, places, strict=True)))
+            if key not in known:
+                break
+        else:
             continue
         known.add(key)
         rows = np.concatenate([slot.rows[p] for slot, p in zip(slots, places, strict=True)])
@@ -272,12 +276,18 @@ def _exchanged(
     count: int,
     clearances: Clearances,
     allowed: Sequence[BoolArray],
+    kept: int,
 ) -> list[int]:
-    """A set that no exchange of a member betters: the determinant first, then the least value."""
+    """A set that no exchange of a member betters: the determinant first, then the least value.
+
+    The first ones that are to be kept stay.
+    """
     for by_least in (False, True):
         for _ in range(_ROUNDS):
             before = list(places)
             for k, slot in enumerate(slots):
+                if k < kept:
+                    continue
                 others = [slots[j].weighted[p] for j, p in enumerate(places) if j != k]
                 rows = np.concatenate([np.zeros((0, count)), *others])
                 gains = _rounded(_gains(rows, slot, count))
