@@ -152,9 +152,11 @@ def guide() -> tuple[Json, Json]:
     problem["stage"] = {"boxes": [[[-0.04, -0.04, -0.02], [0.04, 0.04, 0.02]]]}
     del problem["expect"]["layout_exists"]
 
-    def folded(name: str, end: list[float], out: list[float], up: float, along: list[float]) -> Json:
+    def folded(
+        name: str, end: list[float], out: list[float], up: float, along: list[float]
+    ) -> Json:
         fold = (np.array(end) + out).tolist()
-        foot = (np.array(fold) + [0.0, 0.0, up]).tolist()
+        foot = [fold[0], fold[1], fold[2] + up]
         return {
             "name": name,
             "kind": "folded sheet",

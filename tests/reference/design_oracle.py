@@ -17,8 +17,8 @@ What had to be decided, so that two programs mean the same:
 - *Verdict*: no motion beside the declared ones; as many self-stresses as `over_constrained` says,
   at most `limits.over_constraint`.
 - *Names*: an element belongs to the flexure whose name is its comment in the deck, or its comment
-  up to a comma; likewise bodies. Elements without ESTIFF whose deformations are all held are links of
-  bodies. A stage of a single point is the one that moves and is at `centre`.
+  up to a comma; likewise bodies. Elements without ESTIFF whose deformations are all held are links
+  of bodies. A stage of a single point is the one that moves and is at `centre`.
 - *Ends*: middles of the clamped edges, in the order of `between`. A whole edge lies in the union
   of the boxes of its region, within 1e-9 L; at a region's point only its middle is asked for. On
   a body between the middle alone lies within `intermediate`, where that is given.
@@ -27,18 +27,18 @@ What had to be decided, so that two programs mean the same:
   value to be met within 1e-9 of it.
 - *Solids*: a wire is a segment with a radius, a sheet a box (length, width, thickness), a folded
   sheet two boxes, anything else a segment with half its diameter or thickness. Clearance holds
-  between any two flexures, also on one body, and to keep-outs. Points of bodies are not in keep-outs.
+  between any two flexures, also on one body, and to keep-outs; bodies have no points in keep-outs.
 - *Isometries* are the signed permutations about `centre` that keep T, inertia, and the lists of
-  boxes and points of stage, ground, keep-out and intermediate. Two layouts are images where flexures
-  of one kind, with the same sizes and ends, correspond; bodies between have no names then.
+  boxes and points of stage, ground, keep-out and intermediate. Two layouts are images where
+  flexures of one kind, with the same sizes and ends, correspond; bodies between have no names then.
 - *Stiffness* K is the inverse of the compliance of the stage at `centre`; links are rigid, whatever
-  has ESTIFF is elastic, also what is held, and declared motions are free. Worst stiffness is the least
-  x.K x / x.x over the orthogonal complement of T, drive stiffness the largest over T.
+  has ESTIFF is elastic, also what is held, and declared motions are free. Worst stiffness is the
+  least x.K x / x.x over the orthogonal complement of T, drive stiffness the largest over T.
 - *Mass* is as in SPACAR: the consistent matrix with 156, 22, 54, -13, 4, -3 for velocities at the
   ends (also along the beam), and J l/2 of rotary inertia at each end, and XM.
 - *First frequency* is the lowest of all modes with flexures' mass, inner ones too. *First parasitic
-  frequency*: of the modes, of unit modal mass, the d with the largest part of the stage's scaled twist
-  in T are left out; the lowest of the others.
+  frequency*: of the modes, of unit modal mass, the d with the largest part of the stage's scaled
+  twist in T are left out; the lowest of the others.
 - *Thermal drift* is the length of the displacement of the centre where each element with length and
   elasticity is longer by expansion x length a kelvin, and nothing else is.
 - *Turns with errors* is asked of parallel layouts: rows are unit lines of wires and of folds, unit
@@ -61,21 +61,26 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from oracle_analysis import clear_rank, scaled
-from oracle_deck import Deck, Label, kinematic_statements, number, read_deck
-from oracle_elements import AXIS, ROTATIONS, derivatives, frame
+from design_classes import (
+    Json,
+    Real,
+    boxes_of,
+    centre_of,
+    classify,
+    complement,
+    freedom,
+    orthonormal,
+    points_of,
+    spin,
+    unit,
+)
+from design_structure import CLOSE, EXPANSION, Structure
+from oracle_elements import frame
 
-Real = NDArray[np.float64]
-Json = dict[str, Any]
-
-#: Freedom as wanted, places, sizes: in parts of L.
-CLOSE = 1e-9
 #: Between two layouts, in parts of L.
 SAME_PLACE = 1e-6
 #: Scores.
 PERCENT = 0.01
-EXPANSION = 1e-5
 KINDS = ("wire", "sheet", "waisted sheet", "folded sheet", "notch", "bellows")
 CONDITIONS = ("wires", "regions", "length", "width", "keep-out", "clearance", "symmetry")
 #: What a beam holds, by kind of flexure.
@@ -91,178 +96,6 @@ NUMBERS = {"a": 1, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 
     "ten": 10,
     "twelve": 12,
 }
-
-
-# --------------------------------------------------------------------------------------------
-# The wanted freedom and its class
-
-
-def unit(vector: Any) -> Real:
-    vector = np.asarray(vector, dtype=float)
-    return np.array(vector / np.linalg.norm(vector))
-
-
-def twist(motion: Json, centre: Real) -> Real:
-    """(w, v) of a wanted motion, v at the centre."""
-    direction = unit(motion["direction"])
-    if motion["kind"] == "translation":
-        return np.concatenate([np.zeros(3), direction])
-    arm = centre - np.asarray(motion["point"], dtype=float)
-    pitch = motion.get("pitch", 0.0) if motion["kind"] == "screw" else 0.0
-    return np.concatenate([direction, pitch * direction + np.cross(direction, arm)])
-
-
-def centre_of(problem: Json) -> Real:
-    if "centre" in problem:
-        return np.array(problem["centre"], dtype=float)
-    corners = np.array([*itertools.chain(*boxes_of(problem, "stage")), *points_of(problem, "stage")])
-    return np.array((corners.min(axis=0) + corners.max(axis=0)) / 2)
-
-
-def orthonormal(rows: Real, floor: float = 1e-10) -> Real:
-    """Orthonormal rows with the span of some rows."""
-    if rows.size == 0:
-        return np.zeros((0, 6))
-    _, values, right = np.linalg.svd(rows)
-    return np.array(right[: int(np.sum(values > floor * max(values[0], 1e-300)))])
-
-
-def complement(rows: Real) -> Real:
-    """Orthonormal rows across the span of orthonormal rows."""
-    return np.array(np.linalg.svd(rows)[2][len(rows) :]) if len(rows) else np.eye(rows.shape[1])
-
-
-def freedom(problem: Json) -> Real:
-    """T: orthonormal rows of scaled twists (w L, v) about the centre."""
-    centre, size = centre_of(problem), problem["size"]
-    rows = [twist(motion, centre) * np.repeat([size, 1.0], 3) for motion in problem["wanted"]]
-    space = orthonormal(np.array(rows).reshape(-1, 6))
-    if len(space) != len(rows):
-        raise ValueError("the wanted motions depend on each other")
-    return space
-
-
-def constraint(space: Real) -> Real:
-    """W: orthonormal rows (f, m/L) that do no work on the scaled twists (w L, v)."""
-    return np.array(complement(space)[:, [3, 4, 5, 0, 1, 2]])
-
-
-def signature(rows: Real) -> tuple[int, int, int]:
-    """Numbers of positive, negative and zero eigenvalues of a.b on rows (a, b)."""
-    values = np.linalg.eigvalsh(klein(rows))
-    return (
-        int(np.sum(values > 1e-7)),
-        int(np.sum(values < -1e-7)),
-        int(np.sum(np.abs(values) <= 1e-7)),
-    )
-
-
-def klein(rows: Real) -> Real:
-    return np.array((rows[:, :3] @ rows[:, 3:].T + rows[:, 3:] @ rows[:, :3].T) / 2)
-
-
-def sampled_lines(space: Real, random: np.random.Generator, count: int = 60) -> Real:
-    """Lines of a space of wrenches, drawn from all zeros of f.m in it, couples left out.
-
-    With f.m diagonal a zero has parts of one length where it is positive and negative, and any
-    part where it is zero; where one sign is missing the other part is nothing.
-    """
-    if len(space) == 0:
-        return np.zeros((0, 6))
-    values, vectors = np.linalg.eigh(klein(space))
-    up, down, flat = values > 1e-7, values < -1e-7, np.abs(values) <= 1e-7
-    found = []
-    for _ in range(count):
-        parts = np.zeros(len(values))
-        parts[flat] = random.normal(size=int(flat.sum()))
-        if up.any() and down.any():
-            for side in (up, down):
-                direction = unit(random.normal(size=int(side.sum())))
-                parts[side] = direction / np.sqrt(np.abs(values[side]))
-        if np.linalg.norm(parts) == 0:
-            continue
-        line = unit(parts @ vectors.T @ space)
-        if np.linalg.norm(line[:3]) > 1e-6:
-            found.append(line / np.linalg.norm(line[:3]))
-    return np.array(found).reshape(-1, 6)
-
-
-def wires_leave(space: Real) -> int:
-    """How many more motions than wanted are left by all wires that stop nothing wanted."""
-    lines = sampled_lines(constraint(space), np.random.default_rng(len(space)))
-    return 6 - len(space) - len(orthonormal(lines, 1e-6))
-
-
-def sheet_plane(space: Real) -> tuple[Real, Real] | None:
-    """(normal, point in units of L) of a plane in which a whole sheet stops nothing wanted.
-
-    Every wanted velocity in the plane is along its normal n: w.n = 0 and v + w x p along n.
-    """
-    if len(space) == 0:
-        return np.array([0.0, 0.0, 1.0]), np.zeros(3)
-    turns, _, right = np.linalg.svd(space[:, :3])
-    rank = int(np.sum(np.linalg.svd(space[:, :3])[1] > 1e-7))
-    couples = turns[:, rank:].T @ space[:, 3:]
-    if len(couples) > 1 or rank > 2:
-        return None
-    if len(couples):
-        normal = unit(couples[0])
-    else:
-        normal = right[2]
-    if np.max(np.abs(space[:, :3] @ normal)) > 1e-7:
-        return None
-    across = np.eye(3) - np.outer(normal, normal)
-    spins = np.vstack([across @ spin(row[:3]) for row in space])
-    speeds = np.concatenate([across @ row[3:] for row in space])
-    point = np.linalg.lstsq(spins, -speeds, rcond=1e-9)[0]
-    return (normal, point) if np.max(np.abs(spins @ point + speeds)) < 1e-7 else None
-
-
-def spin(w: Real) -> Real:
-    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
-
-
-def least_layers(space: Real) -> int:
-    """How many layers a freedom takes, by drawing sums of freedoms that wires can hold."""
-    if wires_leave(space) == 0:
-        return 1
-    random, count = np.random.default_rng(7), len(space)
-    for _ in range(60):
-        basis = random.normal(size=(count, count)) @ space
-        for cut in range(1, count // 2 + 1):
-            if all(wires_leave(orthonormal(half)) == 0 for half in (basis[:cut], basis[cut:])):
-                return 2
-    return 3
-
-
-def classify(space: Real) -> Json:
-    """The class of a freedom T (orthonormal scaled twists), in the words of `expect`."""
-    extra, layers = wires_leave(space), least_layers(space)
-    sheet = sheet_plane(space) is not None
-    return {
-        "dimension": len(space),
-        "parallel_wires": extra == 0,
-        "least_wires": 6 - len(space) if extra == 0 else None,
-        "sheet": sheet,
-        "with_sheet": [1, 3 - len(space)] if sheet else None,
-        "least_layers": layers,
-        "extra_freedom_of_wires_alone": extra,
-        "signature_freedom": [*sorted(signature(space)[:2], reverse=True), signature(space)[2]],
-    }
-
-
-# --------------------------------------------------------------------------------------------
-# Regions and solids
-
-
-def boxes_of(problem: Json, region: str) -> list[Real]:
-    boxes = (problem.get(region) or {}).get("boxes") or []
-    return [np.sort(np.array(box, dtype=float), axis=0) for box in boxes]
-
-
-def points_of(problem: Json, region: str) -> list[Real]:
-    points = (problem.get(region) or {}).get("points") or []
-    return [np.array(point, dtype=float) for point in points]
 
 
 def covered(start: Real, end: Real, boxes: list[Real], tolerance: float) -> bool:
@@ -339,343 +172,6 @@ def box_solid(box: Real) -> Solid:
     return Solid(box.mean(axis=0), np.diag((box[1] - box[0]) / 2))
 
 
-# --------------------------------------------------------------------------------------------
-# The deck
-
-
-class Structure:
-    """A deck with its names, bodies, flexures, stiffness and mass."""
-
-    def __init__(self, text: str, problem: Json, flexures: list[str]) -> None:
-        self.problem = problem
-        self.deck: Deck = read_deck(text)
-        self.names = _comments(text)
-        self.numbers = _dynamics(text)
-        self.elements = self.deck.elements
-        links = [label for label in self.elements if self.is_link(label)]
-        self.owner = {
-            label: owner
-            for label in self.elements
-            if label not in links and (owner := _owner(self.names.get(label, ""), flexures))
-        }
-        self.strays = [n for n in self.elements if n not in self.owner and n not in links]
-        self.bodies = self._bodies([label for label in links if label not in self.owner])
-        self.columns: list[Label] = [
-            label for label, name in self.deck.coordinates.items() if name != "fixed"
-        ]
-        self.place = {label: index for index, label in enumerate(self.columns)}
-        self.rows = {
-            label: derivatives(self.deck, element) for label, element in self.elements.items()
-        }
-
-    def is_link(self, label: int) -> bool:
-        held = [
-            self.deck.deformations[label, str(k + 1)]
-            for k in range(self.elements[label].type.deformations)
-        ]
-        return set(held) == {"fixed"} and not self.numbers["ESTIFF"].get(label)
-
-    def _bodies(self, links: list[int]) -> dict[int, str]:
-        """Node to the name of the body that it is of; "ground", or "" where it has no name."""
-        group = {node: node for node in self.deck.kinds}
-
-        def root(node: int) -> int:
-            while group[node] != node:
-                node = group[node]
-            return node
-
-        for label in links:
-            first, *others = self.elements[label].nodes
-            for node in others:
-                group[root(node)] = root(first)
-        # An end of a flexure is one place and one orientation.
-        for element in self.elements.values():
-            if element.type.slots == "popo":
-                p, op, q, oq = element.nodes
-                group[root(op)] = root(p)
-                group[root(oq)] = root(q)
-        names: dict[int, str] = {}
-        for label in links:
-            name = self.names.get(label, "").rpartition(",")[0] or self.names.get(label, "")
-            names[root(self.elements[label].nodes[0])] = name
-        free = {node for (node, _), name in self.deck.coordinates.items() if name != "fixed"}
-        for node in self.deck.kinds:
-            if node not in free:
-                names[root(node)] = "ground"
-        if "stage" not in names.values():
-            centre = centre_of(self.problem)
-            for node, place in self.deck.position.items():
-                near = np.linalg.norm(np.subtract(place, centre)) < CLOSE * self.problem["size"]
-                if near and node in free:
-                    names.setdefault(root(node), "stage")
-        return {node: names.get(root(node), "") for node in self.deck.kinds}
-
-    def matrix(self, rows: list[Label], columns: list[Label]) -> Real:
-        """Derivatives of some deformations by some coordinates."""
-        row_of = {label: index for index, label in enumerate(rows)}
-        column_of = {label: index for index, label in enumerate(columns)}
-        matrix = np.zeros((len(rows), len(columns)))
-        for label, by_coordinate in self.rows.items():
-            for coordinate, values in by_coordinate.items():
-                if coordinate not in column_of:
-                    continue
-                for index, value in enumerate(values, start=1):
-                    if (label, str(index)) in row_of:
-                        matrix[row_of[label, str(index)], column_of[coordinate]] += value
-        return matrix
-
-    def verdict(self) -> tuple[int, int]:
-        """Motions beside the declared ones, and self-stresses."""
-        rows = [label for label, name in self.deck.deformations.items() if name != "dependent"]
-        columns = [label for label in self.columns if self.deck.coordinates[label] == "dependent"]
-        matrix = self.matrix(rows, columns)
-        if 0 in matrix.shape:
-            return len(columns), len(rows)
-        values = np.linalg.svd(scaled(self.deck, columns, matrix), compute_uv=False)
-        rank = clear_rank(values, matrix.shape)
-        return len(columns) - rank, len(rows) - rank
-
-    def stage_rows(self) -> Real:
-        """Scaled twist of the stage about the centre from all coordinates, 6 x n."""
-        nodes = [node for node, name in self.bodies.items() if name == "stage"]
-        places = [node for node in nodes if self.deck.kinds[node] == "p"]
-        turns = [node for node in nodes if self.deck.kinds[node] == "o"]
-        if not places or not turns:
-            raise ValueError("the deck has no body called stage")
-        size = self.problem["size"]
-        p, o = min(places), min(turns)
-        arm = centre_of(self.problem) - np.array(self.deck.position[p])
-        rows = np.zeros((6, len(self.columns)))
-        for axis, name in enumerate(ROTATIONS):
-            if (o, name) in self.place:
-                rows[axis, self.place[o, name]] = size
-                rows[3:, self.place[o, name]] = np.cross(np.eye(3)[axis], arm)
-        for axis, name in enumerate("xyz"):
-            if (p, name) in self.place:
-                rows[3 + axis, self.place[p, name]] = 1.0
-        return rows
-
-    def motions(self) -> tuple[Real, int]:
-        """Freedom of the stage (orthonormal scaled twists) and number of inner motions."""
-        rows = [label for label, name in self.deck.deformations.items() if name == "fixed"]
-        matrix = self.matrix(rows, self.columns)
-        fair = scaled(self.deck, self.columns, matrix)
-        _, values, right = np.linalg.svd(fair)
-        null = right[clear_rank(values, matrix.shape) :]
-        lengths = [np.linalg.norm(vector) for vector in self._chords().values()]
-        turn = np.array([1 / np.mean(lengths) if n in ROTATIONS else 1.0 for _, n in self.columns])
-        moves = (self.stage_rows() @ (null * turn).T).T
-        space = orthonormal(moves, 1e-7) if np.max(np.abs(moves), initial=0.0) > 1e-9 else moves[:0]
-        return space, len(null) - len(space)
-
-    def _chords(self) -> dict[int, Real]:
-        chords = {}
-        for label, element in self.elements.items():
-            places = [n for n in element.nodes if self.deck.kinds[n] == "p"]
-            if len(places) == 2:
-                p, q = (np.array(self.deck.position[n]) for n in places)
-                if np.linalg.norm(q - p) > 0:
-                    chords[label] = q - p
-        return chords
-
-    # Elasticity ---------------------------------------------------------------------------
-
-    def elastic(self) -> Elastic:
-        """Stiffness and mass in the motions that links allow.
-
-        Raises:
-            ValueError: some motion has no stiffness.
-        """
-        count = len(self.columns)
-        stiff, mass, warm = np.zeros((count, count)), np.zeros((count, count)), np.zeros(count)
-        rigid = []
-        alpha = (self.problem.get("material") or {}).get("expansion", EXPANSION)
-        chords = self._chords()
-        for label, element in self.elements.items():
-            given = [*self.numbers["ESTIFF"].get(label, []), *[0.0] * 6][:6]
-            if element.keyword == "BEAM":
-                chord = chords[label]
-                rows, triad = _beam_rows(chord, element.vector)
-                matrix = _beam_stiffness(given, float(np.linalg.norm(chord)))
-                start = np.zeros(6)
-                start[0] = alpha * np.linalg.norm(chord)
-            elif element.keyword == "HINGE":
-                triad = frame(np.array(element.vector))
-                rows = np.hstack([-triad.T, triad.T])
-                matrix, start = np.diag(given[:3]), np.zeros(3)
-            else:
-                names = [(n, a) for n in dict.fromkeys(element.nodes) for a in self.deck.axes(n)]
-                rows = np.column_stack([self.rows[label][name] for name in names])
-                matrix = np.zeros((len(rows), len(rows)))
-                if element.keyword == "TRUSS":
-                    matrix[0, 0] = given[0] / np.linalg.norm(chords[label])
-                start = np.zeros(len(rows))
-                start[0] = alpha * np.linalg.norm(chords[label]) if matrix[0, 0] > 0 else 0.0
-            where, full = [], np.zeros((len(rows), count))
-            flat = [(n, a) for n in element.nodes for a in self.deck.axes(n)]
-            for column, coordinate in enumerate(flat[: rows.shape[1]]):
-                where.append(self.place.get(coordinate, -1))
-                if where[-1] >= 0:
-                    full[:, where[-1]] += rows[:, column]
-            for k in range(len(rows)):
-                held = self.deck.deformations[label, str(k + 1)] == "fixed"
-                if held and matrix[k, k] <= 0:
-                    rigid.append(unit(full[k]) if np.any(full[k]) else full[k])
-            stiff += full.T @ matrix @ full
-            warm += full.T @ matrix @ start if given[0] > 0 else 0.0
-            inertia = self.numbers["EM"].get(label)
-            if inertia and element.keyword == "BEAM":
-                part = _beam_mass(inertia, chords[label], triad)
-                for i, a in enumerate(where):
-                    for j, b in enumerate(where):
-                        if a >= 0 and b >= 0:
-                            mass[a, b] += part[i, j]
-        for node, values in self.numbers["XM"].items():
-            block = values[0] * np.eye(3)
-            if self.deck.kinds[node] == "o":
-                xx, xy, xz, yy, yz, zz = [*values, *[0.0] * 6][:6]
-                block = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            axes = [self.place.get((node, axis), -1) for axis in self.deck.axes(node)]
-            for i, a in enumerate(axes):
-                for j, b in enumerate(axes):
-                    if a >= 0 and b >= 0:
-                        mass[a, b] += block[i, j]
-        # Rotations in lengths, so that the null space of the links is a fair one.
-        fair = np.array([1 / self.problem["size"] if n in ROTATIONS else 1.0 for _, n in self.columns])
-        allowed = _null(np.array(rigid).reshape(-1, count) * fair) * fair
-        return Elastic(
-            allowed @ stiff @ allowed.T,
-            allowed @ mass @ allowed.T,
-            allowed @ warm,
-            self.stage_rows() @ allowed.T,
-        )
-
-
-def _null(rows: Real) -> Real:
-    if len(rows) == 0:
-        return np.eye(rows.shape[1])
-    _, values, right = np.linalg.svd(rows)
-    return np.array(right[int(np.sum(values > 1e-10 * values[0])) :])
-
-
-def _comments(text: str) -> dict[int, str]:
-    """Element number to the comment at the end of its line: its name."""
-    lines, names = text.splitlines(), {}
-    for index, (keyword, *operands) in kinematic_statements(text):
-        if keyword not in ("X", "FIX", "RLSE", "DYNE", "DYNX", "INPUTX", "INPUTE"):
-            comment = re.split("[%#]", lines[index], maxsplit=1)
-            names[int(operands[0])] = comment[1].strip() if len(comment) > 1 else ""
-    return names
-
-
-def _dynamics(text: str) -> dict[str, dict[int, list[float]]]:
-    """ESTIFF, EM and XM, which stand after the first END, by number."""
-    found: dict[str, dict[int, list[float]]] = {"ESTIFF": {}, "EM": {}, "XM": {}}
-    for line in text.splitlines():
-        keyword, *operands = re.split("[%#]", line)[0].split() or [""]
-        if keyword.upper() in found:
-            found[keyword.upper()][int(operands[0])] = [number(word) for word in operands[1:]]
-    return found
-
-
-def _owner(comment: str, flexures: list[str]) -> str:
-    """The flexure that an element is of; the longest name where several fit."""
-    fits = [name for name in flexures if comment == name or comment.startswith(f"{name}, ")]
-    return max(fits, key=len, default="")
-
-
-def _beam_rows(chord: Real, vector: tuple[float, ...]) -> tuple[Real, Real]:
-    """Small deformations e1..e6 of a beam by (up, phip, uq, phiq), 6 x 12, and its triad."""
-    triad = frame(chord, vector)
-    x, y, z = triad.T
-    length, none = float(np.linalg.norm(chord)), np.zeros(3)
-    return np.array(
-        [
-            np.concatenate([-x, none, x, none]),
-            np.concatenate([none, -length * x, none, length * x]),
-            np.concatenate([z, -length * y, -z, none]),
-            np.concatenate([-z, none, z, length * y]),
-            np.concatenate([-y, -length * z, y, none]),
-            np.concatenate([y, none, -y, length * z]),
-        ]
-    ), triad
-
-
-def _beam_stiffness(given: list[float], length: float) -> Real:
-    """S of a Timoshenko beam: EA, G It, E Iy, E Iz, and E Iy/(k G A), E Iz/(k G A)."""
-    matrix = np.zeros((6, 6))
-    matrix[0, 0], matrix[1, 1] = given[0] / length, given[1] / length**3
-    for at, bending, shear in ((2, given[2], given[4]), (4, given[3], given[5])):
-        phi = 12 * shear / length**2
-        block = np.array([[4 + phi, phi - 2], [phi - 2, 4 + phi]])
-        matrix[at : at + 2, at : at + 2] = bending / ((1 + phi) * length**3) * block
-    return matrix
-
-
-def _beam_mass(given: list[float], chord: Real, triad: Real) -> Real:
-    """Consistent mass of a beam in (up, phip, uq, phiq), 12 x 12, with its rotary inertia."""
-    length = float(np.linalg.norm(chord))
-    tangent = -length * spin(triad[:, 0])
-    velocities = np.zeros((4, 3, 12))
-    for at, block in ((0, np.eye(3)), (1, tangent), (2, np.eye(3)), (3, tangent)):
-        velocities[at, :, 3 * at : 3 * at + 3] = block
-    weights = [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
-    matrix = given[0] * length / 420 * np.einsum(
-        "ij,iak,jal->kl", np.array(weights, dtype=float), velocities, velocities
-    )
-    xx, yy, zz, yz = [*given[1:], *[0.0] * 4][:4]
-    rotary = triad @ np.array([[xx, 0, 0], [0, yy, yz], [0, yz, zz]]) @ triad.T * length / 2
-    matrix[3:6, 3:6] += rotary
-    matrix[9:, 9:] += rotary
-    return np.array(matrix)
-
-
-@dataclass(frozen=True)
-class Elastic:
-    """Stiffness, mass, forces of a kelvin, and rows of the stage's scaled twist."""
-
-    stiffness: Real
-    mass: Real
-    warmth: Real
-    stage: Real
-
-    def scores(self, space: Real, with_mass: bool) -> dict[str, float]:
-        """What section 6 asks, from the matrices alone."""
-        scale = 1 / np.sqrt(np.diag(self.stiffness))
-        factor = np.linalg.cholesky(self.stiffness * np.outer(scale, scale)) / scale[:, None]
-        half = np.linalg.solve(factor, self.stage.T)
-        stiffness = np.linalg.inv(half.T @ half)
-        across = complement(space)
-        found = {}
-        if len(across):
-            found["worst_stiffness"] = float(np.linalg.eigvalsh(across @ stiffness @ across.T)[0])
-        if len(space):
-            found["drive_stiffness"] = float(np.linalg.eigvalsh(space @ stiffness @ space.T)[-1])
-            if len(across):
-                found["separation"] = found["worst_stiffness"] / found["drive_stiffness"]
-        drift = half.T @ np.linalg.solve(factor, self.warmth)
-        found["thermal_drift"] = float(np.linalg.norm(drift[3:]))
-        if with_mass:
-            other = np.linalg.solve(factor, np.linalg.solve(factor, self.mass).T)
-            slow, shapes = np.linalg.eigh((other + other.T) / 2)
-            order = np.argsort(-slow)
-            order = order[slow[order] > 1e-13 * slow[order[0]]]
-            frequencies = 1 / (2 * math.pi * np.sqrt(slow[order]))
-            # Of unit modal mass: omega times the mode of unit stiffness.
-            moves = half.T @ shapes[:, order] / np.sqrt(slow[order])
-            wanted = np.sum((space @ moves) ** 2, axis=0) if len(space) else np.zeros(len(order))
-            kept = np.argsort(-wanted, kind="stable")[: len(space)]
-            found["first_frequency"] = float(frequencies[0])
-            rest = np.delete(frequencies, kept)
-            if len(rest):
-                found["first_parasitic_frequency"] = float(rest[0])
-        return found
-
-
-# --------------------------------------------------------------------------------------------
-# One layout
-
-
 def judge_layout(problem: Json, layout: Json) -> tuple[list[str], list[str]]:
     """What is wrong with a layout, and remarks."""
     wrong = _shape(problem, layout)
@@ -716,7 +212,9 @@ def _shape(problem: Json, layout: Json) -> list[str]:
         kind = flexure.get("kind")
         if kind not in KINDS:
             wrong.append(f"{flexure.get('name')}: unknown kind {kind}")
-        missing += [k for k in ("width", "thickness") if "sheet" in str(kind) and not flexure.get(k)]
+        missing += [
+            k for k in ("width", "thickness") if "sheet" in str(kind) and not flexure.get(k)
+        ]
         missing += ["diameter"] if kind == "wire" and not flexure.get("diameter") else []
         missing += ["fold"] if kind == "folded sheet" and not flexure.get("fold") else []
         flat = kind in ("sheet", "waisted sheet")
@@ -750,7 +248,9 @@ def _against_deck(structure: Structure, flexure: Json) -> list[str]:
     ]
     wrong = []
     for end, body in zip(flexure["ends"], flexure["between"], strict=True):
-        near = [n for n in ends if np.linalg.norm(np.subtract(deck.position[n], end)) < CLOSE * size]
+        near = [
+            n for n in ends if np.linalg.norm(np.subtract(deck.position[n], end)) < CLOSE * size
+        ]
         if not near:
             wrong.append(f"the deck has no end of it at {_place(end)}")
         elif body not in {structure.bodies[node] for node in near} and any(
@@ -774,9 +274,7 @@ NAMED = ("stage", "ground")
 
 def _against_element(structure: Structure, label: int, flexure: Json) -> list[str]:
     element, kind, wrong = structure.elements[label], flexure["kind"], []
-    held = {
-        k for k in range(1, 7) if structure.deck.deformations.get((label, str(k))) == "fixed"
-    }
+    held = {k for k in range(1, 7) if structure.deck.deformations.get((label, str(k))) == "fixed"}
     if kind in HELD and held not in HELD[kind]:
         wrong.append(f"element {label} holds {sorted(held)}, which is no {kind}")
     if kind not in ("wire", "sheet", "folded sheet"):
@@ -792,7 +290,10 @@ def _against_element(structure: Structure, label: int, flexure: Json) -> list[st
         normal = flexure.get("normal")
         if kind == "folded sheet":
             normal = np.cross(q - p, flexure["fold"]["direction"])
-        if abs(unit(normal) @ unit(q - p)) > 1e-9 or np.linalg.norm(np.cross(across, unit(normal))) > 1e-9:
+        if (
+            abs(unit(normal) @ unit(q - p)) > 1e-9
+            or np.linalg.norm(np.cross(across, unit(normal))) > 1e-9
+        ):
             wrong.append(f"element {label} lies in another plane than its normal says")
     if isinstance(material, dict) and "E" in material:
         young, shear, density = material["E"], material["G"], material["density"]
@@ -914,7 +415,9 @@ def _apart(problem: Json, structure: Structure, flexures: list[Json]) -> list[st
         for name, ours in shapes:
             gap = min(distance(solid, box_solid(box)) for solid in ours)
             if gap < least - slack:
-                wrong.append(f"{name} is {gap:.6g} m from the keep-out at {_place(box[0])}, not {least:.6g}")
+                wrong.append(
+                    f"{name} is {gap:.6g} m from the keep-out at {_place(box[0])}, not {least:.6g}"
+                )
     return wrong
 
 
@@ -990,7 +493,7 @@ def turns_with_errors(problem: Json, flexures: list[Json]) -> list[float]:
 
     for flexure in flexures:
         ends, kind = np.array(flexure["ends"], dtype=float), flexure["kind"]
-        if not set(flexure["between"]) == set(NAMED) or kind in ("notch", "waisted sheet"):
+        if set(flexure["between"]) != set(NAMED) or kind in ("notch", "waisted sheet"):
             return []
         u, middle = unit(ends[1] - ends[0]), ends.mean(axis=0)
         if kind == "sheet":
@@ -1032,10 +535,6 @@ def _words(layout: Json) -> list[str]:
         if len(counts) == 1 and counts[0] != count:
             wrong.append(f"says {layout['what']!r}, but has {count} of kind {kind}")
     return wrong if what.strip() else ["has no words"]
-
-
-# --------------------------------------------------------------------------------------------
-# Images and symmetry
 
 
 def signed_permutations() -> list[Real]:
@@ -1142,9 +641,7 @@ def image(problem: Json, ours: list[Json], theirs: list[Json], turn: Real) -> bo
     centre, size = centre_of(problem), problem["size"]
     left = list(theirs)
     for flexure in ours:
-        hit = next(
-            (k for k, o in enumerate(left) if _alike(flexure, o, turn, centre, size)), None
-        )
+        hit = next((k for k, o in enumerate(left) if _alike(flexure, o, turn, centre, size)), None)
         if hit is None:
             return False
         del left[hit]
@@ -1166,10 +663,6 @@ def symmetric(problem: Json, flexures: list[Json], asked: str) -> bool:
     else:
         raise ValueError(f"no symmetry is called {asked!r}")
     return image(problem, flexures, flexures, turn)
-
-
-# --------------------------------------------------------------------------------------------
-# A whole answer
 
 
 def examine(problem: Json, answer: Json) -> tuple[list[str], list[str]]:
@@ -1219,7 +712,9 @@ def _classes(problem: Json, answer: Json) -> list[str]:
     """Dimension and least numbers, against a classification of this file and what is expected."""
     wrong, own = [], classify(freedom(problem))
     for key, value in problem.get("expect", {}).items():
-        if key in own and own[key] != (sorted(value[:2], reverse=True) + value[2:] if "signature" in key else value):
+        if key in own and own[key] != (
+            sorted(value[:2], reverse=True) + value[2:] if "signature" in key else value
+        ):
             wrong.append(f"the problem expects {key} {value}, computed is {own[key]}")
     kinds = answer.get("kinds")
     given: Json = {
@@ -1250,7 +745,7 @@ def _images(problem: Json, layouts: list[Json]) -> list[str]:
     for n in whole:
         alike = layouts[n]["alike"]
         if not isinstance(alike, int) or not 1 <= alike <= len(turns):
-            wrong.append(f"layout {n + 1} stands for {alike} images; {len(turns)} isometries keep the problem")
+            wrong.append(f"layout {n + 1} stands for {alike} images, of {len(turns)} isometries")
     return wrong
 
 
@@ -1281,7 +776,9 @@ def _order(answer: Json, layouts: list[Json]) -> list[str]:
             ours, theirs = vector(layouts[n]), vector(layouts[other])
             room = 1e-6 * np.abs(ours)
             if np.all(theirs >= ours + room * (ours != theirs)) and np.any(theirs > ours + room):
-                wrong.append(f"layout {n + 1} is said to be of the Pareto set; {other + 1} beats it")
+                wrong.append(
+                    f"layout {n + 1} is said to be of the Pareto set; {other + 1} beats it"
+                )
     return wrong
 
 
