@@ -246,9 +246,7 @@ def _partitions(total: int, sizes: Sequence[int]) -> Iterator[tuple[int, ...]]:
 # Images of layouts ------------------------------------------------------------
 
 
-def turns_that_keep(
-    freedom: FloatArray, arrangement: Arrangement
-) -> tuple[int, list[Group]]:
+def turns_that_keep(freedom: FloatArray, arrangement: Arrangement) -> tuple[int, list[Group]]:
     """The order of the group of turns and mirrors that keep the material of a layout, and parts.
 
     Looked for among mirrors and turns about axes of the frame and the own axis of the freedom.
