@@ -8,6 +8,7 @@ coefficients of Cowper, 1966. Rigid bodies carry the ends of flexures; folds hav
 """
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -163,7 +164,7 @@ def system(problem, flexures, pieces=1):
         line = [f.ends[0], *(f.via if f.kind == "folded sheet" else ()), f.ends[1]]
         nodes = [f.between[0]]
         chain = [line[0]]
-        for a, b in zip(line[:-1], line[1:], strict=True):
+        for a, b in pairwise(line):
             for j in range(1, pieces + 1):
                 chain.append(a + (b - a) * j / pieces)
                 nodes.append(count)
