@@ -3,6 +3,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -170,6 +171,44 @@ def test_scores_are_those_of_finite_elements(make):
         assert found[key] == pytest.approx(value, rel=limit), key
     assert ("drive_stiffness" in found) == ("drive_stiffness" in wanted)
     assert all(math.isfinite(value) for value in found.values())
+
+
+def test_scores_of_random_layouts_are_those_of_finite_elements():
+    """Any freedoms, wires, sheets and folded sheets, with up to two bodies between."""
+    rng = np.random.default_rng(33)
+
+    def direction():
+        u = rng.normal(size=3)
+        return u / np.linalg.norm(u)
+
+    for _ in range(30):
+        centre = 0.01 * rng.normal(size=3)
+        twists = [
+            np.concatenate((direction(), 0.03 * rng.normal(size=3)))
+            if rng.random() < 0.7
+            else np.concatenate((np.zeros(3), direction()))
+            for _ in range(rng.integers(0, 6))
+        ]
+        problem = problem_of(*twists, centre=centre, size=rng.choice((0.02, 0.05, 0.1)))
+        names = ["stage", *(f"body {k}" for k in range(rng.integers(0, 3))), "ground"]
+        made = []
+        for between in pairwise(names):
+            for _ in range(rng.integers(2, 6)):
+                a, u = centre + 0.03 * rng.normal(size=3), direction()
+                b, n = a + rng.uniform(0.03, 0.08) * u, np.cross(u, direction())
+                n = n / np.linalg.norm(n)
+                last = b + 0.04 * np.cross(n, u) + 0.01 * u
+                name = f"flexure {len(made) + 1}"
+                kinds = (
+                    wire(name, a, b, between),
+                    sheet(name, a, b, n, between),
+                    folded(name, a, b, last, n, between),
+                )
+                made.append(kinds[rng.integers(3)])
+        found = cheap_scores(layout_of(problem, made).model, problem, made)
+        for key, value in expected(problem, made).items():
+            limit = 1.0e-6 if key.endswith("stiffness") else 1.0e-2
+            assert found[key] == pytest.approx(value, rel=limit), key
 
 
 @pytest.mark.parametrize("make", [hexapod, layers])
@@ -443,6 +482,21 @@ def test_light_bodies_between_do_not_stand_for_a_wanted_motion():
     moves = np.abs(twists[3:5]).max(axis=0) > 0.5 / math.sqrt(MASS)
     assert moves.tolist()[:3] == [True, True, False]
     assert found["first_parasitic_frequency"] == pytest.approx(hertz[2], rel=1.0e-3)
+
+
+@pytest.mark.parametrize("make", [five, layers])
+def test_what_has_no_mass_follows_the_stage(make):
+    """Bodies between and folds, of flexures without a density: six modes, of K condensed."""
+    problem, flexures, declared = make()
+    light = replace(problem, material=Material("light", E, G))
+    found = cheap_scores(layout_of(light, flexures, declared).model, light, flexures)
+    mass = np.diag((4.0e-5 / SIZE**2,) * 3 + (MASS,) * 3)
+    hertz, twists = modes(condensed(system(light, flexures)[0]), mass)
+    wanted, _ = across_of(light)
+    within = np.sum((wanted.T @ twists) ** 2, axis=0)
+    rest = np.delete(hertz, np.argsort(-within)[: wanted.shape[1]])
+    assert found["first_frequency"] == pytest.approx(hertz[0], rel=1.0e-6)
+    assert found["first_parasitic_frequency"] == pytest.approx(rest.min(), rel=1.0e-6)
 
 
 def test_without_a_mass_there_are_no_frequencies():

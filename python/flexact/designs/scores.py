@@ -232,8 +232,9 @@ def across(problem: Problem) -> FloatArray:
 def error_response(flexures: Sequence[Flexure], problem: Problem) -> FloatArray:
     """(6, n) the twist (w L, v) of the stage, across T, by unit errors of each row.
 
-    Errors e of lengths move it by this times e, and errors dA of the rows of flexures that all
-    end on the ground turn its freedom by minus this times dA T.
+    A row is a force along the flexure from its first end to its second one, so that e is by how
+    much it is too short, in metres; of a couple, by how much too little it turns, times L. Errors
+    dA of the rows of flexures that all end on the ground turn the freedom by minus this times dA T.
 
     Raises:
         NoScoreError: these flexures alone do not hold the stage across T.
