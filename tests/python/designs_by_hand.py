@@ -82,8 +82,11 @@ def layout_of(problem, flexures, declared=(), number=1, what="by hand", over=0, 
     for name in declared:
         model.independent("stage", name)
     return Layout(
-        *(number, what, what, problem, tuple(flexures), (), model, over),
-        *(sum(f.kind == "folded sheet" for f in flexures), 0.0, 1, 1, scores or {}),
+        **{"number": number, "what": what, "kind": what, "problem": problem, "model": model},
+        **{"flexures": tuple(flexures), "bodies": (), "over_constrained": over},
+        internal=sum(f.kind == "folded sheet" for f in flexures),
+        **{"is_proven": True, "freedom_error": 0.0, "symmetry": 1, "alike": 1},
+        scores=scores or {},
     )
 
 
