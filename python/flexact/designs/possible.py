@@ -163,14 +163,17 @@ class Possible(Frozen):
 
         A waisted sheet holds the lines through its waist in its plane. W has such a pencil at
         every point where T has rank one or less: everywhere for one motion or none; of two
-        motions at the points of a rotation, which pencils share where it is itself a force of W.
+        motions at the points of a rotation. Two pencils are independent but where both have a line
+        in common, which is a rotation that is itself a force of W, or are in one plane.
         """
         if not self.parallel:
             return None
         if self.dimension <= 1:
             count = self.needed // 2
         elif self.dimension == 2:
-            count = 0 if not self.freedom.lines else 1 if self.signature_freedom[2] == 1 else 2
+            kinds, zero = {family.kind for family in self.freedom.lines}, self.signature_freedom[2]
+            is_one = zero == 1 or FamilyKind.PARALLELS_IN_PLANE in kinds
+            count = 0 if not kinds else 1 if is_one else 2
         else:
             count = int(any(family.kind in _WITH_PENCILS for family in self.constraint.families))
         return (count, self.needed - 2 * count) if count else None
