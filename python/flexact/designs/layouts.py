@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -15,10 +15,14 @@ from ..advice.spaces.screws import ScrewSpace
 from ..advice.spaces.subjects import Freed, subject_named
 from ..api import Analysis, analyse
 from ..core.arrays import FloatArray
+from ..model.arguments import Point
 from ..model.model import Model
+from ..model.names import part_name
+from ..model.variation import with_vectors
 from ..util.records import Frozen
 from ..util.text import number_in_words
 from .frame import Scaled
+from .held import Held
 from .problem import KINDS, Problem
 from .search import Arrangement
 
@@ -137,6 +141,7 @@ def model_of(
     problem: Problem,
     flexures: Sequence[Flexure],
     bodies: Sequence[tuple[str, FloatArray]] = (),
+    held: Held | None = None,
 ) -> Model:
     """The model of a layout, with stiffness and mass, one beam a flexure.
 
@@ -144,29 +149,44 @@ def model_of(
         problem: Of which material, mass and centre are taken.
         flexures: Of the layout.
         bodies: Between stage and ground: names, and further points, (n, 3) [m].
+        held: The mechanism to which they are added.
     """
-    model = Model(name=problem.title)
+    model = Model(name=problem.title) if held is None else Model.from_data(held.model.data)
     ends: dict[str, list[tuple[float, ...]]] = {"stage": [], "ground": []}
     for name, points in bodies:
         ends[name] = [tuple(point) for point in points.tolist()]
+    units = model.data.units
     for flexure in flexures:
-        _add(model, problem, flexure)
+        points: list[Point] = []
         for body, place in zip(flexure.between, flexure.ends.tolist(), strict=True):
             ends[body].append(tuple(place))
-    inertia = problem.inertia
-    model.body(
-        [tuple(problem.centre.tolist()), *_distinct(ends["stage"], problem.centre)],
-        name="stage",
-        mass=problem.mass or None,
-        inertia=inertia[np.triu_indices(3)].tolist() if inertia.any() else None,
-    )
+            if held is not None and body == "stage":
+                points.append(held.end(model, tuple(place), problem.body))
+            else:
+                points.append(tuple(units.shown(np.array(place), "m").tolist()))
+        _add(model, problem, flexure, points)
+
+    def places(body: str) -> list[tuple[float, ...]]:
+        distinct = dict.fromkeys(ends[body])
+        return [tuple(units.shown(np.array(place), "m").tolist()) for place in distinct]
+
+    if held is None:
+        inertia = problem.inertia
+        centre = tuple(problem.centre.tolist())
+        model.body(
+            [centre, *(place for place in places("stage") if place != centre)],
+            name="stage",
+            mass=problem.mass or None,
+            inertia=inertia[np.triu_indices(3)].tolist() if inertia.any() else None,
+        )
     for name, _ in bodies:
-        model.body(_distinct(ends[name]), name=name)
+        model.body(places(name), name=name)
     if ends["ground"]:
-        model.fix(*_distinct(ends["ground"]))
+        model.fix(*places("ground"))
     names = declared(problem.freedom)
-    if names:
-        model.independent("stage", *names)
+    if names and (held is None or analyse(model).under_constrained):
+        stage = "stage" if held is None else model.handle(*held.nodes)
+        model.independent(stage, *names)
     return with_axes(model)
 
 
@@ -175,37 +195,31 @@ def with_axes(model: Model) -> Model:
 
     How a rigid link lies about itself does not matter, but readers of a deck ask for it.
     """
-    data = model.data
-    arrays, places = data.arrays, model.positions
-    vectors = np.array(arrays.element_vector)
-    nodes = model.element_nodes
+    places, nodes, given = model.positions, model.element_nodes, model.element_vectors
+    vectors: dict[int, tuple[float, float, float]] = {}
     for k, keyword in enumerate(model.element_keywords):
-        if keyword == "BEAM" and not vectors[:, k].any():
-            first, last = places[nodes[k, 0]], places[nodes[k, 2]]
-            vectors[:, k] = np.eye(3)["xyz".index(across(np.array((first, last))))]
-    vectors = np.asfortranarray(vectors)
-    return Model.from_data(replace(data, arrays=arrays._replace(element_vector=vectors)))
+        if keyword == "BEAM" and not given[k].any():
+            axis = across(places[nodes[k, [0, 2]]])
+            vectors[int(model.element_numbers[k])] = AXES[axis]
+    return Model.from_data(with_vectors(model.data, vectors))
 
 
-def _distinct(
-    places: Iterable[tuple[float, ...]], besides: FloatArray | None = None
-) -> list[tuple[float, ...]]:
-    known = dict.fromkeys(places)
-    if besides is not None:
-        known.pop(tuple(besides.tolist()), None)
-    return list(known)
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
-def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
-    """A flexure of a layout."""
-    p, q = (tuple(end) for end in flexure.ends.tolist())
+def _add(model: Model, problem: Problem, flexure: Flexure, ends: Sequence[Point]) -> None:
+    """A flexure of a layout, between two points."""
+    p, q = ends
+    units = model.data.units
     name, material = flexure.name, problem.material
-    sizes = {"thickness": flexure.thickness, "breadth": flexure.width, "material": material}
+    thickness, breadth = (units.shown(each, "m") for each in (flexure.thickness, flexure.width))
+    sizes = {"thickness": thickness, "breadth": breadth, "material": material}
     if flexure.kind == "wire":
-        model.wire(p, q, across(flexure.ends), name, thickness=flexure.diameter, material=material)
+        diameter = units.shown(flexure.diameter, "m")
+        model.wire(p, q, across(flexure.ends), name, thickness=diameter, material=material)
     elif flexure.kind == "folded sheet":
-        fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
-        model.folded_sheet(p, fold, q, along, name, **sizes)
+        fold = tuple(units.shown(flexure.via[0], "m").tolist())
+        model.folded_sheet(p, fold, q, tuple(flexure.axes[0].tolist()), name, **sizes)
     else:
         sheet = model.sheet(p, q, tuple(width_of(flexure).tolist()), name=name, **sizes)
         if flexure.kind == "waisted sheet":
@@ -267,7 +281,8 @@ def flexures_of(
             found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
     order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
     found.sort(key=lambda each: (order.index(each[1].between), each[0]))
-    names = named(flexure.kind for _, flexure in found)
+    taken = {part_name(name) for name in problem.base.element_names} if problem.base else set()
+    names = named((flexure.kind for _, flexure in found), taken)
     flexures = tuple(
         replace(flexure, name=name) for name, (_, flexure) in zip(names, found, strict=True)
     )
@@ -339,12 +354,14 @@ def in_a_row(items: Sequence[str]) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def named(kinds: Iterable[str], taken: Mapping[str, int] | None = None) -> list[str]:
-    """Names of flexures of some kinds, such as "wire 1": each with its number among its kind."""
-    counts = Counter(taken or {})
+def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
+    """Names of flexures of some kinds, such as "wire 1", none of which is taken."""
+    counts: Counter[str] = Counter()
     made = []
     for kind in kinds:
         counts[kind] += 1
+        while f"{kind} {counts[kind]}" in taken:
+            counts[kind] += 1
         made.append(f"{kind} {counts[kind]}")
     return made
 
