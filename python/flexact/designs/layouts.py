@@ -18,6 +18,7 @@ from ..model.model import Model
 from ..util.records import Frozen
 from ..util.text import number_in_words
 from .problem import KINDS, Problem
+from .rods import add_notch, add_strut, form_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,13 +30,15 @@ class Flexure(Frozen):
         kind: Of `flexact.designs.problem.KINDS`.
         between: The bodies at its two ends: "stage", "ground", or a body between.
         ends: (2, 3) middles of its clamped ends, in the order of `between` [m].
-        diameter: Of a wire; 0 otherwise [m].
-        width: Breadth of a sheet; 0 otherwise [m].
+        diameter: Of a wire, of the necks of a strut; 0 otherwise [m].
+        width: Breadth of a sheet or a notch, outer diameter of a bellows; 0 otherwise [m].
         thickness: Of a sheet or at the thinnest of a notch; 0 otherwise [m].
-        normal: (3,) unit vector across a sheet; zeros otherwise.
+        normal: (3,) unit vector across a sheet, or across a rod and the axes of its notches; zeros
+            otherwise.
         via: (n, 3) places between the ends: of a folded sheet its fold, of a waisted sheet its
-            waist, of a rod its notches [m].
-        axes: (n, 3) unit vectors: of a folded sheet along its fold, of a rod those of its notches.
+            waist, of a rod its notches, of a strut its necks [m].
+        axes: (n, 3) unit vectors: of a folded sheet along its fold, of a rod those of its notches;
+            zeros of waists and necks.
     """
 
     name: str
@@ -48,6 +51,11 @@ class Flexure(Frozen):
     normal: FloatArray = field(default_factory=lambda: np.zeros(3))
     via: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     axes: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+
+    @property
+    def form(self) -> str:
+        """Its kind, and which of notch, rod and strut a notch is."""
+        return form_of(self.kind, self.via, self.axes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,6 +141,8 @@ def model_of(
         bodies: Between stage and ground: names, and further points, (n, 3) [m].
     """
     model = Model(name=problem.title)
+    # Before flexures, whose notches may be there too.
+    centre = model.node(problem.centre)
     ends: dict[str, list[tuple[float, ...]]] = {"stage": [], "ground": []}
     for name, points in bodies:
         ends[name] = [tuple(point) for point in points.tolist()]
@@ -142,7 +152,7 @@ def model_of(
             ends[body].append(tuple(place))
     inertia = problem.inertia
     model.body(
-        [tuple(problem.centre.tolist()), *_distinct(ends["stage"], problem.centre)],
+        [centre, *_distinct(ends["stage"], problem.centre)],
         name="stage",
         mass=problem.mass or None,
         inertia=inertia[np.triu_indices(3)].tolist() if inertia.any() else None,
@@ -176,6 +186,17 @@ def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
     elif flexure.kind == "folded sheet":
         fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
         model.folded_sheet(p, fold, q, along, name, **sizes)
+    elif flexure.kind == "bellows":
+        model.bellows(p, q, name, diameter=flexure.width, material=material)
+    elif flexure.kind == "notch":
+        least = problem.limits.length[0]
+        if flexure.form == "strut":
+            add_strut(model, name, flexure.ends, flexure.diameter, least, material)
+        else:
+            add_notch(
+                *(model, name, flexure.ends, flexure.via, flexure.axes[0]),
+                *(flexure.width, flexure.thickness, least, material),
+            )
     else:
         width = np.cross(flexure.normal, flexure.ends[1] - flexure.ends[0])
         width = snapped(width / np.linalg.norm(width), 1.0)
@@ -228,21 +249,23 @@ def verified(problem: Problem, model: Model, body: str = "stage") -> Verified:
 # Words ----------------------------------------------------------------------------------
 
 
+#: Forms of flexures in the order in which they are told, those that fill up last.
+_FORMS = (*KINDS[1:4], "notch", "rod", "bellows", "strut", "wire")
+
+
 def counted(flexures: Sequence[Flexure]) -> str:
     """What kinds of flexures a layout has, such as "a sheet and two wires"."""
-    counts = Counter(flexure.kind for flexure in flexures)
-    ordered = sorted(counts, key=lambda kind: (kind == "wire", KINDS.index(kind)))
-    return in_a_row([_many(counts[kind], kind) for kind in ordered])
+    counts = Counter(flexure.form for flexure in flexures)
+    return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
 
 
-def _many(count: int, kind: str) -> str:
-    if count == 1:
-        return f"a {kind}"
-    return f"{number_in_words(count)} {kind if kind == 'bellows' else _plural(kind)}"
+def _many(count: int, form: str) -> str:
+    made = f"a {form}" if count == 1 else f"{number_in_words(count)} {_plural(form)}"
+    return f"{made} with two notches" if form == "rod" else made
 
 
-def _plural(kind: str) -> str:
-    return f"{kind}es" if kind.endswith("ch") else f"{kind}s"
+def _plural(form: str) -> str:
+    return form if form == "bellows" else f"{form}es" if form.endswith("ch") else f"{form}s"
 
 
 def in_a_row(items: Sequence[str]) -> str:

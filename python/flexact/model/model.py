@@ -22,7 +22,7 @@ from ..util.quantities import Quantity
 from ..util.records import read_only
 from ..util.text import in_short
 from ..util.units import METRES, Units, units_of
-from . import assemblies, copies, edits, joints, members
+from . import assemblies, bellows, copies, edits, joints, members
 from .arguments import (
     Direction,
     PartLike,
@@ -908,6 +908,39 @@ class Model:
             name: What it is called: its parts are "name notch 1", ..., "name bar".
         """
         return joints.add_strut(self._change(), p, q, ends, name)
+
+    def bellows(
+        self,
+        p: Point,
+        q: Point,
+        name: str = "",
+        *,
+        diameter: Quantity,
+        thickness: Quantity | None = None,
+        depth: Quantity | None = None,
+        pitch: Quantity | None = None,
+        material: MaterialLike = "steel",
+    ) -> Element:
+        """A metal bellows: its twist is held, everything else is released.
+
+        It is a beam with the stiffness along, in bending and in twist, and the mass, of its
+        convolutions, by the formulas of `flexact.model.bellows`; it is drawn as its outer cylinder.
+
+        Args:
+            p: One end: a point, its name, or its place (x, y, z) [m].
+            q: The other end.
+            name: What it is called.
+            diameter: The outer one [m].
+            thickness: Of the wall [m]; by default a thirtieth of the depth.
+            depth: Of the convolutions [m]; by default 0.15 of the diameter.
+            pitch: From one convolution to the next [m]; by default as much as they are deep.
+            material: Steel by default, see `wire`.
+
+        Raises:
+            ModelError: something of it is wrong; its text begins with the name of the bellows.
+        """
+        sizes = {"diameter": diameter, "thickness": thickness, "depth": depth, "pitch": pitch}
+        return bellows.add_bellows(self._change(), p, q, name, sizes, material)
 
     def bipod(
         self,
