@@ -111,7 +111,7 @@ def scaled(problem: Problem) -> Scaled:
     order = np.argsort([not np.array_equal(each, np.eye(3)) for each in same], kind="stable")
     stage, ground, keep_out, intermediate = (_turned(turn, region) for region in places)
     return Scaled(
-        *(turn, centre, size, _rounded(canonical(turned_screws(turn, twists))), stage, ground),
+        *(turn, centre, size, _clean(canonical(turned_screws(turn, twists))), stage, ground),
         *(keep_out.boxes, intermediate.boxes, same[order]),
     )
 
@@ -132,6 +132,11 @@ def _turned(turn: FloatArray, region: Region) -> Region:
 
 def _rounded(values: FloatArray) -> FloatArray:
     return np.round(values, _DIGITS + 3) + 0.0
+
+
+def _clean(rows: FloatArray) -> FloatArray:
+    """Rows without what rounding made of zeros."""
+    return np.where(np.abs(rows) < 1.0e-14, 0.0, rows)
 
 
 def _key(

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,8 +18,10 @@ from ..core.arrays import FloatArray
 from ..model.model import Model
 from ..util.records import Frozen
 from ..util.text import number_in_words
+from .frame import Scaled
 from .problem import KINDS, Problem
-from .rods import add_notch, add_strut, form_of
+from .rods import SHOWN_AS, add_notch, add_strut, form_of
+from .search import Arrangement
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +76,7 @@ class Layout(Frozen):
             point is the centre. The wanted motions are declared at the stage.
         over_constrained: How many self-stresses it has.
         internal: How many declared motions are not of the stage: of folds, of rods between necks.
+        is_proven: Whether the rank, on which the verdict rests, is proven for the deck's decimals.
         freedom_error: Sine of the largest angle between its freedom and the wanted one.
         symmetry: Order of the group of isometries that keep its material, 1 for none.
         alike: How many images under the isometries of the problem it stands for.
@@ -88,10 +92,19 @@ class Layout(Frozen):
     model: Model
     over_constrained: int
     internal: int
+    is_proven: bool
     freedom_error: float
     symmetry: int
     alike: int
     scores: dict[str, float]
+
+    def python(self) -> str:
+        """A script that makes the model."""
+        return script_of(self)
+
+    def __repr__(self) -> str:
+        """Its number, and what it is of."""
+        return f"<layout {self.number}: {self.what}>"
 
 
 #: Coordinates of the stage, in the order of twists about the centre, (w, v).
@@ -198,14 +211,66 @@ def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
                 *(flexure.width, flexure.thickness, least, material),
             )
     else:
-        width = np.cross(flexure.normal, flexure.ends[1] - flexure.ends[0])
-        width = snapped(width / np.linalg.norm(width), 1.0)
-        sheet = model.sheet(p, q, tuple(width.tolist()), name=name, **sizes)
+        sheet = model.sheet(p, q, tuple(width_of(flexure).tolist()), name=name, **sizes)
         if flexure.kind == "waisted sheet":
-            at_p = np.linalg.norm(flexure.via[0] - flexure.ends[0]) < np.linalg.norm(
-                flexure.via[0] - flexure.ends[1]
+            model.release(sheet, "in-plane bending", at=waist_of(flexure))
+
+
+def width_of(flexure: Flexure) -> FloatArray:
+    """(3,) the direction of a sheet from edge to edge."""
+    width = np.cross(flexure.normal, flexure.ends[1] - flexure.ends[0])
+    return snapped(width / np.linalg.norm(width), 1.0)
+
+
+def waist_of(flexure: Flexure) -> str:
+    """At which end of a sheet its waist is, "p" or "q"."""
+    first, last = np.linalg.norm(flexure.ends - flexure.via[0], axis=1)
+    return "p" if first < last else "q"
+
+
+def middle_of(pair: tuple[float, float]) -> float:
+    """The geometric mean of two limits, with which layouts begin."""
+    return pair[0] if pair[0] == pair[1] else math.sqrt(pair[0] * pair[1])
+
+
+def flexures_of(
+    problem: Problem, frame: Scaled, arrangement: Arrangement
+) -> tuple[tuple[Flexure, ...], tuple[tuple[str, FloatArray], ...]]:
+    """Flexures and bodies of an arrangement, with true lengths, places as one would type them."""
+    size, limits = problem.size, problem.limits
+    thickness, diameter = (
+        math.sqrt(low * high) for low, high in (limits.thickness, limits.diameter)
+    )
+    found: list[tuple[tuple[object, ...], Flexure]] = []
+
+    def placed(places: FloatArray) -> FloatArray:
+        return snapped(frame.back(places), size)
+
+    for part in arrangement.parts:
+        for candidates, k in part.found.chosen.members:
+            form = candidates.kind
+            kind = SHOWN_AS.get(form, form)
+            is_round = form in ("wire", "strut")
+            is_flat = not is_round and form != "bellows"
+            flexure = Flexure(
+                *(form, kind, part.between, placed(candidates.ends[k])),
+                snapped(np.array(diameter), size).item() if is_round else 0.0,
+                snapped(candidates.width[k] * size, size).item(),
+                snapped(np.array(thickness), size).item() if is_flat else 0.0,
+                snapped(frame.turned_back(candidates.normal[k]), 1.0),
+                placed(candidates.via[k]),
+                snapped(frame.turned_back(candidates.axes[k]), 1.0),
             )
-            model.release(sheet, "in-plane bending", at="p" if at_p else "q")
+            # Within a part those that hold most come first, then by their places in the frame.
+            place = np.round(candidates.ends[k].ravel(), 6) + 0.0
+            found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
+    order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
+    found.sort(key=lambda each: (order.index(each[1].between), each[0]))
+    names = named(flexure.form for _, flexure in found)
+    flexures = tuple(
+        replace(flexure, name=name) for name, (_, flexure) in zip(names, found, strict=True)
+    )
+    return flexures, tuple((name, placed(points)) for name, points in arrangement.bodies)
 
 
 class Verified(NamedTuple):
@@ -260,12 +325,13 @@ def counted(flexures: Sequence[Flexure]) -> str:
 
 
 def _many(count: int, form: str) -> str:
-    made = f"a {form}" if count == 1 else f"{number_in_words(count)} {_plural(form)}"
+    made = f"a {form}" if count == 1 else f"{number_in_words(count)} {plural(form)}"
     return f"{made} with two notches" if form == "rod" else made
 
 
-def _plural(form: str) -> str:
-    return form if form == "bellows" else f"{form}es" if form.endswith("ch") else f"{form}s"
+def plural(kind: str) -> str:
+    """Several flexures of a kind."""
+    return kind if kind == "bellows" else f"{kind}es" if kind.endswith("ch") else f"{kind}s"
 
 
 def in_a_row(items: Sequence[str]) -> str:
@@ -282,3 +348,62 @@ def named(kinds: Iterable[str], taken: Mapping[str, int] | None = None) -> list[
         counts[kind] += 1
         made.append(f"{kind} {counts[kind]}")
     return made
+
+
+# As a script ----------------------------------------------------------------------------
+
+
+def script_of(layout: Layout) -> str:
+    """A script that makes the model of a layout."""
+    problem, material = layout.problem, layout.problem.material
+    values = {
+        key: getattr(material, key)
+        for key in ("name", "E", "G", "density", "strength", "fatigue", "expansion")
+        if getattr(material, key) not in (None, "")
+    }
+    made = ", ".join(f"{key}={value!r}" for key, value in values.items())
+    lines = [
+        "import flexact",
+        "",
+        f"material = flexact.Material({made})",
+        f"model = flexact.Model(name={problem.title!r})",
+    ]
+    ends: dict[str, list[str]] = {"stage": [], "ground": []}
+    ends |= {name: [_tuple(point) for point in points] for name, points in layout.bodies}
+    for flexure in layout.flexures:
+        lines += _written(flexure)
+        for body, place in zip(flexure.between, flexure.ends, strict=True):
+            ends[body].append(_tuple(place))
+    stage = ", ".join((_tuple(problem.centre), *dict.fromkeys(ends["stage"])))
+    mass = f", mass={problem.mass!r}" if problem.mass else ""
+    if problem.inertia.any():
+        mass += f", inertia={tuple(problem.inertia[np.triu_indices(3)].tolist())!r}"
+    lines.append(f'model.body([{stage}], name="stage"{mass})')
+    for name, _ in layout.bodies:
+        lines.append(f"model.body([{', '.join(dict.fromkeys(ends[name]))}], name={name!r})")
+    lines.append(f"model.fix({', '.join(dict.fromkeys(ends['ground']))})")
+    names = declared(problem.freedom)
+    if names:
+        lines.append(f'model.independent("stage", {", ".join(map(repr, names))})')
+    return "\n".join((*lines, "print(flexact.analyse(model).describe())", ""))
+
+
+def _tuple(place: FloatArray) -> str:
+    return f"({', '.join(map(repr, place.tolist()))})"
+
+
+def _written(flexure: Flexure) -> list[str]:
+    """The lines of a script that make a flexure."""
+    p, q = map(_tuple, flexure.ends)
+    name, sizes = f"name={flexure.name!r}", ", material=material"
+    if flexure.kind == "wire":
+        return [f"model.wire({p}, {q}, {name}, thickness={flexure.diameter!r}{sizes})"]
+    sizes = f", thickness={flexure.thickness!r}, breadth={flexure.width!r}{sizes}"
+    if flexure.kind == "folded sheet":
+        fold, along = _tuple(flexure.via[0]), _tuple(flexure.axes[0])
+        return [f"model.folded_sheet({p}, {fold}, {q}, {along}, {name}{sizes})"]
+    lines = [f"model.sheet({p}, {q}, {_tuple(width_of(flexure))}, {name}{sizes})"]
+    if flexure.kind == "waisted sheet":
+        end = waist_of(flexure)
+        lines.append(f'model.release({flexure.name!r}, "in-plane bending", at="{end}")')
+    return lines
