@@ -20,7 +20,7 @@ from ..util.records import Frozen
 from ..util.text import number_in_words
 from .frame import Scaled
 from .problem import KINDS, Problem
-from .rods import SHOWN_AS, add_notch, add_strut, form_of
+from .rods import SHOWN_AS, Call, form_of, notch_calls, strut_calls
 from .search import Arrangement
 
 
@@ -199,21 +199,26 @@ def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
     elif flexure.kind == "folded sheet":
         fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
         model.folded_sheet(p, fold, q, along, name, **sizes)
-    elif flexure.kind == "bellows":
-        model.bellows(p, q, name, diameter=flexure.width, material=material)
-    elif flexure.kind == "notch":
-        least = problem.limits.length[0]
-        if flexure.form == "strut":
-            add_strut(model, name, flexure.ends, flexure.diameter, least, material)
-        else:
-            add_notch(
-                *(model, name, flexure.ends, flexure.via, flexure.axes[0]),
-                *(flexure.width, flexure.thickness, least, material),
-            )
+    elif flexure.kind in ("notch", "bellows"):
+        for method, given, named_ in _calls(problem, flexure):
+            made = named_ if method == "independent" else {**named_, "material": material}
+            getattr(model, method)(*given, **made)
     else:
         sheet = model.sheet(p, q, tuple(width_of(flexure).tolist()), name=name, **sizes)
         if flexure.kind == "waisted sheet":
             model.release(sheet, "in-plane bending", at=waist_of(flexure))
+
+
+def _calls(problem: Problem, flexure: Flexure) -> Iterable[Call]:
+    """Calls that make a notch, a rod, a strut or a bellows."""
+    p, q = (tuple(end) for end in flexure.ends.tolist())
+    name, least = flexure.name, problem.limits.length[0]
+    if flexure.form == "bellows":
+        return [Call("bellows", (p, q, name), {"diameter": flexure.width})]
+    if flexure.form == "strut":
+        return strut_calls(name, flexure.ends, flexure.diameter, least)
+    sizes = flexure.width, flexure.thickness, least
+    return notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
 
 
 def width_of(flexure: Flexure) -> FloatArray:
@@ -367,14 +372,17 @@ def script_of(layout: Layout) -> str:
         "",
         f"material = flexact.Material({made})",
         f"model = flexact.Model(name={problem.title!r})",
+        f"centre = model.node({_tuple(problem.centre)})",
     ]
     ends: dict[str, list[str]] = {"stage": [], "ground": []}
     ends |= {name: [_tuple(point) for point in points] for name, points in layout.bodies}
     for flexure in layout.flexures:
-        lines += _written(flexure)
+        lines += _written(problem, flexure)
         for body, place in zip(flexure.between, flexure.ends, strict=True):
             ends[body].append(_tuple(place))
-    stage = ", ".join((_tuple(problem.centre), *dict.fromkeys(ends["stage"])))
+    own = dict.fromkeys(ends["stage"])
+    own.pop(_tuple(problem.centre), None)
+    stage = ", ".join(("centre", *own))
     mass = f", mass={problem.mass!r}" if problem.mass else ""
     if problem.inertia.any():
         mass += f", inertia={tuple(problem.inertia[np.triu_indices(3)].tolist())!r}"
@@ -392,12 +400,20 @@ def _tuple(place: FloatArray) -> str:
     return f"({', '.join(map(repr, place.tolist()))})"
 
 
-def _written(flexure: Flexure) -> list[str]:
+def _written(problem: Problem, flexure: Flexure) -> list[str]:
     """The lines of a script that make a flexure."""
     p, q = map(_tuple, flexure.ends)
     name, sizes = f"name={flexure.name!r}", ", material=material"
     if flexure.kind == "wire":
         return [f"model.wire({p}, {q}, {name}, thickness={flexure.diameter!r}{sizes})"]
+    if flexure.kind in ("notch", "bellows"):
+        made = []
+        for method, given, named_ in _calls(problem, flexure):
+            words = [repr(each) for each in given]
+            words += [f"{key}={value!r}" for key, value in named_.items()]
+            words += ["material=material"] if method != "independent" else []
+            made.append(f"model.{method}({', '.join(words)})")
+        return made
     sizes = f", thickness={flexure.thickness!r}, breadth={flexure.width!r}{sizes}"
     if flexure.kind == "folded sheet":
         fold, along = _tuple(flexure.via[0]), _tuple(flexure.axes[0])

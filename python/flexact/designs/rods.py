@@ -18,7 +18,8 @@ What flexures hold is as stiff as all their pieces in a row, with what they rele
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,7 +28,6 @@ from ..core.elements import kind_of
 from ..model.bellows import DEPTH, PITCH, WALL, bellows_make
 from ..model.data import CrossSection
 from ..model.draft import Shape
-from ..model.model import Model
 from ..model.notches import NotchContour
 from ..model.sections import Material, stiffness
 from ..util.rotations import unit
@@ -454,6 +454,19 @@ def form_of(kind: str, via: FloatArray, axes: FloatArray) -> str:
     return "rod" if axes.any() else "strut"
 
 
+def outer_sizes(
+    form: str, diameter: float, width: float, thickness: float, least: float
+) -> tuple[float, float, float]:
+    """Diameter, breadth and thickness of the material of a flexure where it is largest."""
+    if form == "strut":
+        return _STRUT * diameter, 0.0, 0.0
+    if form == "bellows":
+        return width, 0.0, 0.0
+    if form in ("notch", "rod"):
+        return 0.0, width, height_of(thickness, least)
+    return diameter, width, thickness
+
+
 def turns_of(via: FloatArray, axes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(m, 3) points and unit vectors of all rotations that notches and necks release.
 
@@ -467,8 +480,21 @@ def turns_of(via: FloatArray, axes: FloatArray) -> tuple[FloatArray, FloatArray]
     return np.concatenate(points), np.concatenate(ways)
 
 
-def add_notch(
-    model: Model,
+class Call(NamedTuple):
+    """A call of a method of a model, to which the material is added.
+
+    Attributes:
+        method: Of `flexact.Model`.
+        given: Without a name.
+        named: By name.
+    """
+
+    method: str
+    given: tuple[Any, ...]
+    named: dict[str, Any]
+
+
+def notch_calls(
     name: str,
     ends: FloatArray,
     via: FloatArray,
@@ -476,12 +502,10 @@ def add_notch(
     breadth: float,
     thickness: float,
     least: float,
-    material: Material,
-) -> None:
-    """A rod with one notch or two: bars, and notches with their contour between them.
+) -> Iterator[Call]:
+    """What makes a rod with one notch or two: bars, and notches with their contour between them.
 
     Args:
-        model: To which it is added.
         name: What it is called; its parts are "name, notch 1", "name, bar 1", ...
         ends: (2, 3) [m].
         via: (1 or 2, 3) middles of the notches, from the first end to the second [m].
@@ -489,67 +513,50 @@ def add_notch(
         breadth: Along the axis [m].
         thickness: Of the notches [m].
         least: Least length of flexures, to which the radius is adapted [m].
-        material: Of all of it.
     """
-    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    length = float(np.linalg.norm(ends[1] - ends[0]))
+    along = (ends[1] - ends[0]) / length
     reach, height = reach_of(thickness, least), height_of(thickness, least)
-    deep = tuple(np.cross(axis, along).tolist())
     at = [ends[0]]
     for middle in via:
         at += [middle - reach * along, middle + reach * along]
     at.append(ends[1])
-    length = np.linalg.norm(ends[1] - ends[0])
     is_bar = [np.linalg.norm(at[k + 1] - at[k]) > _SAME * length for k in range(0, len(at), 2)]
     # Without a bar the notch begins at the end itself.
     at[1] = at[1] if is_bar[0] else at[0]
     at[-2] = at[-2] if is_bar[-1] else at[-1]
     points = [tuple(point.tolist()) for point in at]
+    deep, way = tuple(np.cross(axis, along).tolist()), tuple(axis.tolist())
     for k, there in enumerate(is_bar):
         if there:
-            model.beam(
-                *(points[2 * k], points[2 * k + 1], deep),
-                name=f"{name}, bar {sum(is_bar[: k + 1])}",
-                section=(height, breadth),
-                material=material,
-            )
+            own = f"{name}, bar {sum(is_bar[: k + 1])}"
+            section = {"name": own, "section": (height, breadth)}
+            yield Call("beam", (points[2 * k], points[2 * k + 1], deep), section)
+    sizes: dict[str, Any] = {"contour": "circular", "thickness": thickness, "breadth": breadth}
+    sizes["radius"] = radius_of(thickness, least)
     for k in range(len(via)):
-        model.notch(
-            *(points[2 * k + 1], tuple(axis.tolist()), points[2 * k + 2]),
-            name=name if len(via) == 1 else f"{name}, notch {k + 1}",
-            contour="circular",
-            thickness=thickness,
-            breadth=breadth,
-            radius=radius_of(thickness, least),
-            material=material,
-        )
+        own = name if len(via) == 1 else f"{name}, notch {k + 1}"
+        yield Call("notch", (points[2 * k + 1], way, points[2 * k + 2], own), sizes)
 
 
-def add_strut(
-    model: Model,
-    name: str,
-    ends: FloatArray,
-    diameter: float,
-    least: float,
-    material: Material,
-) -> None:
-    """A strut: a bar between two necks, whose turning about itself is declared.
+def strut_calls(name: str, ends: FloatArray, diameter: float, least: float) -> Iterator[Call]:
+    """What makes a strut: a bar between two necks, whose turning about itself is declared.
+
+    Each neck twists, and bends where it meets the bar: there the strut turns in every way.
 
     Args:
-        model: To which it is added.
         name: What it is called; its parts are "name, neck 1", "name, bar" and "name, neck 2".
         ends: (2, 3) [m].
         diameter: Of the necks [m].
         least: Least length of flexures, to which that of the necks is adapted [m].
-        material: Of all of it.
     """
     along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
     neck = neck_of(diameter, least)
     at = (ends[0], ends[0] + neck * along, ends[1] - neck * along, ends[1])
     p, a, b, q = (tuple(point.tolist()) for point in at)
-    # Each neck twists, and bends where it meets the bar: there the strut turns in every way.
-    first = model.beam(
-        *(p, a, None, (4, 6), f"{name}, neck 1"), section=diameter, material=material
-    )
-    model.beam(a, b, name=f"{name}, bar", section=_STRUT * diameter, material=material)
-    model.beam(*(b, q, None, (2, 3, 5), f"{name}, neck 2"), section=diameter, material=material)
-    model.independent(first, "twist")
+    y = tuple(np.eye(3)[np.round(np.abs(along), 6).argmin()].tolist())
+    first = f"{name}, neck 1"
+    yield Call("beam", (p, a, y, (4, 6), first), {"section": diameter})
+    yield Call("beam", (a, b, y), {"name": f"{name}, bar", "section": _STRUT * diameter})
+    yield Call("beam", (b, q, y, (2, 3, 5), f"{name}, neck 2"), {"section": diameter})
+    yield Call("independent", (first, "twist"), {})
