@@ -18,7 +18,7 @@ from ..core.arrays import FloatArray
 from ..model.model import Model
 from ..util.records import Frozen
 from ..util.text import number_in_words
-from .frame import Scaled
+from .frame import Scaled, snapped
 from .problem import KINDS, Problem
 from .rods import SHOWN_AS, Call, form_of, notch_calls, strut_calls
 from .search import Arrangement
@@ -109,20 +109,6 @@ class Layout(Frozen):
 
 #: Coordinates of the stage, in the order of twists about the centre, (w, v).
 COORDINATES = ("rx", "ry", "rz", "x", "y", "z")
-#: What a place is off a short decimal by rounding, in parts of itself or of the size.
-_ROUNDING = 1.0e-13
-
-
-def snapped(places: FloatArray, size: float) -> FloatArray:
-    """Places as they would be typed: what rounding made of short decimals is taken back."""
-    flat = np.asarray(places, float).ravel()
-    made = []
-    for value in flat.tolist():
-        short = float(f"{value:.9g}") if abs(value) > _ROUNDING * size else 0.0
-        is_near = abs(short - value) <= _ROUNDING * max(abs(value), size)
-        made.append(short if is_near else float(f"{value:.15g}"))
-    return np.array(made).reshape(np.shape(places)) + 0.0
-
 
 def declared(freedom: ScrewSpace) -> tuple[str, ...]:
     """Coordinates of the stage that tell its motions apart, as many as there are.

@@ -50,6 +50,7 @@ from .candidates import (
     reached,
     with_special,
 )
+from .frame import snapped
 from .geometry import TINY
 
 #: What candidates of these kinds are to users, see `flexact.designs.problem.KINDS`.
@@ -122,7 +123,10 @@ def _bar(shape: Shape, starts: FloatArray, ends: FloatArray, material: Material)
 
 
 def _notched(contour: NotchContour, at: FloatArray) -> _Piece:
-    return _Piece(at, np.broadcast_to(contour.compliance, (len(at), 6)))
+    compliance = np.array(contour.compliance)
+    # Between bars that are as broad as it, and much thicker, it cannot warp.
+    compliance[3] = contour.held_torsion
+    return _Piece(at, np.broadcast_to(compliance, (len(at), 6)))
 
 
 def _in_a_row(pieces: list[_Piece]) -> FloatArray:
@@ -480,6 +484,11 @@ def turns_of(via: FloatArray, axes: FloatArray) -> tuple[FloatArray, FloatArray]
     return np.concatenate(points), np.concatenate(ways)
 
 
+def _typed(size: float) -> float:
+    """A size as one would type it."""
+    return float(snapped(np.array(size), size))
+
+
 class Call(NamedTuple):
     """A call of a method of a model, to which the material is added.
 
@@ -525,15 +534,15 @@ def notch_calls(
     # Without a bar the notch begins at the end itself.
     at[1] = at[1] if is_bar[0] else at[0]
     at[-2] = at[-2] if is_bar[-1] else at[-1]
-    points = [tuple(point.tolist()) for point in at]
-    deep, way = tuple(np.cross(axis, along).tolist()), tuple(axis.tolist())
+    points = [tuple(point.tolist()) for point in snapped(np.array(at), length)]
+    deep, way = tuple(snapped(np.cross(axis, along), 1.0).tolist()), tuple(axis.tolist())
     for k, there in enumerate(is_bar):
         if there:
             own = f"{name}, bar {sum(is_bar[: k + 1])}"
-            section = {"name": own, "section": (height, breadth)}
+            section = {"name": own, "section": (_typed(height), breadth)}
             yield Call("beam", (points[2 * k], points[2 * k + 1], deep), section)
     sizes: dict[str, Any] = {"contour": "circular", "thickness": thickness, "breadth": breadth}
-    sizes["radius"] = radius_of(thickness, least)
+    sizes |= {"radius": _typed(radius_of(thickness, least)), "warping": True}
     for k in range(len(via)):
         own = name if len(via) == 1 else f"{name}, notch {k + 1}"
         yield Call("notch", (points[2 * k + 1], way, points[2 * k + 2], own), sizes)
@@ -553,10 +562,10 @@ def strut_calls(name: str, ends: FloatArray, diameter: float, least: float) -> I
     along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
     neck = neck_of(diameter, least)
     at = (ends[0], ends[0] + neck * along, ends[1] - neck * along, ends[1])
-    p, a, b, q = (tuple(point.tolist()) for point in at)
+    p, a, b, q = (tuple(point) for point in snapped(np.array(at), 1.0).tolist())
     y = tuple(np.eye(3)[np.round(np.abs(along), 6).argmin()].tolist())
     first = f"{name}, neck 1"
     yield Call("beam", (p, a, y, (4, 6), first), {"section": diameter})
-    yield Call("beam", (a, b, y), {"name": f"{name}, bar", "section": _STRUT * diameter})
+    yield Call("beam", (a, b, y), {"name": f"{name}, bar", "section": _typed(_STRUT * diameter)})
     yield Call("beam", (b, q, y, (2, 3, 5), f"{name}, neck 2"), {"section": diameter})
     yield Call("independent", (first, "twist"), {})

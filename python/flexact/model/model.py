@@ -394,6 +394,7 @@ class Model:
         radius: Quantity | None = None,
         length: Quantity | None = None,
         material: MaterialLike | None = None,
+        warping: bool = False,
     ) -> Notch:
         """A notch at p: all is held but the bending about its axis.
 
@@ -420,6 +421,8 @@ class Model:
             radius: Of a circular contour, or of the fillets [m].
             length: Of any other than a circular contour [m].
             material: Steel by default, see `wire`.
+            warping: Whether its ends cannot warp, which makes a broad notch much stiffer in torsion,
+                see `NotchContour.held_torsion`.
 
         Returns:
             The notch, with its points p and q; with a contour it has `pieces`.
@@ -435,7 +438,7 @@ class Model:
                 members.require_no_contour(sizes, material)
                 return members.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
             made = members.contour_of(draft, contour, sizes, material, stiffness)
-            return members.add_contour_notch(draft, p, axis, q, name, independent, made)
+            return members.add_contour_notch(draft, p, axis, q, name, independent, made, warping)
 
     def wire(
         self,
