@@ -50,8 +50,8 @@ from .search import (
 
 #: From how many first members the sets of the first recipe are sought, and those of the others.
 _STARTS, _FEWER = 12, 6
-#: Of each kind of layouts so many are scored at most, and of all.
-_OF_A_KIND, _SCORED = 4, 36
+#: Of each kind of layouts so many are scored at most.
+_OF_A_KIND = 10
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -237,18 +237,20 @@ class _Search:
         self.refused = 0
 
     def run(self) -> None:
-        """Find layouts of each kind, first the best of each."""
+        """Find layouts of each kind, first the best of each; the next ones where few are found."""
         waiting: list[tuple[str, Iterator[Arrangement]]] = []
+        count = self.problem.count
+        # Sets come with the stiffest first; by another score the best may be a later one.
+        most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
             iterator = iter(arrangements)
             if self.take(kind, iterator):
                 waiting.append((kind, iterator))
-            if self.scored >= _SCORED:
+            if len(self.kinds) >= count:
                 break
-        # Then the next ones of each kind, round by round.
         for _ in range(_OF_A_KIND - 1):
             for kind, iterator in waiting:
-                if self.scored < _SCORED:
+                if self.scored < most:
                     self.take(kind, iterator)
 
     @property

@@ -15,6 +15,8 @@ from ..core.arrays import BoolArray, FloatArray
 
 #: What is smaller is zero, of lengths in parts of the size of a problem.
 TINY = 1.0e-9
+#: By so much a place may be outside of a region for rounding.
+_SLACK = 1.0e-12
 
 
 def within(points: FloatArray, low: FloatArray, high: FloatArray) -> BoolArray:
@@ -34,9 +36,10 @@ def cut(
         high: (3,) of the box.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        one, other = (low - TINY - points) / directions, (high + TINY - points) / directions
+        one = (low - _SLACK - points) / directions
+        other = (high + _SLACK - points) / directions
     still = np.abs(directions) < TINY
-    inside = (points >= low - TINY) & (points <= high + TINY)
+    inside = (points >= low - _SLACK) & (points <= high + _SLACK)
     first = np.where(still, np.where(inside, -np.inf, np.inf), np.minimum(one, other))
     last = np.where(still, np.where(inside, np.inf, -np.inf), np.maximum(one, other))
     return first.max(axis=-1), last.min(axis=-1)

@@ -163,7 +163,24 @@ def model_of(
     names = declared(problem.freedom)
     if names:
         model.independent("stage", *names)
-    return model
+    return with_axes(model)
+
+
+def with_axes(model: Model) -> Model:
+    """The same with an axis across each link of a body, where rounding would choose one.
+
+    How a rigid link lies about itself does not matter, but readers of a deck ask for it.
+    """
+    data = model.data
+    arrays, places = data.arrays, model.positions
+    vectors = np.array(arrays.element_vector)
+    nodes = model.element_nodes
+    for k, keyword in enumerate(model.element_keywords):
+        if keyword == "BEAM" and not vectors[:, k].any():
+            first, last = places[nodes[k, 0]], places[nodes[k, 2]]
+            vectors[:, k] = np.eye(3)["xyz".index(across(np.array((first, last))))]
+    vectors = np.asfortranarray(vectors)
+    return Model.from_data(replace(data, arrays=arrays._replace(element_vector=vectors)))
 
 
 def _distinct(
@@ -181,7 +198,7 @@ def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
     name, material = flexure.name, problem.material
     sizes = {"thickness": flexure.thickness, "breadth": flexure.width, "material": material}
     if flexure.kind == "wire":
-        model.wire(p, q, name=name, thickness=flexure.diameter, material=material)
+        model.wire(p, q, across(flexure.ends), name, thickness=flexure.diameter, material=material)
     elif flexure.kind == "folded sheet":
         fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
         model.folded_sheet(p, fold, q, along, name, **sizes)
@@ -200,11 +217,19 @@ def _calls(problem: Problem, flexure: Flexure) -> Iterable[Call]:
     p, q = (tuple(end) for end in flexure.ends.tolist())
     name, least = flexure.name, problem.limits.length[0]
     if flexure.form == "bellows":
-        return [Call("bellows", (p, q, name), {"diameter": flexure.width})]
+        return [Call("bellows", (p, q, across(flexure.ends), name), {"diameter": flexure.width})]
     if flexure.form == "strut":
-        return strut_calls(name, flexure.ends, flexure.diameter, least)
+        hint = across(flexure.ends)
+        return strut_calls(name, flexure.ends, hint, flexure.diameter, least)
     sizes = flexure.width, flexure.thickness, least
     return notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
+
+
+def across(ends: FloatArray) -> str:
+    """The axis that is most nearly across a member with two ends, (2, 3); of equal ones the last."""
+    along = np.abs(ends[1] - ends[0])
+    along = np.round(along / along.max(), 6)
+    return "xyz"[2 - int(np.argmin(along[::-1]))]
 
 
 def width_of(flexure: Flexure) -> FloatArray:
@@ -391,7 +416,8 @@ def _written(problem: Problem, flexure: Flexure) -> list[str]:
     p, q = map(_tuple, flexure.ends)
     name, sizes = f"name={flexure.name!r}", ", material=material"
     if flexure.kind == "wire":
-        return [f"model.wire({p}, {q}, {name}, thickness={flexure.diameter!r}{sizes})"]
+        hint = repr(across(flexure.ends))
+        return [f"model.wire({p}, {q}, {hint}, {name}, thickness={flexure.diameter!r}{sizes})"]
     if flexure.kind in ("notch", "bellows"):
         made = []
         for method, given, named_ in _calls(problem, flexure):

@@ -11,11 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..advice.spaces.words import Geometry
+from ..core.arrays import FloatArray
 from ..util.text import number_in_words
 from ..util.units import METRES
 from .explain import motions_in_words, places_of_wires
+from .layouts import plural
 from .possible import Possible
-from .problem import KINDS, Limits, Problem
+from .problem import KINDS, Box, Limits, Problem, Region
 from .symmetry import mirror_possible, symmetry_possible
 
 #: Steps by which it is found how far a condition would have to give, and how far at most.
@@ -50,25 +52,60 @@ def reason_of(problem: Problem, found: Possible, exists: Callable[[Problem], boo
         if exists(free):
             return _of_symmetry(problem, found)
         problem = free
-    every = tuple(kind for kind in KINDS if kind != "bellows")
+    every = replace(limits, kinds=tuple(kind for kind in KINDS if kind != "bellows"))
+    others = exists(replace(problem, limits=every))
+    if not exists(in_free_space(problem)):
+        kinds = " and ".join(plural(kind) for kind in limits.kinds)
+        if exists(in_free_space(replace(problem, limits=every))):
+            said = f"In no place can {kinds} alone leave just this; with other kinds it is possible."
+            return Reason("kinds", None, said)
+        return Reason("wires", None, _of_wires(geometry, found, limits.bodies))
     for condition, loosened in _loosened(problem):
         if exists(loosened):
             by = _how_far(problem, condition, exists)
             return Reason(condition, by, _statement(problem, condition, by))
-    if set(limits.kinds) != set(every) and exists(
-        replace(problem, limits=replace(limits, kinds=every))
-    ):
-        kinds = " and ".join(f"{kind}s" for kind in limits.kinds)
-        return Reason("kinds", None, f"No layout of {kinds} alone; with other kinds there is one.")
-    if not found.parallel:
-        return Reason("wires", None, _of_wires(geometry, found, limits.bodies))
     along = places_of_wires(geometry, found.constraint)
+    more = "; with flexures of other kinds there are layouts" if others else ""
+    if not found.parallel:
+        bodies = "Bodies between, and flexures to them, find no place within the regions and limits"
+        return Reason("regions", None, f"{bodies}{more}.")
     return Reason(
         "regions",
         None,
-        f"Wires must be {along}; too few of these lines lead from the stage to the ground. "
-        "Let flexures end on the ground where they do, or on more of the stage.",
+        f"Wires must be {along}; too few of these lines lead from the stage to the ground{more}.",
     )
+
+
+def in_free_space(problem: Problem) -> Problem:
+    """The same with ground all around, and with bodies between and flexures anywhere."""
+    limits = problem.limits
+    corners = problem.stage.corners
+    low, high = corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)
+    middle, half = (low + high) / 2.0, np.maximum((high - low) / 2.0, problem.size / 4.0)
+    length = (0.5 * problem.size, 8.0 * problem.size)
+    width = (0.05 * problem.size, max(limits.width[1], 0.1 * problem.size))
+    free = replace(limits, length=length, width=width, clearance=0.0)
+    return replace(
+        problem,
+        stage=Region((Box(middle - half, middle + half),)),
+        ground=shell(middle - half, middle + half, problem.size, problem.size / 2.0),
+        keep_out=(),
+        intermediate=(),
+        limits=free,
+    )
+
+
+def shell(low: FloatArray, high: FloatArray, gap: float, thickness: float) -> Region:
+    """Six boxes all around a box, at a distance from it."""
+    inner, outer = (low - gap, high + gap), (low - gap - thickness, high + gap + thickness)
+    boxes = []
+    for axis in range(3):
+        first, last = outer[0].copy(), outer[1].copy()
+        last[axis] = inner[0][axis]
+        boxes.append(Box(outer[0], last))
+        first[axis] = inner[1][axis]
+        boxes.append(Box(first, outer[1]))
+    return Region(tuple(boxes))
 
 
 def _wide(limits: Limits, **new: object) -> Limits:

@@ -548,7 +548,9 @@ def notch_calls(
         yield Call("notch", (points[2 * k + 1], way, points[2 * k + 2], own), sizes)
 
 
-def strut_calls(name: str, ends: FloatArray, diameter: float, least: float) -> Iterator[Call]:
+def strut_calls(
+    name: str, ends: FloatArray, y: str, diameter: float, least: float
+) -> Iterator[Call]:
     """What makes a strut: a bar between two necks, whose turning about itself is declared.
 
     Each neck twists, and bends where it meets the bar: there the strut turns in every way.
@@ -556,6 +558,7 @@ def strut_calls(name: str, ends: FloatArray, diameter: float, least: float) -> I
     Args:
         name: What it is called; its parts are "name, neck 1", "name, bar" and "name, neck 2".
         ends: (2, 3) [m].
+        y: The axis that is most nearly across it.
         diameter: Of the necks [m].
         least: Least length of flexures, to which that of the necks is adapted [m].
     """
@@ -563,7 +566,6 @@ def strut_calls(name: str, ends: FloatArray, diameter: float, least: float) -> I
     neck = neck_of(diameter, least)
     at = (ends[0], ends[0] + neck * along, ends[1] - neck * along, ends[1])
     p, a, b, q = (tuple(point) for point in snapped(np.array(at), 1.0).tolist())
-    y = tuple(np.eye(3)[np.round(np.abs(along), 6).argmin()].tolist())
     first = f"{name}, neck 1"
     yield Call("beam", (p, a, y, (4, 6), first), {"section": diameter})
     yield Call("beam", (a, b, y), {"name": f"{name}, bar", "section": _typed(_STRUT * diameter)})

@@ -29,7 +29,7 @@ import numpy as np
 
 from ..core import calls
 from ..core.arrays import FloatArray
-from ..core.elements import Class, NodeKind
+from ..core.elements import Class
 from ..deck.rendering import ModelError, model_error
 from ..elasticity.elastic import Elastic, State
 from ..elasticity.equilibria import at_rest
@@ -234,8 +234,9 @@ def across(problem: Problem) -> FloatArray:
 def error_response(flexures: Sequence[Flexure], problem: Problem) -> FloatArray:
     """(6, n) the twist (w L, v) of the stage, across T, by unit errors of each row.
 
-    Errors e of lengths move it by this times e, and errors dA of the rows of flexures that all
-    end on the ground turn its freedom by minus this times dA T.
+    A row is a force along the flexure from its first end to its second one, so that e is by how
+    much it is too short, in metres; of a couple, by how much too little it turns, times L. Errors
+    dA of the rows of flexures that all end on the ground turn the freedom by minus this times dA T.
 
     Raises:
         NoScoreError: these flexures alone do not hold the stage across T.
@@ -420,9 +421,9 @@ def _frequencies(at: Solution, stage: Point, by: FloatArray, problem: Problem) -
     energy = np.einsum("eim,eij,ejm->m", of_element, stiffness, of_element)
     within = np.sum((problem.freedom.scaled @ twists) ** 2, axis=0)
     # What moves without stiffness is wanted, where the stage moves at all.
-    still = energy <= 0.0
-    share = within * np.where(still, np.inf, found.values) / np.where(still, 1.0, energy)
-    share = np.nan_to_num(share, nan=0.0, posinf=np.inf)
+    still = (found.values <= 0.0) | (energy <= 0.0)
+    share = within * found.values / np.where(still, 1.0, energy)
+    share[still] = np.where(within > ROUNDED * within.max(), np.inf, 0.0)[still]
 
     # A wanted motion that moves no mass is in none of the modes.
     count = problem.freedom.dimension
@@ -549,6 +550,7 @@ class _Way(NamedTuple):
     name: str
     coordinate: Coordinate
     ends: tuple[float, float]
+    """Its values there."""
     value: float
     unit: str
     reason: str
@@ -587,33 +589,31 @@ class _Dear:
             raise NoScoreError("nothing is wanted of the stage, so that it has no stroke")
         locked = replace(self.model, drive="locked")
         made = []
-        for each in declared:
+        for each, turns in zip(declared, self._turning(declared), strict=True):
             name, number = points.name(each), points.number(each.node)
             found = locked.limits(number, name, share=1.0, against="strength")
-            low, high = found.low, found.high
-            size = min(-low, high)
-            state = locked.driven(each, [found.rest + size])[0]
-            unit, value = self._moved(state)
-            made.append(_Way(name, each, (-size, size), value, unit, found.nearest.words))
+            size = min(-found.low, found.high)
+            there = locked.driven(each, [found.rest + size])[0].finest.raw.configuration
+            # The wanted motion itself, of which the coordinate is but a part.
+            moved = there[:3, self.point.position] - arrays.node_value[:3, self.point.position]
+            turned = vector_of_euler(there[:, self.point.orientation])
+            value, unit = (turned, "rad") if turns else (moved, "m")
+            ends = found.rest - size, found.rest + size
+            told = float(np.linalg.norm(value)), unit, found.nearest.words
+            made.append(_Way(name, each, ends, *told))
         return tuple(made)
 
-    def _moved(self, state: State) -> tuple[str, float]:
-        """By how much the stage has turned [rad], or moved [m] where it does not turn."""
-        position, turn = self.point
-        found = state.finest.raw.configuration
-        angle = 0.0
-        if turn >= 0 and self.data.arrays.node_kind[turn] == NodeKind.ORIENTATION:
-            angle = 2.0 * math.atan2(float(np.linalg.norm(found[1:, turn])), abs(found[0, turn]))
-        move = float(
-            np.linalg.norm(found[:3, position] - self.data.arrays.node_value[:3, position])
-        )
-        is_turn = angle * self.problem.size > math.sqrt(ROUNDED) * move and self._turns
-        return ("rad", angle) if is_turn else ("m", move)
-
-    @cached_property
-    def _turns(self) -> bool:
-        """Whether any wanted motion turns the stage."""
-        return bool(np.abs(self.problem.freedom.scaled[:, :3]).max(initial=0.0) > ROUNDED)
+    def _turning(self, declared: Sequence[Coordinate]) -> list[bool]:
+        """Whether the stage turns where a declared coordinate changes and the others do not."""
+        freedom, (position, turn) = self.problem.freedom, self.point
+        twists = freedom.basis.copy()
+        arm = self.data.arrays.node_value[:3, position] - self.problem.centre
+        twists[:, 3:] += cross(twists[:, :3], arm)
+        places = [each.axis + 3 * (each.node != turn) for each in declared]
+        alone = np.linalg.pinv(twists[:, places], rcond=ROUNDED) @ twists * freedom.factors
+        sizes = np.linalg.norm(alone, axis=1)
+        turns = np.linalg.norm(alone[:, :3], axis=1)
+        return [bool(turn > ROUNDED * size) for turn, size in zip(turns, sizes, strict=True)]
 
     @property
     def stroke(self) -> float:
@@ -633,14 +633,9 @@ class _Dear:
             self._worst(state)
             for each in self.ways
             for end in each.ends
-            for state in self.model.driven(each.coordinate, [self._rest(each.coordinate) + end])
+            for state in self.model.driven(each.coordinate, [end])
         ]
         return min(found) / rest
-
-    def _rest(self, coordinate: Coordinate) -> float:
-        arrays = self.data.arrays
-        is_turn = arrays.node_kind[coordinate.node] > NodeKind.POSITION
-        return 0.0 if is_turn else float(arrays.node_value[coordinate.axis, coordinate.node])
 
     def _worst(self, state: State) -> float:
         """The worst stiffness of a state, where the centre is in it; T stays where it is."""
@@ -735,7 +730,7 @@ def _plain(text: str) -> str:
 def _no_such_score(name: str) -> ModelError:
     known = [score.key.replace("_", " ") for score in SCORES.values()]
     near = nearest(_plain(name), known)
-    hint = f"did you mean {' or '.join(near)}?" if near else f"give one of {', '.join(known)}"
+    hint = f"did you mean {' or '.join(near)}?" if near else f"give one of {', '.join(known)};"
     return model_error(
         "no-such-score",
         f"layouts cannot be ordered by {in_short(name.strip())}",
@@ -802,8 +797,10 @@ def cell(key: str, layout: Layout, *, unit: bool = True) -> str:
         return ""
     name, factor = shown_unit(key, layout.problem)
     value = layout.scores[key] * factor
-    # Three digits, without an exponent where a person would write none.
-    text = f"{value:.3g}" if not 1.0e3 <= abs(value) < 1.0e7 else f"{value:.0f}"
+    text = f"{value:.3g}"
+    if 1.0e-6 <= abs(value) < 1.0e7:
+        # Three digits, without an exponent where a person would write none.
+        text = np.format_float_positional(float(text), trim="-")
     return f"{text} {name}" if unit and name else text
 
 
@@ -825,17 +822,18 @@ def table_of(layouts: Sequence[Layout], rank: tuple[str, bool], width: int) -> s
         return ""
     every = [SCORES[key] for key in columns_of(layouts, rank)]
     best, wide = pareto(layouts), len(str(max(layout.number for layout in layouts)))
+    is_told = not all(best)
     rows = [
         [" " * (wide + 3) + "layout", *(score.head for score in every)],
         ["", *(score.under for score in every)],
     ]
     for layout, is_best in zip(layouts, best, strict=True):
-        first = f"{layout.number:>{wide}} {'*' if is_best else ' '} {layout.what}"
+        first = f"{layout.number:>{wide}} {'*' if is_best and is_told else ' '} {layout.what}"
         # A unit that the heading has is not said again.
         said = [cell(s.key, layout, unit=not s.under.startswith("N/um")) for s in every]
         rows.append([first, *said])
     lines = [table(rows, width, second=True)]
-    if not all(best):
+    if is_told:
         lines.append(
             "* No layout is better in stiffness, drive, frequency or parts without a loss."
         )

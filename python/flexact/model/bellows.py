@@ -22,7 +22,7 @@ import numpy as np
 from ..core.elements import kind_of
 from ..deck.rendering import model_error
 from ..util.quantities import Quantity
-from .arguments import Point, call, length_of, position, text
+from .arguments import Direction, Point, call, length_of, position, text
 from .data import CrossSection
 from .draft import Draft, Shape
 from .handles import Element
@@ -85,6 +85,7 @@ def add_bellows(
     draft: Draft,
     p: Point,
     q: Point,
+    y: Direction | None,
     name: str,
     sizes: dict[str, Quantity | None],
     material: MaterialLike,
@@ -113,4 +114,4 @@ def add_bellows(
         beam = kind_of("BEAM")
         held = 2
         released = tuple(number for number in range(1, 7) if number != held)
-        return add_beam(draft, p, q, None, released, name, made)
+        return add_beam(draft, p, q, y, released, name, made)

@@ -916,6 +916,7 @@ class Model:
         self,
         p: Point,
         q: Point,
+        y: Direction | None = None,
         name: str = "",
         *,
         diameter: Quantity,
@@ -932,6 +933,7 @@ class Model:
         Args:
             p: One end: a point, its name, or its place (x, y, z) [m].
             q: The other end.
+            y: Initial direction of the local y axis.
             name: What it is called.
             diameter: The outer one [m].
             thickness: Of the wall [m]; by default a thirtieth of the depth.
@@ -943,7 +945,7 @@ class Model:
             ModelError: something of it is wrong; its text begins with the name of the bellows.
         """
         sizes = {"diameter": diameter, "thickness": thickness, "depth": depth, "pitch": pitch}
-        return bellows.add_bellows(self._change(), p, q, name, sizes, material)
+        return bellows.add_bellows(self._change(), p, q, y, name, sizes, material)
 
     def bipod(
         self,
