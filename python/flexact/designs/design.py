@@ -289,7 +289,8 @@ class _Search:
             yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
-        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint)
+        _, couples = possible(problem.freedom).bellows or (0, 0)
+        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint, couples)
         every = (
             [asked]
             if asked is not None

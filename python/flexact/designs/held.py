@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +15,6 @@ from ..advice.spaces.wanted_motion import Aim, not_wanted
 from ..api import analyse
 from ..core.arrays import FloatArray
 from ..deck.rendering import model_error
-from ..model.handles import Node
 from ..model.model import Model
 from ..util.records import Frozen
 from ..util.text import in_short
@@ -21,6 +22,17 @@ from .problem import Problem
 
 #: Of what is wanted, how much may be stopped for rounding of a deck's numbers.
 _STOPPED = 1.0e-9
+
+
+class Joined(NamedTuple):
+    """A point of a body that is there, by the numbers of its nodes."""
+
+    position: int
+    orientation: int
+
+    def __repr__(self) -> str:
+        """As a script has it."""
+        return f"model.handle({self.position}, {self.orientation})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,15 +57,15 @@ class Held(Frozen):
     places: FloatArray
     numbers: tuple[int, ...]
 
-    def end(self, model: Model, place: tuple[float, ...], body: str) -> Node:
-        """The end of a flexure on the stage of a copy of the model: a link where there is none."""
-        near = np.flatnonzero(np.abs(self.places - place).max(axis=1) <= 1.0e-12)
-        if near.size:
-            return model.handle(self.numbers[int(near[0])], self.nodes[1])
-        units = model.data.units
-        made = model.node(tuple(units.shown(np.array(place), "m").tolist()))
-        model.body([model.handle(*self.nodes), made], name=body)
-        return made
+    @property
+    def own(self) -> Joined:
+        """A point of the stage."""
+        return Joined(*self.nodes)
+
+    def at(self, place: Sequence[float]) -> Joined | None:
+        """The point of the stage at a place [m]; None where there is none."""
+        near = np.flatnonzero(np.abs(self.places - np.array(place)).max(axis=1) <= 1.0e-12)
+        return Joined(self.numbers[int(near[0])], self.nodes[1]) if near.size else None
 
 
 def held_by(problem: Problem) -> Held | None:

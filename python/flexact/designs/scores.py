@@ -48,6 +48,7 @@ from ..util.rotations import cross, matrix_of, vector_of_euler
 from ..util.text import in_short, table, wrapped
 from .layouts import Flexure, Layout
 from .problem import Problem
+from .rods import outer_sizes, turns_of
 
 #: A twist of less than this part of another is rounding; so is a singular value.
 ROUNDED = 1.0e-9
@@ -187,7 +188,8 @@ def unit_rows(flexure: Flexure, centre: FloatArray, size: float) -> FloatArray:
     place = flexure.via.mean(axis=0) if len(flexure.via) else (a + b) / 2.0
     none = np.zeros((0, 3))
     if flexure.kind == "notch":
-        turns = np.hstack((flexure.axes, cross(flexure.via - place, flexure.axes) / size))
+        points, axes = turns_of(flexure.via, flexure.axes)
+        turns = np.hstack((axes, cross(points - place, axes) / size))
         # Twists (w, v/L) are reciprocal to (m/L, f).
         held = null_space(turns, ROUNDED).T
         forces, couples = held[:, 3:], held[:, :3]
@@ -292,7 +294,7 @@ def cheap_scores(
     with suppress(FlexactError):
         drift = _drift(at, stage, by, problem, flexures)
         made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
-    made["room"] = room_of(flexures)
+    made["room"] = room_of(flexures, problem.limits.length[0])
     made["parts"] = len(flexures) + len(bodies_of(flexures)) - 1
     made["kinds"] = len({flexure.kind for flexure in flexures})
     made["symmetry"] = symmetry
@@ -448,20 +450,27 @@ def _frequencies(at: Solution, stage: Point, by: FloatArray, problem: Problem) -
     return made
 
 
-def room_of(flexures: Sequence[Flexure]) -> float:
-    """Volume of the box, with edges along x, y and z, around the material of all flexures [m3]."""
+def room_of(flexures: Sequence[Flexure], least: float) -> float:
+    """Volume of the box, with edges along x, y and z, around the material of all flexures [m3].
+
+    Args:
+        flexures: All of them.
+        least: The least length of flexures, see `flexact.designs.rods` [m].
+    """
     corners = [np.zeros((0, 3))]
     for flexure in flexures:
         bends = flexure.via if flexure.kind == "folded sheet" else np.zeros((0, 3))
         line = np.vstack((flexure.ends[:1], bends, flexure.ends[1:]))
         for a, b in pairwise(line):
             u = (b - a) / np.linalg.norm(b - a)
-            half = flexure.diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
-            if flexure.width:
+            own = flexure.diameter, flexure.width, flexure.thickness
+            diameter, width, thickness = outer_sizes(flexure.form, *own, least)
+            half = diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
+            if width:
                 is_turned = flexure.kind in ("folded sheet", "notch") and len(flexure.axes)
                 breadth = flexure.axes[0] if is_turned else cross(flexure.normal, u)
                 deep = cross(u, breadth)
-                half = (flexure.width * np.abs(breadth) + flexure.thickness * np.abs(deep)) / 2.0
+                half = (width * np.abs(breadth) + thickness * np.abs(deep)) / 2.0
             corners += [np.array((a - half, a + half, b - half, b + half))]
     every = np.vstack(corners)
     return float(np.prod(np.ptp(every, axis=0))) if len(every) else 0.0
