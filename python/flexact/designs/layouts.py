@@ -271,7 +271,12 @@ def verified(problem: Problem, model: Model, body: str = "stage") -> Verified:
 
 def counted(flexures: Sequence[Flexure]) -> str:
     """What kinds of flexures a layout has, such as "a sheet and two wires"."""
-    counts = Counter(flexure.kind for flexure in flexures)
+    return kinds_in_words([flexure.kind for flexure in flexures])
+
+
+def kinds_in_words(kinds: Sequence[str]) -> str:
+    """Kinds of flexures, one for each, such as "a sheet and two wires"."""
+    counts = Counter(kinds)
     ordered = sorted(counts, key=lambda kind: (kind == "wire", KINDS.index(kind)))
     return in_a_row([_many(counts[kind], kind) for kind in ordered])
 
