@@ -19,7 +19,7 @@ import numpy as np
 
 from ..advice.spaces.screws import Family, ScrewSpace, complement
 from ..core.arrays import BoolArray, FloatArray, IntArray
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
 from ..util.rotations import unit
 from .geometry import TINY, cut, meets_box, within
 from .problem import Box, Region
@@ -119,6 +119,13 @@ class Candidates(Frozen):
         """What there is one of for each."""
         names = ("ends", "strips", "rows", "stiffness", "width", "normal", "via", "axes")
         return {name: getattr(self, name) for name in names}
+
+    @cached_property
+    def balls(self) -> tuple[FloatArray, FloatArray]:
+        """(n, m, 3) middles and (n, m) radii of balls around the strips, without thickness."""
+        starts, ends, half = (self.strips[:, :, k] for k in range(3))
+        reach = np.linalg.norm(ends - starts, axis=2) / 2.0 + np.linalg.norm(half, axis=2)
+        return (starts + ends) / 2.0, reach
 
     def of(self, which: IntArray | BoolArray) -> Candidates:
         """Those at some places."""

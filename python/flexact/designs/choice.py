@@ -125,20 +125,17 @@ def clear_of(strips: FloatArray, radius: float, others: Candidates, clearance: f
     """(n,) whether candidates are clear of a flexure of some strips, (m, 3, 3)."""
     clear = np.ones(len(others), dtype=bool)
     away = clearance + radius + others.radius - 1.0e-12
+    centres, reaches = others.balls
     for strip in strips:
         # Those whose balls are apart need no closer look.
         middle = (strip[0] + strip[1]) / 2.0
         reach = np.linalg.norm(strip[1] - strip[0]) / 2.0 + np.linalg.norm(strip[2])
-        for k in range(others.strips.shape[1]):
-            each = others.strips[:, k]
-            centre = (each[:, 0] + each[:, 1]) / 2.0
-            size = np.linalg.norm(each[:, 1] - each[:, 0], axis=1) / 2.0
-            size = size + np.linalg.norm(each[:, 2], axis=1)
-            near = np.flatnonzero(
-                clear & (np.linalg.norm(centre - middle, axis=1) - size - reach < away)
-            )
+        off = centres - middle
+        is_near = np.einsum("nmk,nmk->nm", off, off) < (reaches + (reach + away)) ** 2
+        for k in range(is_near.shape[1]):
+            near = np.flatnonzero(clear & is_near[:, k])
             if near.size:
-                clear[near] = between_strips(strip, each[near]) >= away
+                clear[near] = between_strips(strip, others.strips[near, k]) >= away
     return clear
 
 
@@ -182,12 +179,16 @@ def chosen_sets(
     stiffest = int(np.argmax(np.round(np.linalg.norm(first.weighted[usable], axis=(1, 2)), 9)))
     known: set[tuple[tuple[int, int], ...]] = set()
     for place in usable[spread(first.rows[usable], starts, stiffest)]:
-        places = _filled(slots, int(place), count, clearances, allowed)
-        if places is None:
+        filled = _filled(slots, int(place), count, clearances, allowed)
+        if filled is None:
             continue
-        places = _exchanged(slots, places, count, clearances, allowed)
-        key = tuple(sorted((id(slot), p) for slot, p in zip(slots, places, strict=True)))
-        if key in known:
+        for kept in (0, 1):
+            # Where all exchanges lead to a set that is known, the first member stays.
+            places = _exchanged(slots, list(filled), count, clearances, allowed, kept)
+            key = tuple(sorted((id(slot), p) for slot, p in zip(slots, places, strict=True)))
+            if key not in known:
+                break
+        else:
             continue
         known.add(key)
         rows = np.concatenate([slot.rows[p] for slot, p in zip(slots, places, strict=True)])
@@ -244,7 +245,8 @@ def _clear(
             clear &= clearances.of(slots[j], place, slots[k])
             if slots[j].candidates is slots[k].candidates:
                 # No flexure is chosen twice.
-                clear &= ~np.isin(slots[k].members, slots[j].members[place]).any(axis=1)
+                for member in slots[j].members[place]:
+                    clear &= (slots[k].members != member).all(axis=1)
     return clear
 
 
@@ -274,12 +276,18 @@ def _exchanged(
     count: int,
     clearances: Clearances,
     allowed: Sequence[BoolArray],
+    kept: int,
 ) -> list[int]:
-    """A set that no exchange of a member betters: the determinant first, then the least value."""
+    """A set that no exchange of a member betters: the determinant first, then the least value.
+
+    The first ones that are to be kept stay.
+    """
     for by_least in (False, True):
         for _ in range(_ROUNDS):
             before = list(places)
             for k, slot in enumerate(slots):
+                if k < kept:
+                    continue
                 others = [slots[j].weighted[p] for j, p in enumerate(places) if j != k]
                 rows = np.concatenate([np.zeros((0, count)), *others])
                 gains = _rounded(_gains(rows, slot, count))

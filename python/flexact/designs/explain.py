@@ -3,21 +3,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..advice.json import of_space
 from ..advice.spaces.screws import Family, FamilyKind, ScrewSpace
 from ..advice.spaces.words import Geometry, space_in_words
-from ..analysis.naming import Line, Pieces, line_of, plain
+from ..analysis.naming import Line, Pieces, filled, line_of, plain
 from ..analysis.places import axis_words, listed
 from ..core.arrays import FloatArray
+from ..show.picture.make import check_packages
+from ..show.writers import PAGES, STILLS, Writers, require_name, write
+from ..util.loading import load
+from ..util.outputs import OutputError
+from ..util.records import Frozen, cached_property
 from ..util.text import number_in_words
 from ..util.units import METRES, Units
-from .possible import Possible, layers_of, orthonormal
+from .possible import Possible, layers_of, orthonormal, possible
+from .problem import Box, Problem
 
 Entries = dict[str, Any]
 
@@ -25,40 +35,88 @@ Entries = dict[str, Any]
 _EVERY_LINE = "all lines "
 
 
-def explained(
-    found: Possible,
-    *,
-    body: str = "the stage",
-    wanted: Sequence[str] = (),
-    typed: Sequence[FloatArray] = (),
-    units: Units = METRES,
-) -> tuple[Line, ...]:
-    """What a freedom takes, in words.
+@dataclass(frozen=True, eq=False)
+class Explanation(Frozen):
+    """What a freedom takes, to be told, saved and handed on.
 
-    Args:
+    Attributes:
         found: What it takes.
+        title: Of pictures and pages.
         body: Whose freedom it is.
-        wanted: The wanted motions as they were written; else told by what they are.
-        typed: (6,) their twists, in their order, for layers and smaller freedoms of them.
+        wanted: The wanted motions as they were written; else they are told by what they are.
+        typed: (n, 6) their twists in that order, for layers and smaller freedoms of them.
+        boxes: Of the body, which are drawn lightly.
         units: Of lengths.
     """
-    geometry = Geometry(units, found.freedom.length)
-    return tuple(_lines(geometry, found, body, wanted, typed))
+
+    found: Possible
+    title: str = "What the freedom takes"
+    body: str = "the stage"
+    wanted: tuple[str, ...] = ()
+    typed: FloatArray = field(default_factory=lambda: np.zeros((0, 6)))
+    boxes: tuple[Box, ...] = ()
+    units: Units = METRES
+
+    @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """In words."""
+        return tuple(_lines(Geometry(self.units, self.found.freedom.length), self))
+
+    def __str__(self) -> str:
+        """The lines as text."""
+        return "\n".join(map(filled, self.lines))
+
+    def to_json(self) -> str:
+        """One object in one line."""
+        return json.dumps(explained_json(self.found, self.typed), allow_nan=False)
+
+    def save(self, path: str | Path) -> None:
+        """Draw freedom and constraint: .png, .svg, .pdf, or .html with the words.
+
+        Raises:
+            FlexactError: There is no such kind of file, it cannot be written, or a package is
+                missing.
+        """
+        path = Path(path)
+        require_name(path)
+        write(path, EXPLANATIONS.contents(self, path))
 
 
-def _lines(
-    geometry: Geometry,
-    found: Possible,
-    body: str,
-    wanted: Sequence[str],
-    typed: Sequence[FloatArray],
-) -> Iterator[Line]:
+def explain(problem: Problem, units: Units = METRES) -> Explanation:
+    """What the wanted freedom of a problem takes."""
+    wanted = tuple(motion.text for motion in problem.wanted)
+    typed = np.array([motion.twist for motion in problem.wanted]).reshape(-1, 6)
+    body = "the stage" if problem.base is None else problem.body
+    return Explanation(
+        *(possible(problem.freedom), problem.title, body, wanted, typed),
+        *(problem.stage.boxes, units),
+    )
+
+
+#: Of explanations. Pictures and pages take a while to load.
+EXPLANATIONS = Writers(
+    lambda path, known: OutputError(f"the suffix of {path} is to be one of {', '.join(known)}")
+)
+
+
+@EXPLANATIONS.register(STILLS, require=check_packages)
+def _picture(made: Explanation, path: Path) -> bytes:
+    return bytes(load("flexact.designs.explain_files").picture_bytes(made, path))
+
+
+@EXPLANATIONS.register(PAGES)
+def _page(made: Explanation, path: Path) -> bytes:
+    return bytes(load("flexact.designs.explain_files").page_bytes(made))
+
+
+def _lines(geometry: Geometry, made: Explanation) -> Iterator[Line]:
+    found, body, typed = made.found, made.body, made.typed
     count = found.dimension
     if not count:
         yield line_of(f"Wanted of {body}: nothing; it is held in all six ways.")
     else:
         motions = f"{number_in_words(count)} independent motion{'s' * (count > 1)}"
-        written = list(dict.fromkeys(wanted))
+        written = list(dict.fromkeys(made.wanted))
         families = space_in_words(geometry, found.freedom)
         items: tuple[Pieces, ...] = tuple((each,) for each in written) or families
         yield Line((f"Wanted of {body}: {motions}: ",), items)
@@ -186,7 +244,7 @@ def _otherwise(geometry: Geometry, found: Possible) -> Iterator[Line]:
         yield line_of(f"For {each}: a limb: a body on a hinge, and two skew wires to the stage.")
 
 
-def _layers(geometry: Geometry, found: Possible, typed: Sequence[FloatArray]) -> Iterator[Line]:
+def _layers(geometry: Geometry, found: Possible, typed: ArrayLike) -> Iterator[Line]:
     """The layers that come first to mind."""
     if found.least_layers == 1:
         return
@@ -255,7 +313,7 @@ def places_of_wires(geometry: Geometry, space: ScrewSpace) -> str:
 
 
 def nearby(
-    found: Possible, typed: Sequence[FloatArray] = (), *, units: Units = METRES
+    found: Possible, typed: ArrayLike = (), *, units: Units = METRES
 ) -> tuple[tuple[ScrewSpace, str], ...]:
     """Freedoms near one that wires cannot leave, each of which they can, and why.
 
@@ -279,7 +337,7 @@ def nearby(
     return tuple(made)
 
 
-def _smaller(freedom: ScrewSpace, typed: Sequence[FloatArray]) -> list[ScrewSpace]:
+def _smaller(freedom: ScrewSpace, typed: ArrayLike) -> list[ScrewSpace]:
     """The spaces of all wanted motions but some, that wires can leave: as few as will do."""
     rows, count = np.array(typed).reshape(-1, 6) * freedom.factors, freedom.dimension
     if len(rows) != count or len(orthonormal(rows)) != count:
@@ -320,7 +378,7 @@ def _pair(pair: tuple[int, int] | None) -> list[int] | None:
     return None if pair is None else list(pair)
 
 
-def explained_json(found: Possible, typed: Sequence[FloatArray] = ()) -> Entries:
+def explained_json(found: Possible, typed: ArrayLike = ()) -> Entries:
     """What a freedom takes: the head of what `flexact design --json` prints."""
     return {
         "wanted": {

@@ -76,28 +76,35 @@ def edges_of(strips: FloatArray) -> FloatArray:
 
 
 def between_strips(one: FloatArray, others: FloatArray) -> FloatArray:
-    """(n,) the least distance of one strip, (3, 3), from others, (n, 3, 3); zero where they meet."""
+    """(n,) the least distances of strips; zero where they meet.
+
+    Args:
+        one: (3, 3) one strip, or (n, 3, 3) as many.
+        others: (n, 3, 3).
+    """
     if not len(others):
         return np.zeros(0)
-    thin, slim = not one[2].any(), ~others[:, 2].any(axis=1)
-    if thin and slim.all():
-        return between_segments(one[0], one[1], others[:, 0], others[:, 1])
-    first, second = edges_of(one), edges_of(others)
+    mine = one if one.ndim == 3 else one[None]
+    thin, slim = not mine[:, 2].any(), not others[:, 2].any()
+    if thin and slim:
+        return between_segments(mine[:, 0], mine[:, 1], others[:, 0], others[:, 1])
+    # A segment is one edge of itself.
+    first = mine[:, None, :2] if thin else edges_of(mine)
+    second = others[:, None, :2] if slim else edges_of(others)
     found = between_segments(
-        first[None, :, None, 0],
-        first[None, :, None, 1],
-        second[:, None, :, 0],
-        second[:, None, :, 1],
+        *(first[:, :, None, 0], first[:, :, None, 1]),
+        *(second[:, None, :, 0], second[:, None, :, 1]),
     ).min(axis=(1, 2))
-    found = np.minimum(found, _to_faces(first[None, :, 0], first[None, :, 1], others))
+    if not slim:
+        found = np.minimum(found, _to_faces(first, others))
     if not thin:
-        mine = np.broadcast_to(one, others.shape)
-        found = np.minimum(found, _to_faces(second[:, :, 0], second[:, :, 1], mine))
+        found = np.minimum(found, _to_faces(second, np.broadcast_to(mine, others.shape)))
     return found
 
 
-def _to_faces(starts: FloatArray, ends: FloatArray, strips: FloatArray) -> FloatArray:
-    """(n,) of edges, (n or 1, 4, 3), from the insides of the faces of strips; infinite beside."""
+def _to_faces(edges: FloatArray, strips: FloatArray) -> FloatArray:
+    """(n,) of edges, (n or 1, e, 2, 3), from the insides of faces of strips; infinite beside."""
+    starts, ends = edges[:, :, 0], edges[:, :, 1]
     a, b, h = strips[:, 0], strips[:, 1], strips[:, 2]
     along, half = (b - a) / 2.0, h
     middle = (a + b) / 2.0
@@ -114,7 +121,10 @@ def _to_faces(starts: FloatArray, ends: FloatArray, strips: FloatArray) -> Float
 
     heights = ((starts - middle[:, None]) * normal[:, None]).sum(-1)
     there = ((ends - middle[:, None]) * normal[:, None]).sum(-1)
-    found = np.where(inside(starts + 0.0 * middle[:, None]), np.abs(heights), np.inf).min(axis=1)
+    found = np.minimum(
+        np.where(inside(starts), np.abs(heights), np.inf).min(axis=1),
+        np.where(inside(ends), np.abs(there), np.inf).min(axis=1),
+    )
     # An edge that goes through the face.
     through = heights * there < 0.0
     share = heights / np.where(through, heights - there, 1.0)

@@ -7,6 +7,7 @@ image under a half turn, although its line is.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -16,9 +17,9 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..util.rotations import matrix_of
 from .candidates import Candidates, Place, clear_of_boxes, joined
-from .choice import Blocks, blocks_of_sets, clear_of
+from .choice import Blocks, blocks_of_sets
 from .frame import turned_screws
-from .geometry import TINY, within
+from .geometry import TINY, between_strips, within
 
 #: Orders of turns that are tried.
 ORDERS = (2, 3, 4, 6)
@@ -59,8 +60,13 @@ def keeps(freedom: FloatArray, turns: FloatArray) -> bool:
     return True
 
 
-def groups(freedom: FloatArray) -> Iterator[Group]:
-    """Groups that keep a freedom: mirrors, then turns of higher order, about axes of the frame."""
+def groups(freedom: FloatArray, isometries: FloatArray | None = None) -> Iterator[Group]:
+    """Groups that keep a freedom: mirrors, then turns of higher order, about axes of the frame.
+
+    Args:
+        freedom: (d, 6) orthonormal rows.
+        isometries: (g, 3, 3); of groups that these take to each other one is enough.
+    """
     axes = list(np.eye(3))
     if len(freedom) and len(freedom) <= 3:
         # The one axis that a freedom may have of its own.
@@ -74,9 +80,14 @@ def groups(freedom: FloatArray) -> Iterator[Group]:
         if not any(abs(axis @ other) > 1.0 - TINY for other in known) and not known.append(axis)
     ]
     for order in (0, *ORDERS):
+        found: list[FloatArray] = []
         for axis in kept:
+            images = [] if isometries is None else list(isometries @ axis)
+            if any(abs(image @ other) > 1.0 - TINY for image in images for other in found):
+                continue
             group = group_of(order, axis)
             if keeps(freedom, group.turns):
+                found.append(axis)
                 yield group
 
 
@@ -148,8 +159,8 @@ def orbits(
         ).reshape(-1, size)
         together = joined([_picked(images, of_size, which[:, k]) for k in range(size)])
         members = np.arange(len(of_size))[:, None] + len(of_size) * np.arange(size)
-        clear = [_apart(together, row, clearance) for row in members]
-        members = members[np.array(clear, dtype=bool)]
+        clear = _apart(together, members, clearance)
+        members = members[clear]
         if len(members):
             made.append(blocks_of_sets(together, members, constraint))
     return made
@@ -183,10 +194,16 @@ def _is_within(candidates: Candidates, place: Place) -> BoolArray:
     return ok & clear_of_boxes(place, candidates.strips, candidates.radius)
 
 
-def _apart(candidates: Candidates, members: IntArray, clearance: float) -> bool:
-    """Whether flexures of one set are clear of each other."""
-    for k, member in enumerate(members[:-1]):
-        others = candidates.of(members[k + 1 :])
-        if not clear_of(candidates.strips[member], candidates.radius, others, clearance).all():
-            return False
-    return True
+def _apart(candidates: Candidates, members: IntArray, clearance: float) -> BoolArray:
+    """(n,) whether the flexures of each set, (n, q) members, are clear of each other."""
+    clear = np.ones(len(members), dtype=bool)
+    centres, reaches = candidates.balls
+    away = clearance + 2.0 * candidates.radius - 1.0e-12
+    for i, j in itertools.combinations(range(members.shape[1]), 2):
+        one, other = members[:, i], members[:, j]
+        for k, m in np.ndindex(reaches.shape[1], reaches.shape[1]):
+            off = np.linalg.norm(centres[one, k] - centres[other, m], axis=1)
+            near = np.flatnonzero(clear & (off < reaches[one, k] + reaches[other, m] + away))
+            strips = candidates.strips
+            clear[near] = between_strips(strips[one[near], k], strips[other[near], m]) >= away
+    return clear

@@ -190,6 +190,11 @@ def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
             model.release(sheet, "in-plane bending", at="p" if at_p else "q")
 
 
+def middle_of(pair: tuple[float, float]) -> float:
+    """The geometric mean of two limits, with which layouts begin."""
+    return pair[0] if pair[0] == pair[1] else math.sqrt(pair[0] * pair[1])
+
+
 def flexures_of(
     problem: Problem, frame: Scaled, arrangement: Arrangement
 ) -> tuple[tuple[Flexure, ...], tuple[tuple[str, FloatArray], ...]]:

@@ -7,11 +7,12 @@ couples alone, and its signature says what those span: theorems 1 to 4 of docs/t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..advice.spaces.screws import (
     EXACT,
@@ -292,9 +293,7 @@ def orthonormal(rows: FloatArray) -> FloatArray:
 _RANDOM, _ENOUGH, _THOUGHT_OF = 24, 12, 3
 
 
-def layers_of(
-    freedom: ScrewSpace, typed: Sequence[FloatArray] = ()
-) -> Iterator[tuple[ScrewSpace, ...]]:
+def layers_of(freedom: ScrewSpace, typed: ArrayLike = ()) -> Iterator[tuple[ScrewSpace, ...]]:
     """Layers, each held by wires in parallel, whose freedoms add up to one, none twice.
 
     The fewest layers first, then one more. Of as many: layers of the motions as they are typed;
@@ -334,7 +333,7 @@ def _key(space: ScrewSpace) -> bytes:
     return np.asarray(np.round(rows.T @ rows, 6) + 0.0).tobytes()
 
 
-def _bases(freedom: ScrewSpace, typed: Sequence[FloatArray]) -> Iterator[FloatArray]:
+def _bases(freedom: ScrewSpace, typed: ArrayLike) -> Iterator[FloatArray]:
     """(d, 6) bases of a freedom, scaled, first those of which a designer thinks."""
     rows, count = freedom.scaled, freedom.dimension
     wanted = np.array(typed).reshape(-1, 6) * freedom.factors

@@ -72,8 +72,12 @@ _DESCRIPTIONS = ("id", "title", "source", "expect", "about", "$schema")
 _LEAST_LENGTH, _MOST_LENGTH = 1.0e-12, 1.0e6
 #: Boxes and points of one region, motions, layouts.
 _MOST_PLACES, _MOST_MOTIONS, _MOST_COUNT = 2000, 100, 1000
+#: Errors that are told; others are counted.
+_MOST_ERRORS = 100
+#: Masses [kg] and moments of inertia [kg m2], and moduli [Pa], of which nobody builds anything.
+_MOST_MASS, _MODULI = 1.0e12, (1.0, 1.0e14)
 #: Pieces that a covered box may fall into before it counts as uncovered.
-_MOST_PIECES = 20_000
+_MOST_PIECES = 300
 #: Motions are dependent where a singular value of theirs, unit and scaled with L, is at most the
 #: first; up to the second it is asked whether they are.
 _DEPENDENT, _NEARLY_DEPENDENT = 1.0e-9, 1.0e-4
@@ -243,6 +247,7 @@ class _Reader:
         self.name = text.source.name if text else name
         self.units = METRES
         self.found: list[Diagnostic] = []
+        self.total = 0
         self.remarks: list[str] = []
 
     def wrong(
@@ -256,6 +261,9 @@ class _Reader:
         other: Path | None = None,
     ) -> None:
         """Keep what is wrong at a key, and perhaps beside another one."""
+        self.total += 1
+        if self.total > _MOST_ERRORS:
+            return
         place = self.text.place(path, of_key=of_key) if self.text else None
         beside = self.text.place(other) if self.text and other is not None else None
         where = place or (0, 0, 0)
@@ -281,7 +289,7 @@ class _Reader:
         if not self.found:
             return
         found = sorted(self.found, key=lambda each: (each.line, each.column))
-        problems = Problems(tuple(found[:100]), len(found))
+        problems = Problems(tuple(found), self.total)
         if self.text is not None:
             raise DeckError(problems, self.name, self.text.source)
         raise ModelError(problems, self.name)
@@ -315,6 +323,9 @@ class _Reader:
             return math.nan
         if not math.isfinite(value):
             self.wrong(path, f"{what} is not finite: {in_short(given)}")
+            return math.nan
+        if unit != "m" and unit and abs(value) > _MOST_MASS:
+            self.wrong(path, f"{what} is too large: {in_short(given)}", "are its units right?")
             return math.nan
         if value < least:
             below = "is negative" if least == 0.0 else f"is less than {least:g}"
@@ -414,8 +425,8 @@ class _Reader:
                 return None
             given = [[self.ranged(each[k].strip()) for each in ranges] for k in (0, -1)]
             pairs: list[tuple[Path, object]] = [(path, each) for each in given]
-        elif isinstance(given, dict) and set(given) == {"low", "high"}:
-            pairs = [((*path, key), given[key]) for key in ("low", "high")]
+        elif isinstance(given, dict) and set(given) == set(_CORNERS):
+            pairs = [((*path, key), given[key]) for key in _CORNERS]
         elif isinstance(given, list) and len(given) == 2:
             pairs = [((*path, k), each) for k, each in enumerate(given)]
         else:
@@ -454,19 +465,21 @@ class _Reader:
             what: What it is the region of.
             points: Whether there may be points.
         """
-        count = len(self.found)
+        count = self.total
         if isinstance(given, Region):
             return given
         if isinstance(given, str):
             given = [each.strip() for each in given.split(";") if each.strip()]
-        inside = given if isinstance(given, dict) and "low" not in given else {"boxes": given}
-        at = path if inside is given else path[:-1]
-        keys = {"boxes": (*path, "boxes") if inside is given else path, "points": (*at, "points")}
+        is_table = isinstance(given, dict)
+        inside = given if isinstance(given, dict) else {"boxes": given}
+        keys = {each: (*path, each) if is_table else path for each in ("boxes", "points")}
         boxes = inside.get("boxes", [])
-        if isinstance(boxes, (Box, str, dict)) or _is_one_box(boxes):
-            boxes, alone = [boxes], True
-        else:
-            alone = False
+        corners = {each: inside[each] for each in _CORNERS if each in inside}
+        if corners:
+            # Of a table that is one box itself.
+            boxes, keys["boxes"] = corners, path
+        alone = isinstance(boxes, (Box, str, dict)) or _is_one_box(boxes)
+        boxes = [boxes] if alone else boxes
         places = inside.get("points", [])
         if (
             isinstance(places, list)
@@ -486,7 +499,7 @@ class _Reader:
                 name = f"{'box' if key == 'boxes' else 'point'} {k + 1} of {what}"
                 place = keys[key] if alone and key == "boxes" else (*keys[key], k)
                 made[key].append(one(place, each, name))
-        if len(self.found) > count:
+        if self.total > count:
             return None
         return Region(tuple(made["boxes"]), np.array(made["points"]).reshape(-1, 3))
 
@@ -779,7 +792,7 @@ class _Reader:
 
     def entry(self, path: Path, given: dict[str, Any], result: Result | None) -> Iterator[Line]:
         """The motion of a table with kind, direction, point and pitch."""
-        count, known = len(self.found), ("kind", "direction", "point", "pitch")
+        count, known = self.total, ("kind", "direction", "point", "pitch")
         for key in given.keys() - set(known):
             near = nearest(key, known)
             hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}"
@@ -828,7 +841,7 @@ class _Reader:
         ):
             hint = "write screw, or leave it out"
             self.wrong((*path, "pitch"), f"a {kind} has no pitch", hint, code="bad-wanted")
-        if len(self.found) == count and direction is not None:
+        if self.total == count and direction is not None:
             yield Line(path, kind, direction, point, pitch, "")
 
     def pitch(self, path: Path, given: object) -> float:
@@ -849,7 +862,9 @@ class _Reader:
         for each in lines:
             point = centre if each.point is None else each.point
             kind, part = each.kind, abs(each.pitch) / size
-            said = each.text or str(kind)
+            if math.isnan(part):
+                continue
+            said = Motion.of(kind, each.direction, point, each.pitch, centre, each.text).text
             if kind is ScrewKind.SCREW and (part <= _ROTATION or part >= 1.0 / _ROTATION):
                 kind = ScrewKind.ROTATION if part < 1.0 else ScrewKind.TRANSLATION
                 self.remarks.append(
@@ -922,7 +937,7 @@ class _Reader:
             if "size" not in keys:
                 size = float(np.linalg.norm(high - low)) / 2.0
                 if size < _LEAST_LENGTH:
-                    gaps = distances(stage.corners, ground.corners) if ground else np.zeros(0)
+                    gaps = distances(stage.corners[:1], ground.corners) if ground else np.zeros(0)
                     size = float(gaps.min(initial=math.inf)) / 2.0
                     size = size if _LEAST_LENGTH < size < math.inf else _USUAL_SIZE
                     self.remarks.append(
@@ -973,7 +988,9 @@ class _Reader:
                     f"{self.units.said(gap, 'm')} and more from the stage"
                 )
         # Of each place of the ground, how far the stage is from it.
-        away = distances(corners, ground.corners).min(axis=0)
+        away = np.full(len(ground.corners), np.inf)
+        for each in corners:
+            away = np.minimum(away, distances(each[None], ground.corners)[0])
         near, far = float(away.min()), float(away.max())
         # Where both touch, L says how long flexures are.
         near = near if near > 0.1 * size else 0.6 * size
@@ -1127,7 +1144,7 @@ class _Reader:
     def material(self, path: Path, given: object) -> Material:
         """A material by its name, or by its values."""
         known = ("name", "E", "G", "density", "strength", "fatigue", "expansion")
-        steel, count = MATERIALS["steel"], len(self.found)
+        steel, count = MATERIALS["steel"], self.total
         if isinstance(given, dict):
             for key in given.keys() - set(known):
                 near = nearest(key, known)
@@ -1149,11 +1166,15 @@ class _Reader:
                 elif key in given:
                     what = f"{key} of the material is a number, not {in_short(given[key])}"
                     self.wrong((*path, key), what)
-            if len(self.found) > count:
+            if self.total > count:
                 return steel
-            return Material(
-                name, **{k: given[k] for k in known[1:] if k in given}, units=self.units
-            )
+            values = {key: given[key] for key in known[1:] if key in given}
+            made = Material(name, **values, units=self.units)
+            for key in ("E", "G"):
+                if not _MODULI[0] <= getattr(made, key) <= _MODULI[1]:
+                    what = f"{key} of the material is {getattr(made, key):g} Pa"
+                    self.wrong((*path, key), what, "are its units right?")
+            return made
         if not isinstance(given, (str, Material)):
             hint = 'write "steel", or a table with E, G and density'
             self.wrong(path, f"a material is a name or a table, not {in_short(given)}", hint)

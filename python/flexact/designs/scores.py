@@ -36,7 +36,6 @@ from ..elasticity.equilibria import at_rest
 from ..elasticity.errors import Estimate
 from ..elasticity.points import Coordinate, Point, Points
 from ..elasticity.solution import Solution
-from ..elasticity.tables import cross_matrix
 from ..elasticity.thermal import Warmth
 from ..model.data import ModelData, Properties
 from ..model.model import Model
@@ -45,7 +44,7 @@ from ..util.errors import FlexactError
 from ..util.loading import load
 from ..util.matrices import complement, null_space
 from ..util.records import cached_property
-from ..util.rotations import matrix_of, vector_of_euler
+from ..util.rotations import cross, matrix_of, vector_of_euler
 from ..util.text import in_short, table, wrapped
 from .layouts import Flexure, Layout
 from .problem import Problem
@@ -184,11 +183,11 @@ def unit_rows(flexure: Flexure, centre: FloatArray, size: float) -> FloatArray:
     """
     a, b = flexure.ends
     u = (b - a) / np.linalg.norm(b - a)
-    across = np.cross(flexure.normal, u)
+    across = cross(flexure.normal, u)
     place = flexure.via.mean(axis=0) if len(flexure.via) else (a + b) / 2.0
     none = np.zeros((0, 3))
     if flexure.kind == "notch":
-        turns = np.hstack((flexure.axes, np.cross(flexure.via - place, flexure.axes) / size))
+        turns = np.hstack((flexure.axes, cross(flexure.via - place, flexure.axes) / size))
         # Twists (w, v/L) are reciprocal to (m/L, f).
         held = null_space(turns, ROUNDED).T
         forces, couples = held[:, 3:], held[:, :3]
@@ -202,7 +201,7 @@ def unit_rows(flexure: Flexure, centre: FloatArray, size: float) -> FloatArray:
         }[flexure.kind]
         forces = np.vstack((lines, np.zeros_like(couples)))
         couples = np.vstack((np.zeros_like(lines), couples))
-    return np.hstack((forces, couples + np.cross(place - centre, forces) / size))
+    return np.hstack((forces, couples + cross(place - centre, forces) / size))
 
 
 def bodies_of(flexures: Iterable[Flexure]) -> tuple[str, ...]:
@@ -240,12 +239,12 @@ def error_response(flexures: Sequence[Flexure], problem: Problem) -> FloatArray:
         NoScoreError: these flexures alone do not hold the stage across T.
     """
     rows, basis = constraint_rows(flexures, problem), across(problem)
-    _, sizes, right = np.linalg.svd(rows)
+    left, sizes, right = np.linalg.svd(rows)
     rank = int(np.count_nonzero(sizes > ROUNDED * sizes.max(initial=0.0)))
     loose = right[rank:, :6] @ basis
     if np.abs(loose).max(initial=0.0) > math.sqrt(ROUNDED):
         raise NoScoreError("these flexures alone leave the stage more than is wanted")
-    inverse = np.linalg.pinv(rows, rcond=ROUNDED)[:6]
+    inverse = (right[:rank, :6].T / sizes[:rank]) @ left[:, :rank].T
     return np.asarray(basis @ (basis.T @ inverse))
 
 
@@ -272,10 +271,11 @@ def cheap_scores(
         FlexactError: the model has no stage, or nothing in it has a stiffness.
     """
     at, stage = _one_beam(model.data), _stage(model.data, problem.body)
+    by = _twist_of(at, stage, problem)
     wanted, basis = problem.freedom.scaled.T, across(problem)
     made: dict[str, float] = {}
     with suppress(NoScoreError):
-        worst, drive = worst_and_drive(_stiffness_at(at, stage, problem), wanted, basis)
+        worst, drive = worst_and_drive(_stiffness_at(at, stage, by), wanted, basis)
         if basis.shape[1]:
             made["worst_stiffness"] = worst
         if wanted.shape[1]:
@@ -283,10 +283,10 @@ def cheap_scores(
         if basis.shape[1] and drive > 0.0:
             made["separation"] = worst / drive
     if problem.mass > 0.0:
-        made |= _frequencies(at, stage, problem)
+        made |= _frequencies(at, stage, by, problem)
     with suppress(NoScoreError):
         made["turns_with_errors"] = float(np.linalg.norm(error_response(flexures, problem), 2))
-    drift = _drift(at, stage, problem, flexures)
+    drift = _drift(at, stage, by, problem, flexures)
     made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
     made["room"] = room_of(flexures)
     made["parts"] = len(flexures) + len(bodies_of(flexures)) - 1
@@ -317,24 +317,27 @@ def _stage(data: ModelData, body: str) -> Point:
     return Points(data).of(body)
 
 
-def _twist_by(arm: FloatArray, size: float) -> FloatArray:
-    """(6, 6) the twist (w L, v) of a point's place + arm by what the point does, (v, w)."""
+def _centre(at: Solution, stage: Point, problem: Problem) -> FloatArray:
+    """(3,) where the stage has carried the centre in a state [m]."""
+    here = at.raw.configuration[:3, stage.position]
+    arm = problem.centre - at.solver.mesh.data.arrays.node_value[:3, stage.position]
+    if arm.any():
+        arm = matrix_of(vector_of_euler(at.raw.configuration[:, stage.orientation])) @ arm
+    return np.asarray(here + arm)
+
+
+def _twist_of(at: Solution, stage: Point, problem: Problem) -> FloatArray:
+    """(6, 6) the twist (w L, v) of the centre by what the stage's point does, (v, w)."""
+    arm = _centre(at, stage, problem) - at.raw.configuration[:3, stage.position]
     made = np.zeros((6, 6))
-    made[:3, 3:] = size * np.eye(3)
+    made[:3, 3:] = problem.size * np.eye(3)
     made[3:, :3] = np.eye(3)
-    made[3:, 3:] = -cross_matrix(arm)
+    made[3:, 3:] = -cross(arm, np.eye(3)).T
     return made
 
 
-def _arm(at: Solution, stage: Point, problem: Problem) -> FloatArray:
-    """(3,) from where the stage's point is to where the centre is, which it carries [m]."""
-    arm = problem.centre - at.solver.mesh.data.arrays.node_value[:3, stage.position]
-    euler = at.raw.configuration[:, stage.orientation]
-    return np.asarray(matrix_of(vector_of_euler(euler)) @ arm)
-
-
-def _stiffness_at(at: Solution, stage: Point, problem: Problem) -> FloatArray:
-    """(6, 6) K of a state in twists (w L, v) at the centre [N/m].
+def _stiffness_at(at: Solution, stage: Point, by: FloatArray) -> FloatArray:
+    """(6, 6) K of a state in twists (w L, v) at the centre [N/m], which is moved by `_twist_of`.
 
     Raises:
         NoScoreError: the stage is held rigidly in a direction.
@@ -343,11 +346,13 @@ def _stiffness_at(at: Solution, stage: Point, problem: Problem) -> FloatArray:
     found = at.compliance(stage, coordinates).stiffness
     if not np.isfinite(found).all():
         raise NoScoreError("the stage is held rigidly in a direction")
-    back = np.linalg.inv(_twist_by(_arm(at, stage, problem), problem.size))
+    back = np.linalg.inv(by)
     return np.asarray(back.T @ (found + found.T) @ back) / 2.0
 
 
-def _drift(at: Solution, stage: Point, problem: Problem, flexures: Sequence[Flexure]) -> FloatArray:
+def _drift(
+    at: Solution, stage: Point, by: FloatArray, problem: Problem, flexures: Sequence[Flexure]
+) -> FloatArray:
     """(6,) the twist (w L, v) of the centre when all flexures are warmer by a kelvin [m].
 
     Those are the ones named, and whatever else has a stiffness.
@@ -366,7 +371,6 @@ def _drift(at: Solution, stage: Point, problem: Problem, flexures: Sequence[Flex
     warmth = Warmth(1.0, np.zeros(3), problem.centre, alpha, (0.0, 0.0), np.zeros(3), cold, ())
     misfit = np.asfortranarray(at.solver.mesh.misfit(warmth.misfit(data))[:, :, None])
     moved = at.respond(np.zeros((3, at.solver.nodes, 1), order="F"), misfit=misfit).displacement
-    by = _twist_by(_arm(at, stage, problem), problem.size)
     drift = by @ moved[:, list(stage.nodes), 0].T.ravel()
     least = ROUNDED * float(np.abs(alpha).max(initial=0.0)) * data.size
     return np.where(np.abs(drift) > least, drift, 0.0)
@@ -389,7 +393,7 @@ def worst_and_drive(
     return found[0], found[1]
 
 
-def _frequencies(at: Solution, stage: Point, problem: Problem) -> dict[str, float]:
+def _frequencies(at: Solution, stage: Point, by: FloatArray, problem: Problem) -> dict[str, float]:
     """The first frequency, and the first parasitic one.
 
     That is the lowest mode that is not one of the d in which the stage moves most within T per
@@ -402,7 +406,6 @@ def _frequencies(at: Solution, stage: Point, problem: Problem) -> dict[str, floa
         return {}
     hertz = np.sqrt(np.maximum(found.values, 0.0)) / (2.0 * math.pi)
     data, modes = at.solver.mesh.data, found.modes
-    by = _twist_by(_arm(at, stage, problem), problem.size)
     twists = by @ np.vstack([modes[:, node] for node in stage.nodes])
     # The modal mass by the energy: phi' K phi = omega^2 phi' M phi.
     stiffness, c_t = at.solver.elastic
@@ -446,8 +449,8 @@ def room_of(flexures: Sequence[Flexure]) -> float:
             half = flexure.diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
             if flexure.width:
                 is_turned = flexure.kind in ("folded sheet", "notch") and len(flexure.axes)
-                breadth = flexure.axes[0] if is_turned else np.cross(flexure.normal, u)
-                deep = np.cross(u, breadth)
+                breadth = flexure.axes[0] if is_turned else cross(flexure.normal, u)
+                deep = cross(u, breadth)
                 half = (flexure.width * np.abs(breadth) + flexure.thickness * np.abs(deep)) / 2.0
             corners += [np.array((a - half, a + half, b - half, b + half))]
     every = np.vstack(corners)
@@ -460,7 +463,8 @@ def thermal_centre(model: Model, problem: Problem, flexures: Sequence[Flexure]) 
     Where v + w x (p - centre) = 0; of the line where that is so, the point nearest to the centre.
     """
     at, stage = _one_beam(model.data), _stage(model.data, problem.body)
-    drift = _drift(at, stage, problem, flexures)
+    by = _twist_of(at, stage, problem)
+    drift = _drift(at, stage, by, problem, flexures)
     turn, move = drift[:3] / problem.size, drift[3:]
     if not move.any():
         return np.array(problem.centre)
@@ -470,7 +474,7 @@ def thermal_centre(model: Model, problem: Problem, flexures: Sequence[Flexure]) 
     along = abs(float(turn @ move)) / math.sqrt(square)
     if along > 1.0e-6 * (float(np.linalg.norm(move)) + math.sqrt(square) * problem.size):
         return "the stage turns about a line and moves along it: no point of it stays"
-    return np.asarray(problem.centre + np.cross(turn, move) / square)
+    return np.asarray(problem.centre + cross(turn, move) / square)
 
 
 # -- what takes longer -----------------------------------------------------------------------------
@@ -637,13 +641,12 @@ class _Dear:
         values = []
         for at in state.meshes:
             # Lines of T stay where they are, and have other moments about where the centre is.
-            here = at.raw.configuration[:3, self.point.position] + _arm(
-                at, self.point, self.problem
-            )
+            moved = _centre(at, self.point, self.problem) - self.problem.centre
             twists = freedom.basis.copy()
-            twists[:, 3:] += np.cross(twists[:, :3], here - self.problem.centre)
+            twists[:, 3:] += cross(twists[:, :3], moved)
             there = complement(np.linalg.qr((twists * freedom.factors).T)[0])
-            matrix = _stiffness_at(at, self.point, self.problem)
+            by = _twist_of(at, self.point, self.problem)
+            matrix = _stiffness_at(at, self.point, by)
             values.append(np.linalg.eigvalsh(there.T @ matrix @ there)[0])
         return float(Estimate.of(*values).value)
 
@@ -763,7 +766,7 @@ def pareto(layouts: Sequence[Layout]) -> tuple[bool, ...]:
     ).reshape(-1, len(OBJECTIVES))
     as_good = (table_[:, None] <= table_[None]).all(axis=2)
     better = (table_[:, None] < table_[None]).any(axis=2)
-    beaten: np.ndarray = (as_good & better).any(axis=0)
+    beaten = np.any(as_good & better, axis=0)
     return tuple((~beaten).tolist())
 
 

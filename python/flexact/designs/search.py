@@ -18,7 +18,8 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray
 from .candidates import Candidates, Place, folded, sheets, waisted, wires
 from .choice import Blocks, Chosen, Clearances, blocks_of, chosen_sets, clear_of
-from .images import Group, orbits
+from .frame import Scaled
+from .images import Group, groups, materials, moved, orbits
 
 #: How much flexures of each kind hold.
 HOLDS = {"wire": 1, "folded sheet": 1, "waisted sheet": 2, "sheet": 3}
@@ -86,6 +87,7 @@ class Stock:
         self._avoided = avoided
         self._known: dict[str, Candidates] = {}
         self._blocks: dict[str, Blocks] = {}
+        self._orbits: dict[tuple[str, bytes], dict[int, Blocks]] = {}
 
     def beside(self, avoided: Sequence[tuple[FloatArray, float]]) -> Stock:
         """The same flexures, where there are others already."""
@@ -110,6 +112,20 @@ class Stock:
         if kind not in self._blocks:
             self._blocks[kind] = blocks_of(self.candidates(kind), self.constraint)
         return self._blocks[kind]
+
+    def orbits(self, kind: str, group: Group) -> dict[int, Blocks]:
+        """Flexures of a kind with their images, by how many these are."""
+        key = kind, group.turns.tobytes()
+        if key not in self._orbits:
+            few = thinned(self.candidates(kind), _MOST_IMAGES)
+            sets = orbits(group, few, self.constraint, self.place, self.place.sizes.clearance)
+            self._orbits[key] = {each.members.shape[1]: each for each in sets}
+        return self._orbits[key]
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many flexures of each kind were found, of the kinds that were sought."""
+        return {kind: len(each) for kind, each in self._known.items()}
 
     def allowed(self, blocks: Blocks) -> BoolArray:
         """(n,) which are clear of flexures that are there already."""
@@ -200,9 +216,7 @@ def symmetric_sets(stock: Stock, group: Group, recipe: tuple[str, ...]) -> list[
     counts = Counter(recipe)
     by_kind: list[list[tuple[Blocks, ...]]] = []
     for kind, many in counts.items():
-        few = thinned(stock.candidates(kind), _MOST_IMAGES)
-        sets = orbits(group, few, stock.constraint, stock.place, stock.place.sizes.clearance)
-        sizes = {each.members.shape[1]: each for each in sets}
+        sizes = stock.orbits(kind, group)
         by_kind.append(
             [
                 tuple(sizes[part] for part in parts)
@@ -233,3 +247,55 @@ def _partitions(total: int, sizes: Sequence[int]) -> Iterator[tuple[int, ...]]:
         if size <= total:
             for rest in _partitions(total - size, sizes[k:]):
                 yield (size, *rest)
+
+
+# Images of layouts ------------------------------------------------------------
+
+
+def turns_that_keep(
+    freedom: FloatArray, arrangement: Arrangement
+) -> tuple[int, list[Group]]:
+    """The order of the group of turns and mirrors that keep the material of a layout, and parts.
+
+    Looked for among mirrors and turns about axes of the frame and the own axis of the freedom.
+    """
+    sets = _sets(arrangement)
+    here = _material(sets, np.eye(3), 5)
+    kept, found = [np.eye(3)], []
+    for group in groups(freedom):
+        if _material(sets, group.turns[1], 5) == here:
+            found.append(group)
+            for turn in group.turns[1:]:
+                if not any(np.abs(turn - other).max() < 1.0e-9 for other in kept):
+                    kept.append(turn)
+    return len(kept), found
+
+
+def key_of(frame: Scaled, arrangement: Arrangement) -> tuple[object, int]:
+    """What is the same of all images of a layout, and how many images it has."""
+    sets = _sets(arrangement)
+    images = {tuple(_material(sets, turn)) for turn in frame.isometries}
+    return min(images), len(images)
+
+
+#: Flexures of one kind between the same bodies.
+_Set = tuple[tuple[str, str], Candidates]
+
+
+def _sets(arrangement: Arrangement) -> list[_Set]:
+    made = []
+    for between, found in arrangement.parts:
+        places: dict[int, tuple[Candidates, list[int]]] = {}
+        for candidates, k in found.chosen.members:
+            places.setdefault(id(candidates), (candidates, []))[1].append(k)
+        made += [(between, each.of(np.array(which))) for each, which in places.values()]
+    return made
+
+
+def _material(sets: Sequence[_Set], turn: FloatArray, digits: int = 6) -> list[tuple[object, ...]]:
+    """Numbers of the material of flexures after a turn, in their order."""
+    rows: list[tuple[object, ...]] = []
+    for between, candidates in sets:
+        every = materials(moved(candidates, turn), digits)
+        rows += [(between, candidates.kind, *row) for row in every.tolist()]
+    return sorted(rows)

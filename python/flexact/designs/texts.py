@@ -192,6 +192,9 @@ def _json(text: str, source: Source) -> FileText:
 
 
 def _no(what: str, text: str, line: str | None = None, column: str | None = None) -> NoReturn:
+    if "digits" in what:
+        # Python says how its own limit is raised.
+        what = "a number has too many digits"
     first = None
     if line and column:
         start = sum(len(each) + 1 for each in text.split("\n")[: int(line) - 1])

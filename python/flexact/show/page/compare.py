@@ -13,6 +13,7 @@ from ...util.errors import require_kind
 from ...util.text import file_name
 from ..charts import Key
 from ..drawing import drawing_of
+from ..spaces import SpaceShown
 from .assets import (
     PLAIN_SCRIPTS,
     SCRIPTS,
@@ -95,6 +96,7 @@ class Side(NamedTuple):
         words: What is to be known of it, a sentence.
         shaped: Its shapes.
         still: A picture as PNG, for browsers without scripts or WebGL.
+        spaces: Drawn with it.
     """
 
     series: int
@@ -102,6 +104,7 @@ class Side(NamedTuple):
     words: str
     shaped: Shaped
     still: bytes | None
+    spaces: tuple[SpaceShown, ...] = ()
 
 
 def designs_page(
@@ -159,11 +162,36 @@ def designs_page(
     return filled(title, "\n".join(body), scripts, styles, series_css())
 
 
+def spaces_page(name: str, headline: str, told: Iterable[Line], sides: Sequence[Side]) -> str:
+    """A freedom without a mechanism as a page: its spaces, side by side, and words.
+
+    Args:
+        name: What it is called.
+        headline: The sentence that counts.
+        told: Further ones.
+        sides: Its freedom and its constraint.
+    """
+    body = (
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(headline)}</span></h1>"
+        f'<p class="about"><span class="name">{text(name)}</span></p>{SWITCH}</header>',
+        '<main class="pair designs">',
+        _drawn(sides),
+        section("notes", "What it takes", paragraphs(told)),
+        "</main>",
+    )
+    styles = ("style.css", "charts.css")
+    return filled(name, "\n".join(body), SCRIPTS, styles)
+
+
 def _drawn(sides: Sequence[Side]) -> str:
     if not sides:
         return ""
     frames = frames_of(*(drawing_of(each.shaped.data) for each in sides))
-    every = [shapes_data(each.shaped, frame) for each, frame in zip(sides, frames, strict=True)]
+    every = [
+        shapes_data(each.shaped, frame, each.spaces)
+        for each, frame in zip(sides, frames, strict=True)
+    ]
     marks = [f"design-{k}-" for k in range(len(sides))]
     halves = (
         f'<div class="viewer half"><header class="verdict s{side.series} design">'

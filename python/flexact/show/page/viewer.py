@@ -356,8 +356,8 @@ class Shaped(NamedTuple):
     shapes: Sequence[Shape]
 
 
-def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
-    """What a viewer draws of shapes; as many of them as fit.
+def shapes_data(shaped: Shaped, frame: Frame, spaces: Sequence[SpaceShown] = ()) -> dict[str, Any]:
+    """What a viewer draws of shapes; as many of them as fit; and of spaces, the first at once.
 
     At first it is how it buckles, else the second that vibrates, as the first is meant: the lowest
     parasitic one where a drive is free.
@@ -370,9 +370,9 @@ def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
         "segments": tracks.segments,
         "movements": _fitting(_swings(shaped, tracks)),
         "stresses": [],
-        "spaces": [],
+        "spaces": [_space(each, frame, f"{each.words}.") for each in spaces],
         "held": [],
-        "first": [("movement", str(first))] if kinds else [],
+        "first": [("movement", str(first))] if kinds else [("space", "0")] * bool(spaces),
     }
 
 
