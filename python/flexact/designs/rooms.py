@@ -44,6 +44,28 @@ def stacks(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
             yield chosen
 
 
+def asides(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...]]:
+    """Boxes of bodies beside each other, each between stage and ground, in no order.
+
+    Args:
+        frame: The problem in its own frame.
+        sizes: What flexures may measure.
+        count: How many bodies.
+    """
+    if frame.intermediate:
+        singles = [(box,) for box in _parts(frame.intermediate, count, sizes.clearance)]
+    else:
+        solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
+        singles = [
+            boxes
+            for boxes in _plates(frame, sizes, _NARROW)
+            if _are_apart(boxes, solid, sizes.clearance)
+        ]
+    for chosen in itertools.combinations(singles, count):
+        if all(_are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
+            yield chosen
+
+
 def _parts(boxes: Sequence[Box], count: int, gap: float) -> list[Box]:
     """At least so many boxes: given ones, the longest cut in two with a gap until they suffice."""
     parts = list(boxes)
@@ -110,7 +132,14 @@ def _room(frame: Scaled, sizes: Sizes) -> FloatArray:
     return room
 
 
-def _plates(frame: Scaled, sizes: Sizes) -> Iterator[Boxes]:
+#: In which of its two directions a plate is wider than the stage.
+_WIDE = ((True, True), (True, False), (False, True))
+_NARROW = ((False, False),)
+
+
+def _plates(
+    frame: Scaled, sizes: Sizes, widths: Sequence[tuple[bool, bool]] = _WIDE
+) -> Iterator[Boxes]:
     """Plates beside the stage: a least length from it, or in the middle of the room there."""
     stage = hull_of(boxes_of(frame.stage))
     room = _room(frame, sizes)
@@ -125,7 +154,7 @@ def _plates(frame: Scaled, sizes: Sizes) -> Iterator[Boxes]:
         )
         others = np.arange(3) != axis
         for start in starts:
-            for wide in ((True, True), (True, False), (False, True)):
+            for wide in widths:
                 low, high = stage.low.copy(), stage.high.copy()
                 for each, is_wide in zip(np.flatnonzero(others), wide, strict=True):
                     if is_wide:
