@@ -440,7 +440,7 @@ def lines_for(place: Place, fineness: int) -> tuple[FloatArray, FloatArray]:
     directions = np.concatenate([each[1] for each in sets])
     # Of one line one point and one sense are enough.
     key = np.round(forces(points, directions), 9) + 0.0
-    sign = np.array([row[np.flatnonzero(row)[0]] if row.any() else 1.0 for row in key])
+    sign = key[np.arange(len(key)), (key != 0.0).argmax(axis=1)]
     _, first = np.unique(key * np.sign(sign)[:, None] + 0.0, axis=0, return_index=True)
     first = np.sort(first)
     return points[first], directions[first]

@@ -373,7 +373,12 @@ _FORMS = (*KINDS[1:4], "notch", "rod", "bellows", "strut", "wire")
 
 def counted(flexures: Sequence[Flexure]) -> str:
     """What kinds of flexures a layout has, such as "a sheet and two wires"."""
-    counts = Counter(flexure.form for flexure in flexures)
+    return kinds_in_words([flexure.form for flexure in flexures])
+
+
+def kinds_in_words(forms: Sequence[str]) -> str:
+    """Kinds of flexures, one for each, such as "a sheet and two wires"."""
+    counts = Counter(forms)
     return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
 
 
