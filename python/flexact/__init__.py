@@ -51,6 +51,9 @@ With stiffness and mass
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
+Better designs
+    refine, Refined: lengths, thicknesses and places that are best within limits
+
 Many variants, and paths
     sweep, grid, Table: variants of a design in one table
     Crossing, Crossings: the singular variants between its rows
@@ -99,6 +102,8 @@ if _typing.TYPE_CHECKING:
     from .costs.shape import Shape, shape
     from .deck.diagnostics import Diagnostic, Place, Severity
     from .deck.rendering import DeckError, ModelError
+    from .designs.refine import refine
+    from .designs.refined import Refined
     from .elasticity import (
         Elastic,
         ElasticError,
@@ -185,6 +190,8 @@ _HOMES = {
         "DeckError",
         "ModelError",
     ),
+    "designs.refine": ("refine",),
+    "designs.refined": ("Refined",),
     "elasticity": (
         "Elastic",
         "ElasticError",
@@ -285,6 +292,7 @@ __all__ = [
     "Place",
     "PointTable",
     "Proof",
+    "Refined",
     "ReinforcedSheet",
     "Results",
     "Scatter",
@@ -314,6 +322,7 @@ __all__ = [
     "polar",
     "read",
     "read_text",
+    "refine",
     "shape",
     "sweep",
     "tolerances",
