@@ -106,14 +106,11 @@ if _typing.TYPE_CHECKING:
     from .costs.shape import Shape, shape
     from .deck.diagnostics import Diagnostic, Place, Severity
     from .deck.rendering import DeckError, ModelError
-<<<<<<< HEAD
     from .designs.design import Designs, design
     from .designs.layouts import Layout
     from .designs.reading import box
-=======
     from .designs.refine import refine
     from .designs.refined import Refined
->>>>>>> refine
     from .elasticity import (
         Elastic,
         ElasticError,
@@ -200,14 +197,11 @@ _HOMES = {
         "DeckError",
         "ModelError",
     ),
-<<<<<<< HEAD
     "designs.design": ("Designs", "design"),
     "designs.layouts": ("Layout",),
     "designs.reading": ("box",),
-=======
     "designs.refine": ("refine",),
     "designs.refined": ("Refined",),
->>>>>>> refine
     "elasticity": (
         "Elastic",
         "ElasticError",
