@@ -22,6 +22,7 @@ from .explain import Explanation, explain, explained_json, nearby
 from .frame import Scaled, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
+from .layers import layered
 from .layouts import (
     Flexure,
     Layout,
@@ -32,6 +33,7 @@ from .layouts import (
     plural,
     verified,
 )
+from .limbs import limbs
 from .possible import Possible, possible
 from .problem import Problem
 from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
@@ -42,6 +44,8 @@ from .search import (
     Found,
     Part,
     Stock,
+    is_mixed,
+    is_symmetric,
     key_of,
     recipes,
     sets_of,
@@ -53,6 +57,9 @@ from .search import (
 _STARTS, _FEWER = 12, 6
 #: Of each kind of layouts so many are scored at most.
 _OF_A_KIND = 10
+#: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
+#: layouts with bodies between are sought where none are needed.
+_SYMMETRIC, _FEW_KINDS = 2, 3
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -247,8 +254,10 @@ class _Search:
         most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
             iterator = iter(arrangements)
-            if self.take(kind, iterator):
-                waiting.append((kind, iterator))
+            while self.take(kind, iterator):
+                if kind:
+                    waiting.append((kind, iterator))
+                    break
             if len(self.kinds) >= count:
                 break
         for _ in range(_OF_A_KIND - 1):
@@ -269,10 +278,15 @@ class _Search:
     def take(self, kind: str, arrangements: Iterator[Arrangement]) -> bool:
         """Take the next layout of a kind that is not much like one that is there."""
         for arrangement in arrangements:
-            layout = self.made(kind, arrangement)
+            own = kind or arrangement.kind
+            there = self.kinds.get(own, [])
+            # Of kinds that come in any order one more is enough for now.
+            if not kind and len(there) > 1:
+                continue
+            layout = self.made(own, arrangement)
             if layout is None:
                 continue
-            there = self.kinds.setdefault(kind, [])
+            self.kinds[own] = there
             if any(_much_alike(layout, other) for other in there):
                 continue
             there.append(layout)
@@ -282,31 +296,41 @@ class _Search:
         return False
 
     def sources(self) -> Iterator[tuple[str, Iterator[Arrangement]]]:
-        """Kinds of layouts, and where they come from."""
+        """Kinds of layouts, and where they come from; without a name what tells its own kinds."""
         problem, stock = self.problem, self.stock
-        count = len(stock.constraint)
+        count, limits = len(stock.constraint), problem.limits
         if not count:
             yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
-        _, couples = possible(problem.freedom).bellows or (0, 0)
-        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint, couples)
-        every = (
-            [asked]
-            if asked is not None
-            else list(groups(stock.place.freedom, self.frame.isometries))
-        )
-        for k, recipe in enumerate(made):
-            if asked is None:
-                yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
-        if problem.symmetry == "none":
+        found = possible(problem.freedom)
+        _, couples = found.bellows or (0, 0)
+        made = recipes(count, limits.kinds, limits.over_constraint, couples)
+        plain = [recipe for recipe in made if not is_mixed(recipe)]
+        for k, recipe in enumerate(plain if asked is None else ()):
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
+        if not found.parallel:
+            yield from self.with_bodies(asked)
+        for recipe in plain[: _SYMMETRIC if asked is None else None]:
+            # By default the images of whole groups are offered, too.
+            every = [asked] if asked else list(groups(stock.place.freedom, self.frame.isometries))
+            for group in every if problem.symmetry != "none" else ():
+                axis = ", ".join(f"{part:.3g}" for part in group.axis + 0.0)
+                name = f"{recipe_name(recipe)}, {group.order} about ({axis})"
+                yield name, self.of_group(group, recipe)
+        for recipe in [recipe for recipe in made if recipe not in plain] if asked is None else ():
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER)
+        if found.parallel and len(self.kinds) < _FEW_KINDS:
+            yield from self.with_bodies(asked)
+
+    def with_bodies(self, asked: Group | None) -> Iterator[tuple[str, Iterator[Arrangement]]]:
+        """Layouts with bodies between, if they are allowed."""
+        problem, sizes = self.problem, self.stock.place.sizes
+        if problem.limits.bodies < 1 or self.held is not None:
             return
-        for recipe in made:
-            for group in every:
-                yield (
-                    f"{recipe_name(recipe)}, {group.order} about {group.axis.tolist()}",
-                    self.of_group(group, recipe),
-                )
+        for source in (layered, limbs):
+            found = source(problem, self.frame, sizes, problem.limits.kinds)
+            yield "", (each for each in found if asked is None or is_symmetric(each, asked))
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""

@@ -36,8 +36,8 @@ from ..util.quantities import Quantity, QuantityError, quantity
 from ..util.text import in_short
 from ..util.units import METRES, Units
 from .measures import ASKED, Bound, Design, How, said
-from .refined import Refined
 from .optimum import Measured, Outcome, Parameter, SearchError, method_of, search
+from .refined import Refined
 from .varied import Variation
 
 REST, END = "rest", "end of stroke"

@@ -224,6 +224,11 @@ def recipes(
     return [recipe for _, recipe in dict.fromkeys(made)]
 
 
+def is_mixed(recipe: Sequence[str]) -> bool:
+    """Whether several kinds that hold a single force each fill up what others leave."""
+    return len({kind for kind in recipe if HOLDS[kind] == 1}) > 1
+
+
 def sets_of(stock: Stock, recipe: tuple[str, ...], starts: int) -> list[Found]:
     """Sets of a recipe, the stiffest first."""
     slots = [stock.blocks(kind) for kind in recipe]
@@ -300,6 +305,12 @@ def turns_that_keep(freedom: FloatArray, arrangement: Arrangement) -> tuple[int,
                 if not any(np.abs(turn - other).max() < 1.0e-9 for other in kept):
                     kept.append(turn)
     return len(kept), found
+
+
+def is_symmetric(arrangement: Arrangement, group: Group) -> bool:
+    """Whether the material of a layout is its own image under a group."""
+    sets = _sets(arrangement)
+    return _material(sets, group.turns[1], 5) == _material(sets, np.eye(3), 5)
 
 
 def key_of(frame: Scaled, arrangement: Arrangement) -> tuple[object, int]:
