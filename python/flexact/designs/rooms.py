@@ -36,7 +36,9 @@ def stacks(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         count: How many bodies.
     """
     if frame.intermediate:
-        singles = [(box,) for box in _parts(frame.intermediate, count, sizes.clearance)]
+        singles: list[Boxes] = [
+            (box,) for box in _parts(frame.intermediate, count, sizes.clearance)
+        ]
     else:
         singles = proposed(frame, sizes)
     for chosen in itertools.permutations(singles, count):
@@ -53,7 +55,9 @@ def asides(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         count: How many bodies.
     """
     if frame.intermediate:
-        singles = [(box,) for box in _parts(frame.intermediate, count, sizes.clearance)]
+        singles: list[Boxes] = [
+            (box,) for box in _parts(frame.intermediate, count, sizes.clearance)
+        ]
     else:
         solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
         singles = [
