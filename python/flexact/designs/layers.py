@@ -29,9 +29,11 @@ from .search import HOLDS, Arrangement, Found, Part, Stock, recipes, sets_of
 
 #: How many ways to cut a freedom are tried, and after how many layouts of one no more are sought;
 #: nor after so many searches in a region or for a set where there are layouts, and where not.
-_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 28, 120
+_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 24, 120
 #: From how many first flexures the choice in a layer begins, and how many sets are combined.
 _STARTS, _SETS = 4, 3
+#: A layer with a smaller least singular value of unit rows is none.
+_FLATTEST = 0.02
 
 
 @dataclass(eq=False)
@@ -293,6 +295,7 @@ def _placed(
     clear = [each for each in sets if is_clear(each, avoided, stocks.sizes.clearance)]
     if sets and not clear:
         clear = stocks.sets_beside(stock, recipe, avoided)[:_SETS]
+    clear = [each for each in clear if each.chosen.sigma >= _FLATTEST]
     for each in clear:
         rest = _placed(stocks, others, [*avoided, *strips_of(each)])
         if rest is not None:
