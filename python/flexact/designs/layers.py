@@ -27,11 +27,13 @@ from .problem import Box, Problem
 from .rooms import Boxes, corners_between, stacks
 from .search import HOLDS, Arrangement, Found, Part, Stock, recipes, sets_of
 
-#: How many ways to cut a freedom are tried, and of each how many ways to stack its layers; the
-#: rest are left as soon as so many have given layouts.
-_CUTS, _WAYS, _GIVEN = 8, 96, 4
+#: How many ways to cut a freedom are tried, and after how many layouts of one no more are sought;
+#: nor after so many searches in a region or for a set where there are layouts, and where not.
+_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 24, 120
 #: From how many first flexures the choice in a layer begins, and how many sets are combined.
 _STARTS, _SETS = 4, 3
+#: A layer with a smaller least singular value of unit rows is none.
+_FLATTEST = 0.02
 
 
 @dataclass(eq=False)
@@ -41,10 +43,12 @@ class Stocks:
     Attributes:
         frame: The problem in its own frame.
         sizes: What flexures may measure.
+        spent: How many regions were looked into, and sets sought.
     """
 
     frame: Scaled
     sizes: Sizes
+    spent: int = 0
     _known: dict[bytes, Stock] = field(default_factory=dict)
     _sets: dict[tuple[int, tuple[str, ...]], list[Found]] = field(default_factory=dict)
 
@@ -67,14 +71,26 @@ class Stocks:
         if key not in self._known:
             place = Place(freedom, here, there, (*self.frame.keep_out, *solid), self.sizes)
             self._known[key] = Stock(place)
+            self.spent += 1
         return self._known[key]
 
     def sets(self, stock: Stock, recipe: tuple[str, ...], starts: int = _STARTS) -> list[Found]:
         """Sets of a recipe, the stiffest first, of a stock with nothing beside it."""
         key = (id(stock), recipe)
         if key not in self._sets:
-            self._sets[key] = sets_of(stock, recipe, starts)
+            self._sets[key] = self.sets_beside(stock, recipe, [], starts)
         return self._sets[key]
+
+    def sets_beside(
+        self,
+        stock: Stock,
+        recipe: tuple[str, ...],
+        avoided: Sequence[tuple[FloatArray, float]],
+        starts: int = _STARTS,
+    ) -> list[Found]:
+        """The same beside flexures that are there."""
+        self.spent += 1
+        return sets_of(stock.beside(avoided) if avoided else stock, recipe, starts)
 
 
 def strips_of(found: Found) -> list[tuple[FloatArray, float]]:
@@ -98,7 +114,7 @@ def layered(
     stocks = Stocks(frame, sizes)
     over = problem.limits.over_constraint
     seen: set[frozenset[bytes]] = set()
-    given = 0
+    is_first = True
     for spaces in layers_of(frame.space, typed):
         if not 1 < len(spaces) <= problem.limits.bodies + 1:
             continue
@@ -106,25 +122,20 @@ def layered(
         if cut in seen:
             continue
         seen.add(cut)
-        if len(seen) > _CUTS:
-            return
-        rest: list[Arrangement] = []
-        for bodies, order in itertools.islice(_ways(frame, sizes, spaces), _WAYS):
-            made = _arranged(stocks, bodies, order, kinds, over)
-            if made and not rest and not given:
+        made: list[Arrangement] = []
+        begun = stocks.spent
+        for bodies, order in _ways(frame, sizes, spaces):
+            found = _arranged(stocks, bodies, order, kinds, over)
+            if found and is_first:
                 # The first of all is shown while others are sought.
-                yield made.pop(0)
-            rest += made
-            given += bool(made)
-            if len(rest) >= _ENOUGH:
+                yield found.pop(0)
+                is_first = False
+            made += found
+            if len(made) >= _ENOUGH or stocks.spent - begun > _SPENT:
                 break
-        yield from best_of_kinds(rest)
-        if given >= _GIVEN:
+        yield from best_of_kinds(made)
+        if stocks.spent > (_ALL if is_first else _SPENT) or len(seen) >= _CUTS:
             return
-
-
-#: With so many layouts of one cut no more are sought.
-_ENOUGH = 8
 
 
 def _projector(space: ScrewSpace) -> bytes:
@@ -170,11 +181,18 @@ def _key(turn: FloatArray, bodies: Sequence[Boxes], order: Sequence[ScrewSpace])
     for space in order:
         rows = turned_screws(turn, space.scaled)
         numbers.append((rows.T @ rows).ravel())
+    shapes = np.asarray(np.round(np.concatenate(numbers), 6) + 0.0).tobytes()
+    return shapes + key_of_boxes(turn, bodies)
+
+
+def key_of_boxes(turn: FloatArray, bodies: Sequence[Boxes]) -> bytes:
+    """What tells boxes of bodies apart, after a turn."""
+    numbers = [np.zeros(0)]
     for boxes in bodies:
         ends = np.array([(box.low, box.high) for box in boxes]) @ turn.T
-        sorted_ends = np.concatenate((ends.min(axis=1), ends.max(axis=1)), axis=1)
-        numbers.append(sorted_ends[np.lexsort(np.round(sorted_ends, 9).T)].ravel())
-    return np.asarray(np.round(np.concatenate(numbers), 6) + 0.0).tobytes()
+        rows = np.round(np.concatenate((ends.min(axis=1), ends.max(axis=1)), axis=1), 6) + 0.0
+        numbers.append(rows[np.lexsort(rows.T)].ravel())
+    return np.concatenate(numbers).tobytes()
 
 
 def _arranged(
@@ -276,7 +294,8 @@ def _placed(
     sets = stocks.sets(stock, recipe)[:_SETS]
     clear = [each for each in sets if is_clear(each, avoided, stocks.sizes.clearance)]
     if sets and not clear:
-        clear = sets_of(stock.beside(avoided), recipe, _STARTS)[:_SETS]
+        clear = stocks.sets_beside(stock, recipe, avoided)[:_SETS]
+    clear = [each for each in clear if each.chosen.sigma >= _FLATTEST]
     for each in clear:
         rest = _placed(stocks, others, [*avoided, *strips_of(each)])
         if rest is not None:
@@ -310,7 +329,7 @@ def names_of_bodies(count: int) -> list[str]:
 
 
 def layers_in_words(recipes_: Sequence[tuple[str, ...]]) -> str:
-    """What layers are made of, from the ground, such as "two layers, each a sheet and two wires"."""
+    """What layers are made of, from the ground, such as "two layers, each of five wires"."""
     each = [kinds_in_words(recipe) for recipe in recipes_]
     many = number_in_words(len(each))
     if len(set(each)) == 1:

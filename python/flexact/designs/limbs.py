@@ -18,10 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.arrays import FloatArray
+from ..core.arrays import BoolArray, FloatArray
 from ..util.rotations import unit
 from ..util.text import number_in_words
 from .candidates import (
+    Candidates,
     Place,
     Sizes,
     boxes_of,
@@ -33,26 +34,34 @@ from .candidates import (
 )
 from .choice import Chosen
 from .frame import Scaled, turned_screws
-from .geometry import TINY, between_segments
-from .images import Group, group_of, is_within, keeps, moved
-from .layers import Stocks, best_of_kinds, is_clear, names_of_bodies, strips_of
+from .geometry import TINY, between_segments, edges_of, within
+from .images import Group, group_of, keeps, moved
+from .layers import (
+    Stocks,
+    best_of_kinds,
+    is_clear,
+    key_of_boxes,
+    names_of_bodies,
+    strips_of,
+)
 from .layouts import kinds_in_words
 from .possible import orthonormal, possible
 from .problem import Box, Problem
-from .rooms import Boxes, asides
-from .search import Arrangement, Found, Part, Stock, recipes, sets_of
+from .rooms import Boxes, asides, hull_of
+from .search import Arrangement, Found, Part, Stock, recipes
 
 #: How far the forces of a limb's wires must pass by its hinge, and how much of the wrench that a
 #: limb holds must be in no other part of W that is held.
 _LEVER, _NEW = 0.12, 0.25
 #: Of each limb so many pairs of wires are tried, and of each pair so many hinges.
-_PAIRS, _HINGES = 3, 2
+_PAIRS, _HINGES, _WRENCHES = 2, 2, 5
 #: From how many first flexures the choice for a hinge begins.
 _STARTS = 2
 #: Points along an edge of a box from which lines of a limb start, and angles in a plane.
 _FINE, _ANGLES = 3, 24
-#: How many places of bodies are tried, and after how many layouts no more are.
-_PLACES, _ENOUGH = 10, 4
+#: After so many layouts no more are sought; nor after so many searches in a region, of limbs that
+#: are images of each other, and of others.
+_ENOUGH, _TURNED, _SPENT = 3, 14, 24
 
 
 class Limb(NamedTuple):
@@ -72,8 +81,9 @@ class Limb(NamedTuple):
 
     def parts(self, body: str) -> tuple[Part, Part]:
         """Its two sets of flexures, the hinge first."""
-        root, tip = ("stage", "ground") if self.is_hanging else ("ground", "stage")
-        return Part((body, root), self.hinge), Part((tip, body), self.pair)
+        above, below = ("stage", body), (body, "ground")
+        hinge, pair = (above, below) if self.is_hanging else (below, above)
+        return Part(hinge, self.hinge), Part(pair, self.pair)
 
     @property
     def strips(self) -> list[tuple[FloatArray, float]]:
@@ -82,10 +92,16 @@ class Limb(NamedTuple):
 
     def moved(self, turn: FloatArray) -> Limb:
         """Its image after a turn."""
-        wrench = np.roll(turned_screws(turn, np.roll(self.wrench, 3)), 3)
         return self._replace(
-            wrench=wrench, hinge=_moved(self.hinge, turn), pair=_moved(self.pair, turn)
+            wrench=wrench_after(turn, self.wrench),
+            hinge=_moved(self.hinge, turn),
+            pair=_moved(self.pair, turn),
         )
+
+
+def wrench_after(turn: FloatArray, wrench: FloatArray) -> FloatArray:
+    """A wrench (f, m) after a turn or mirror about the origin."""
+    return np.roll(turned_screws(turn, np.roll(wrench, 3)), 3)
 
 
 def _moved(found: Found, turn: FloatArray) -> Found:
@@ -114,15 +130,19 @@ def limbs(
         return
     search = _Search(frame, sizes, kinds, found.constraint.scaled, found.forces.scaled)
     wrenches = wrenches_of(found.constraint.scaled, found.forces.scaled, bool(pitched))
-    made: list[Arrangement] = []
-    for is_hanging in (False, True):
-        for layout in search.of_places(wrenches, count, is_hanging):
-            if not made:
+    is_first = True
+    for is_hanging, limit in ((False, _SPENT), (True, 2 * _SPENT)):
+        made: list[Arrangement] = []
+        for layout in search.of_places(wrenches, count, is_hanging, limit):
+            if is_first:
+                # The first of all is shown while others are sought.
                 yield layout
-            made.append(layout)
-            if len(made) > _ENOUGH:
+            else:
+                made.append(layout)
+            is_first = False
+            if len(made) >= _ENOUGH:
                 break
-    yield from best_of_kinds(made[1:])
+        yield from best_of_kinds(made)
 
 
 def wrenches_of(constraint: FloatArray, held: FloatArray, is_pitched: bool) -> FloatArray:
@@ -171,6 +191,95 @@ def complement_of_forces(constraint: FloatArray) -> FloatArray:
     return orthonormal((left.T @ constraint)[rank:, 3:])
 
 
+class Sector(NamedTuple):
+    """Where a limb may be that is to have images by turns: clear of these, and within the regions.
+
+    Attributes:
+        turns: (m, 3, 3) the identity, and those of the images.
+        sides: (2, 3) unit vectors outward across the two planes through the axis that bound it.
+        gap: How far from these it stays.
+        stage: Where flexures end on the stage.
+        ground: Likewise on the ground.
+    """
+
+    turns: FloatArray
+    sides: FloatArray
+    gap: float
+    stage: Boxes
+    ground: Boxes
+
+    @staticmethod
+    def around(
+        box: Box, group: Group, count: int, regions: tuple[Boxes, Boxes], sizes: Sizes
+    ) -> Sector | None:
+        """The sector of a body; None of one that is on the axis of the turns."""
+        middle = (box.low + box.high) / 2.0
+        outward = middle - (middle @ group.axis) * group.axis
+        if np.linalg.norm(outward) < _LEVER:
+            return None
+        outward = unit(outward)
+        beside = np.cross(group.axis, outward)
+        half = math.pi / group.order
+        sides = np.array([sign * math.cos(half) * beside for sign in (1.0, -1.0)])
+        sides -= math.sin(half) * outward
+        gap = sizes.clearance / 2.0 + max(sizes.diameter, sizes.thickness) / 2.0
+        return Sector(group.turns[:count], sides, gap, *regions)
+
+    def has(self, ends: FloatArray, half: FloatArray, side: int) -> BoolArray:
+        """Which clamped edges, of images too, are in the stage (0) or in the ground (1).
+
+        Args:
+            ends: (n, 3) middles of edges.
+            half: (n, 3) half of the edges.
+            side: Which region.
+        """
+        ok = np.ones(len(ends), dtype=bool)
+        for turn in self.turns:
+            inside = np.zeros(len(ends), dtype=bool)
+            for box in (self.stage, self.ground)[side]:
+                both = [
+                    within((ends + sign * half) @ turn.T, box.low, box.high) for sign in (1, -1)
+                ]
+                inside |= both[0] & both[1]
+            ok &= inside
+        return ok
+
+    def is_around(self, strips: FloatArray) -> BoolArray:
+        """(n,) which strips, (n, m, 3, 3), are in the sector."""
+        corners = edges_of(strips)[..., 0, :].reshape(len(strips), -1, 3)
+        return np.asarray(((corners @ self.sides.T) <= -self.gap).all(axis=(1, 2)))
+
+    def stock(self, stock: Stock) -> Stock:
+        """Those flexures of a stock that are in the sector and whose images fit."""
+        side = 1 if stock.place.there is self.ground else 0
+        return _Fitting(stock, self, side)
+
+
+class _Fitting(Stock):
+    """Flexures of another stock that fit in a sector."""
+
+    def __init__(self, stock: Stock, sector: Sector, side: int) -> None:
+        """Nothing is sought yet."""
+        super().__init__(stock.place)
+        self._stock, self._sector, self._side = stock, sector, side
+
+    def beside(self, avoided: Sequence[tuple[FloatArray, float]]) -> Stock:
+        """The same flexures, where there are others already."""
+        made = _Fitting(self._stock, self._sector, self._side)
+        made._avoided, made._known, made._blocks = avoided, self._known, self._blocks
+        return made
+
+    def candidates(self, kind: str) -> Candidates:
+        """Flexures of a kind."""
+        if kind not in self._known:
+            made = self._stock.candidates(kind)
+            place = -1 if self._side else 0
+            half = made.strips[:, place, 2]
+            fits = self._sector.has(made.ends[:, place], half, self._side)
+            self._known[kind] = made.of(fits & self._sector.is_around(made.strips))
+        return self._known[kind]
+
+
 class _Search:
     """Limbs of one problem.
 
@@ -197,20 +306,30 @@ class _Search:
         self.stocks = Stocks(frame, sizes)
 
     def of_places(
-        self, wrenches: FloatArray, count: int, is_hanging: bool
+        self, wrenches: FloatArray, count: int, is_hanging: bool, limit: int
     ) -> Iterator[Arrangement]:
         """Layouts whose bodies are in boxes that are given, or beside the stage."""
         if count > 1 and not self.frame.intermediate:
             for group in _turns(self.frame.freedom, count):
-                for places in itertools.islice(asides(self.frame, self.sizes, 1), 6):
-                    layout = self.turned(places[0], group, count, wrenches, is_hanging)
-                    if layout is not None:
-                        yield layout
+                for (boxes,) in self.places(1):
+                    if self.stocks.spent > _TURNED:
                         break
-        for places in itertools.islice(asides(self.frame, self.sizes, count), _PLACES):
+                    yield from self.turned(boxes, group, count, wrenches, is_hanging)
+        for places in self.places(count):
+            if self.stocks.spent > limit:
+                return
             layout = self.at(places, wrenches, is_hanging)
             if layout is not None:
                 yield layout
+
+    def places(self, count: int) -> Iterator[tuple[Boxes, ...]]:
+        """Boxes of bodies, images of each other once."""
+        known: set[bytes] = set()
+        for places in asides(self.frame, self.sizes, count):
+            images = [key_of_boxes(turn, places) for turn in self.frame.isometries]
+            if images[0] not in known:
+                known |= set(images)
+                yield places
 
     def at(
         self, places: Sequence[Boxes], wrenches: FloatArray, is_hanging: bool
@@ -235,16 +354,15 @@ class _Search:
         is_hanging: bool,
     ) -> Limb | None:
         """The first limb that holds something which is not held yet."""
-        spanned = orthonormal(
-            np.array([*self.held, *(limb.wrench for limb in others)]).reshape(-1, 6)
-        )
+        held = np.array([*self.held, *(limb.wrench for limb in others)]).reshape(-1, 6)
+        spanned = orthonormal(held)
         new = np.linalg.norm(wrenches - wrenches @ spanned.T @ spanned, axis=1)
         avoided = [strip for limb in others for strip in limb.strips]
         # What is most unlike what is held comes first.
-        for place in np.argsort(-np.round(new, 3), kind="stable"):
-            if new[place] > _NEW:
-                for limb in self.made(wrenches[place], boxes, solid, avoided, is_hanging):
-                    return limb
+        order = [n for n in np.argsort(-np.round(new, 3), kind="stable") if new[n] > _NEW]
+        for place in order[:_WRENCHES]:
+            for limb in self.made(wrenches[place], boxes, solid, avoided, is_hanging):
+                return limb
         return None
 
     def made(
@@ -254,76 +372,65 @@ class _Search:
         solid: Sequence[Box],
         avoided: list[tuple[FloatArray, float]],
         is_hanging: bool,
+        sector: Sector | None = None,
     ) -> Iterator[Limb]:
         """Limbs that hold a wrench, with their body in some boxes, clear of what is there."""
-        root, tip = (self.stage, self.ground) if is_hanging else (self.ground, self.stage)
-        keep_out = (*self.frame.keep_out, *solid)
-        # Wires go from the body outward, or from the stage to it.
-        here, there = (boxes, tip) if is_hanging else (tip, boxes)
-        place = Place(np.zeros((0, 6)), here, there, (*keep_out, *root), self.sizes)
-        axes = points_of(boxes, _FINE)
-        for pair in itertools.islice(pairs(place, wrench), _PAIRS):
+        above, below = (self.stage, boxes), (boxes, self.ground)
+        of_hinge, of_pair = (above, below) if is_hanging else (below, above)
+        beyond = self.stage if not is_hanging else self.ground
+        beside = self.ground if not is_hanging else self.stage
+        place = Place(
+            *(np.zeros((0, 6)), *of_pair, (*self.frame.keep_out, *solid, *beside), self.sizes)
+        )
+        through = points_of(boxes, _FINE)
+        for pair in itertools.islice(pairs(place, wrench, sector), _PAIRS):
             if not is_clear(pair, avoided, self.sizes.clearance):
                 continue
-            force = pair.chosen.members[0][0].rows[pair.chosen.members[0][1], 0]
+            candidates, first = pair.chosen.members[0]
             near = [*avoided, *strips_of(pair)]
-            body, held_by = (root, boxes) if is_hanging else (boxes, root)
-            for axis in itertools.islice(hinges(axes, wrench, force), _HINGES):
-                stock = self.stocks.between(axis[None], body, held_by, [*solid, *tip])
-                hinge = self.hinge(stock.beside(near))
+            for axis in itertools.islice(
+                hinges(through, wrench, candidates.rows[first, 0]), _HINGES
+            ):
+                stock = self.stocks.between(axis[None], *of_hinge, [*solid, *beyond])
+                if sector is not None:
+                    stock = sector.stock(stock)
+                hinge = self.hinge(stock, near)
                 if hinge is not None:
                     yield Limb(wrench, hinge, pair, is_hanging)
 
-    def hinge(self, stock: Stock) -> Found | None:
+    def hinge(self, stock: Stock, avoided: Sequence[tuple[FloatArray, float]]) -> Found | None:
         """The flexures of a hinge: those with a sheet first."""
-        for recipe in _hinges_first(recipes(len(stock.constraint), self.kinds)):
+        made = recipes(len(stock.constraint), self.kinds)
+        for recipe in sorted(made, key=lambda each: ("sheet" not in each, len(each))):
             if all(len(stock.candidates(kind)) for kind in set(recipe)):
-                found = sets_of(stock, recipe, _STARTS)
+                found = self.stocks.sets_beside(stock, recipe, avoided, _STARTS)
                 if found:
                     return found[0]
         return None
 
     def turned(
         self, boxes: Boxes, group: Group, count: int, wrenches: FloatArray, is_hanging: bool
-    ) -> Arrangement | None:
-        """A layout of limbs that are images of each other; None where none was found."""
-        root, tip = (self.stage, self.ground) if is_hanging else (self.ground, self.stage)
+    ) -> Iterator[Arrangement]:
+        """Layouts of limbs that are images of each other."""
+        sector = Sector.around(hull_of(boxes), group, count, (self.stage, self.ground), self.sizes)
+        if sector is None:
+            return
+        tried = 0
         for wrench in wrenches:
-            images = [np.roll(turned_screws(t, np.roll(wrench, 3)), 3) for t in group.turns[:count]]
+            images = [wrench_after(turn, wrench) for turn in sector.turns]
             rows = np.array([*self.held, *images])
             if np.linalg.svd(rows, compute_uv=False)[-1] < _NEW:
                 continue
-            for limb in itertools.islice(self.made(wrench, boxes, [], [], is_hanging), 2):
-                together = [limb.moved(turn) for turn in group.turns[:count]]
-                if not self.are_apart(together, root, tip, boxes):
-                    continue
-                layout = self.completed(together, boxes, group if count == group.order else None)
+            tried += 1
+            if tried > _WRENCHES:
+                return
+            for limb in self.made(wrench, boxes, [], [], is_hanging, sector):
+                together = [limb.moved(turn) for turn in sector.turns]
+                whole = group if count == group.order else None
+                layout = self.completed(together, boxes, whole)
                 if layout is not None:
-                    return layout
-        return None
-
-    def are_apart(self, together: Sequence[Limb], root: Boxes, tip: Boxes, boxes: Boxes) -> bool:
-        """Whether images of a limb end in the regions, and are clear of each other."""
-        room = (Box(np.full(3, -np.inf), np.full(3, np.inf)),)
-        del boxes
-        for k, limb in enumerate(together):
-            for found, ends in ((limb.hinge, (room, root)), (limb.pair, (tip, room))):
-                place = Place(np.zeros((0, 6)), *ends, self.frame.keep_out, self.sizes)
-                for candidates, _ in found.chosen.members:
-                    swapped = (
-                        place
-                        if not limb.is_hanging
-                        else Place(
-                            place.freedom, place.there, place.here, place.keep_out, place.sizes
-                        )
-                    )
-                    if not is_within(candidates, swapped)[0]:
-                        return False
-            avoided = [strip for other in together[:k] for strip in other.strips]
-            for found in (limb.hinge, limb.pair):
-                if not is_clear(found, avoided, self.sizes.clearance):
-                    return False
-        return True
+                    yield layout
+                    return
 
     def completed(
         self, together: Sequence[Limb], solid: Sequence[Box], group: Group | None
@@ -342,7 +449,7 @@ class _Search:
             plain = None
             for recipe in recipes(len(self.held), self.kinds):
                 if all(len(stock.candidates(kind)) for kind in set(recipe)):
-                    plain = next(iter(sets_of(stock.beside(avoided), recipe, 4)), None)
+                    plain = next(iter(self.stocks.sets_beside(stock, recipe, avoided)), None)
                 if plain is not None:
                     break
             if plain is None:
@@ -352,23 +459,17 @@ class _Search:
         rows = np.array([*self.held, *held])
         if np.linalg.svd(rows, compute_uv=False)[-1] < _NEW / 2.0:
             return None
-        kinds = {kinds_in_words(limb.hinge.recipe) for limb in together}
-        on = " or ".join(sorted(kinds))
+        kinds = dict.fromkeys(kinds_in_words(limb.hinge.recipe) for limb in together)
+        root = "stage" if together[0].is_hanging else "ground"
         many = number_in_words(len(together))
-        if len(together) == 1:
-            kind = f"a limb on a hinge of {on}{what}"
-        else:
-            kind = f"{many} limbs, each on a hinge of {on}{what}"
+        of = "a limb" if len(together) == 1 else f"{many} limbs, each"
+        kind = f"{of} hinged to the {root} by {' or by '.join(kinds)}{what}"
         none = np.zeros((0, 3))
         return Arrangement(kind, tuple(parts), tuple((name, none) for name in names))
 
 
 def _complement(rows: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.svd(rows)[2][len(rows) :])
-
-
-def _hinges_first(found: Sequence[tuple[str, ...]]) -> list[tuple[str, ...]]:
-    return sorted(found, key=lambda recipe: ("sheet" not in recipe, len(recipe)))
 
 
 def _turns(freedom: FloatArray, count: int) -> Iterator[Group]:
@@ -383,12 +484,13 @@ def _turns(freedom: FloatArray, count: int) -> Iterator[Group]:
 # One limb -------------------------------------------------------------------------------
 
 
-def pairs(place: Place, wrench: FloatArray) -> Iterator[Found]:
+def pairs(place: Place, wrench: FloatArray, sector: Sector | None = None) -> Iterator[Found]:
     """Two wires of which one combination is a wrench, the stiffest first, in unlike directions.
 
     Args:
         place: Between which regions.
         wrench: (6,) of unit length.
+        sector: In which they have to be, if they are to have images.
     """
     is_couple = np.linalg.norm(wrench[:3]) <= TINY
     ends = _parallel(place, wrench[3:]) if is_couple else _skew(place, wrench)
@@ -407,6 +509,10 @@ def pairs(place: Place, wrench: FloatArray) -> Iterator[Found]:
     for k in range(2):
         strips = np.stack((ends[:, k, 0], ends[:, k, 1], np.zeros_like(ways[:, k])), axis=1)
         clear &= clear_of_boxes(place, strips[:, None], place.sizes.diameter / 2.0)
+        if sector is not None:
+            side = 0 if place.here is sector.stage else 1
+            clear &= sector.has(ends[:, k, side], np.zeros_like(ends[:, k, side]), side)
+            clear &= sector.is_around(strips[:, None])
     order = [n for n in np.argsort(-np.round(stiffness / area, 6), kind="stable") if clear[n]]
     told: list[FloatArray] = []
     for n in order:

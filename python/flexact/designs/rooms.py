@@ -21,8 +21,10 @@ from .problem import Box
 #: The boxes of one body.
 Boxes = tuple[Box, ...]
 
-#: How thick a plate or the bar of a frame is.
+#: How thick the bar of a frame is.
 _THICK = 0.2
+#: Where a plate begins, and how thick it is, in parts of the gap between stage and ground.
+_DEPTHS = ((0.25, 0.5), (0.4, 0.2), (0.6, 0.2))
 #: How far a plate reaches beyond the stage at most where nothing is beside it.
 _FAR = 1.5
 
@@ -36,7 +38,9 @@ def stacks(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         count: How many bodies.
     """
     if frame.intermediate:
-        singles = [(box,) for box in _parts(frame.intermediate, count, sizes.clearance)]
+        singles: list[Boxes] = [
+            (box,) for box in _parts(frame.intermediate, count, sizes.clearance)
+        ]
     else:
         singles = proposed(frame, sizes)
     for chosen in itertools.permutations(singles, count):
@@ -53,12 +57,14 @@ def asides(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         count: How many bodies.
     """
     if frame.intermediate:
-        singles = [(box,) for box in _parts(frame.intermediate, count, sizes.clearance)]
+        singles: list[Boxes] = [
+            (box,) for box in _parts(frame.intermediate, count, sizes.clearance)
+        ]
     else:
         solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
         singles = [
             boxes
-            for boxes in _plates(frame, sizes, _NARROW)
+            for boxes in _plates(frame, sizes, _NARROW, _DEPTHS)
             if _are_apart(boxes, solid, sizes.clearance)
         ]
     for chosen in itertools.combinations(singles, count):
@@ -84,7 +90,12 @@ def _parts(boxes: Sequence[Box], count: int, gap: float) -> list[Box]:
 
 def proposed(frame: Scaled, sizes: Sizes) -> list[Boxes]:
     """Places of one body where none are given: plates, then frames, clear of everything."""
-    made = [*_plates(frame, sizes), *_frames(frame, sizes)]
+    made = [
+        *_plates(frame, sizes, _WIDE[:1], _DEPTHS[:1]),
+        *_frames(frame, sizes),
+        *_plates(frame, sizes, _WIDE[1:], _DEPTHS[:1]),
+        *_plates(frame, sizes, _WIDE, _DEPTHS[1:]),
+    ]
     solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
     return [boxes for boxes in made if _are_apart(boxes, solid, sizes.clearance)]
 
@@ -138,34 +149,31 @@ _NARROW = ((False, False),)
 
 
 def _plates(
-    frame: Scaled, sizes: Sizes, widths: Sequence[tuple[bool, bool]] = _WIDE
+    frame: Scaled,
+    sizes: Sizes,
+    widths: Sequence[tuple[bool, bool]],
+    depths: Sequence[tuple[float, float]],
 ) -> Iterator[Boxes]:
-    """Plates beside the stage: a least length from it, or in the middle of the room there."""
+    """Plates beside the stage, those of a width after each other on all six sides."""
     stage = hull_of(boxes_of(frame.stage))
     room = _room(frame, sizes)
-    near = _gaps(frame, sizes)
-    for axis, side in itertools.product(range(3), (0, 1)):
-        gap = near[side, axis]
-        thick = min(_THICK, gap / 4.0)
-        starts = dict.fromkeys(
-            round(start, 9)
-            for start in ((gap - thick) / 2.0, sizes.length[0])
-            if sizes.clearance <= start <= gap - thick - sizes.clearance
-        )
-        others = np.arange(3) != axis
-        for start in starts:
-            for wide in widths:
-                low, high = stage.low.copy(), stage.high.copy()
-                for each, is_wide in zip(np.flatnonzero(others), wide, strict=True):
-                    if is_wide:
-                        low[each], high[each] = room[:, each]
-                if side:
-                    low[axis] = stage.high[axis] + start
-                    high[axis] = low[axis] + thick
-                else:
-                    high[axis] = stage.low[axis] - start
-                    low[axis] = high[axis] - thick
-                yield (Box(low, high),)
+    gaps = _gaps(frame, sizes)
+    for wide, (start, thick) in itertools.product(widths, depths):
+        for axis, side in itertools.product(range(3), (0, 1)):
+            gap = gaps[side, axis]
+            if min(start, 1.0 - start - thick) * gap < sizes.clearance:
+                continue
+            low, high = stage.low.copy(), stage.high.copy()
+            for each, is_wide in zip(np.flatnonzero(np.arange(3) != axis), wide, strict=True):
+                if is_wide:
+                    low[each], high[each] = room[:, each]
+            if side:
+                low[axis] = stage.high[axis] + start * gap
+                high[axis] = low[axis] + thick * gap
+            else:
+                high[axis] = stage.low[axis] - start * gap
+                low[axis] = high[axis] - thick * gap
+            yield (Box(low, high),)
 
 
 def _gaps(frame: Scaled, sizes: Sizes) -> FloatArray:
