@@ -368,7 +368,8 @@ class _Search:
             self.refused += 1
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
-        what = ", ".join((counted(flexures), *symmetry_words(kept, self.frame)))
+        parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
+        what = ", ".join(parts)
         layout = Layout(
             *(0, what, kind, problem, flexures, bodies, model),
             *(found.over_constrained, found.internal, found.analysis.proof is not None),
@@ -396,6 +397,16 @@ def _much_alike(one: Layout, other: Layout) -> bool:
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
         for key in keys
     )
+
+
+def between_words(arrangement: Arrangement) -> list[str]:
+    """How the bodies between are held, such as "in two layers"; empty where there are none."""
+    count = len(arrangement.bodies)
+    if not count:
+        return []
+    if "limb" in arrangement.kind:
+        return ["with a limb" if count == 1 else f"with {number_in_words(count)} limbs"]
+    return [f"in {number_in_words(count + 1)} layers"]
 
 
 def symmetry_words(kept: Sequence[Group], frame: Scaled) -> list[str]:

@@ -102,6 +102,16 @@ class Layout(Frozen):
     alike: int
     scores: dict[str, float]
 
+    @property
+    def worst_stiffness(self) -> float:
+        """The least stiffness of the stage across its freedom [N/m]; NaN where it has none."""
+        return self.scores.get("worst_stiffness", math.nan)
+
+    @property
+    def parts(self) -> int:
+        """How many flexures and bodies between it has."""
+        return len(self.flexures) + len(self.bodies)
+
     def python(self) -> str:
         """A script that makes the model."""
         return script_of(self)
