@@ -10,7 +10,7 @@ from pathlib import Path
 import design_answers_by_hand as by_hand
 import numpy as np
 import pytest
-from design_answers_by_hand import Json, answer, design_oracle, layout, wire
+from design_answers_by_hand import Json, answer, design_oracle, design_search, layout, wire
 
 import flexact
 
@@ -470,9 +470,114 @@ def test_the_48_isometries_are_all() -> None:
         assert np.max(np.abs(one - other)) > 0.5
 
 
-@pytest.mark.parametrize("problem", by_hand.problems().values(), ids=lambda p: str(p["id"]))
-def test_classes_of_the_problems_are_computed(problem: Json) -> None:
-    own = design_oracle.classify(design_oracle.freedom(problem))
-    expected = problem["expect"]
+PROBLEMS = by_hand.problems() | by_hand.problems("more_design_problems.json")
+
+
+def test_problems_have_names_of_their_own() -> None:
+    first, more = by_hand.problems(), by_hand.problems("more_design_problems.json")
+    assert len(first) == 20
+    assert len(more) >= 30
+    assert not first.keys() & more.keys()
+    for problem in PROBLEMS.values():
+        assert problem["source"]
+        if not problem["expect"].get("layout_exists", True):
+            assert problem["expect"]["why"] in design_oracle.CONDITIONS
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_classes_of_the_problems_are_computed(name: str) -> None:
+    own = design_oracle.classify(design_oracle.freedom(PROBLEMS[name]))
+    expected = PROBLEMS[name]["expect"]
     for key in own.keys() & expected.keys() - {"signature_freedom"}:
         assert own[key] == expected[key], key
+
+
+#: Problems in which wires are allowed and a layout exists, and those without, by their reason.
+WITH_WIRES = [
+    name
+    for name, problem in PROBLEMS.items()
+    if problem["expect"].get("layout_exists") and "wire" in problem["limits"]["kinds"]
+]
+WITHOUT = {
+    name: problem["expect"]["why"]
+    for name, problem in PROBLEMS.items()
+    if problem["expect"].get("why") in ("length", "keep-out", "clearance", "symmetry")
+}
+
+
+def wires_found(problem: Json) -> list[str] | None:
+    """What is wrong with a layout of wires that the slow search finds; None where it finds none."""
+    if (flexures := design_search.witness(problem)) is None:
+        return None
+    return design_oracle.judge(problem, answer(problem, [layout(problem, flexures, "wires")]))
+
+
+@pytest.mark.dear(6)
+@pytest.mark.parametrize("name", WITH_WIRES)
+def test_a_layout_exists_where_it_is_said(name: str) -> None:
+    assert wires_found(PROBLEMS[name]) == []
+
+
+@pytest.mark.dear(6)
+@pytest.mark.parametrize("name", WITHOUT)
+def test_the_reason_is_what_leaves_none(name: str) -> None:
+    """Without the condition there is a layout."""
+    problem = copy.deepcopy(PROBLEMS[name])
+    problem["limits"]["kinds"] = ["wire"]
+    relaxed: dict[str, Callable[[], object]] = {
+        "length": lambda: problem["limits"].update(length=[1e-3, 1.0]),
+        "keep-out": lambda: problem.pop("keep_out"),
+        "clearance": lambda: problem["limits"].update(clearance=-1.0),
+        "symmetry": lambda: problem["limits"].pop("symmetry"),
+    }
+    relaxed[WITHOUT[name]]()
+    del problem["expect"]
+    assert wires_found(problem) == []
+
+
+def sheet(name: str, p: list[float], q: list[float], normal: list[float], width: float) -> Json:
+    sizes = {"width": width, "thickness": 0.3e-3, "normal": normal}
+    between = ["stage", "ground"]
+    return {"name": name, "kind": "sheet", "ends": [p, q], "between": between} | sizes
+
+
+def folded(name: str, p: list[float], fold: list[float], q: list[float]) -> Json:
+    """A folded sheet with its fold along z."""
+    line = {"point": fold, "direction": [0.0, 0.0, 1.0]}
+    sizes = {"width": 0.01, "thickness": 0.3e-3, "fold": line}
+    between = ["stage", "ground"]
+    return {"name": name, "kind": "folded sheet", "ends": [p, q], "between": between} | sizes
+
+
+BY_HAND: dict[str, list[Json]] = {
+    "hinge_of_two_sheets": [
+        sheet("sheet 1", [0.008, 0.02, 0.0], [0.008, 0.07, 0.0], [0.0, 0.0, 1.0], 0.02),
+        sheet("sheet 2", [-0.008, 0.0, 0.01], [-0.008, 0.0, 0.07], [0.0, 1.0, 0.0], 0.02),
+    ],
+    "guide_of_two_sheets": [
+        sheet("sheet 1", [0.02, 0.0, 0.008], [0.065, 0.0, 0.008], [0.0, 0.0, 1.0], 0.02),
+        sheet("sheet 2", [0.02, 0.0, -0.008], [0.065, 0.0, -0.008], [0.0, 0.0, 1.0], 0.02),
+    ],
+    "sheet_alone": [sheet("sheet 1", [0.02, 0.0, 0.0], [0.065, 0.0, 0.0], [0.0, 0.0, 1.0], 0.02)],
+    "sheet_and_three_wires": [
+        sheet("sheet 1", [0.02, 0.0, 0.0], [0.065, 0.0, 0.0], [0.0, 0.0, 1.0], 0.02),
+        wire("wire 1", [0.015, 0.0, -0.01], [0.015, 0.0, -0.065]),
+        wire("wire 2", [-0.01, 0.015, -0.01], [-0.01, 0.015, -0.065]),
+        wire("wire 3", [-0.01, -0.015, -0.01], [-0.01, -0.015, -0.065]),
+    ],
+    "planar_folded": [
+        folded("folded 1", [0.02, 0.0, 0.0], [0.045, 0.0, 0.0], [0.045, 0.065, 0.0]),
+        folded("folded 2", [0.0, 0.02, 0.0], [0.0, 0.045, 0.0], [-0.065, 0.045, 0.0]),
+        folded("folded 3", [-0.02, 0.0, 0.0], [-0.045, 0.0, 0.0], [-0.045, -0.065, 0.0]),
+    ],
+    "one_folded_sheet": [
+        folded("folded 1", [0.01, 0.0, 0.0], [0.035, 0.0, 0.0], [0.035, 0.065, 0.0]),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", BY_HAND)
+def test_a_layout_made_by_hand_exists(name: str) -> None:
+    problem = PROBLEMS[name]
+    made = layout(problem, BY_HAND[name], "flexures")
+    assert design_oracle.judge(problem, answer(problem, [made])) == []

@@ -648,21 +648,24 @@ def image(problem: Json, ours: list[Json], theirs: list[Json], turn: Real) -> bo
     return True
 
 
-def symmetric(problem: Json, flexures: list[Json], asked: str) -> bool:
-    """Whether flexures are their own image under "mirror x" or "3-fold about z".
+def symmetry_matrix(asked: str) -> Real:
+    """The isometry of "mirror x" or "3-fold about z".
 
     Raises:
         ValueError: other words.
     """
     if found := re.fullmatch(r"mirror (?:across )?([xyz])", asked):
         axis = "xyz".index(found[1])
-        turn = np.diag([-1.0 if k == axis else 1.0 for k in range(3)])
-    elif found := re.fullmatch(r"(\d+)-fold about ([xyz])", asked):
+        return np.diag([-1.0 if k == axis else 1.0 for k in range(3)])
+    if found := re.fullmatch(r"(\d+)-fold about ([xyz])", asked):
         angle, k = 2 * math.pi / int(found[1]), spin(np.eye(3)["xyz".index(found[2])])
-        turn = np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
-    else:
-        raise ValueError(f"no symmetry is called {asked!r}")
-    return image(problem, flexures, flexures, turn)
+        return np.array(np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k)
+    raise ValueError(f"no symmetry is called {asked!r}")
+
+
+def symmetric(problem: Json, flexures: list[Json], asked: str) -> bool:
+    """Whether flexures are their own image under the symmetry of some words."""
+    return image(problem, flexures, flexures, symmetry_matrix(asked))
 
 
 def examine(problem: Json, answer: Json) -> tuple[list[str], list[str]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from design_classes import Json, Real, centre_of, complement, orthonormal, spin, unit
@@ -31,6 +31,8 @@ class Structure:
         self.names = _comments(text)
         self.numbers = _dynamics(text)
         self.elements = self.deck.elements
+        for label in self.elements:
+            self._choose_vector(label)
         links = [label for label in self.elements if self.is_link(label)]
         self.owner = {
             label: owner
@@ -46,6 +48,21 @@ class Structure:
         self.rows = {
             label: derivatives(self.deck, element) for label, element in self.elements.items()
         }
+
+    def _choose_vector(self, label: int) -> None:
+        """A y vector where the default is a matter of rounding and makes no difference."""
+        element = self.elements[label]
+        if element.keyword not in ("BEAM", "RBEAM") or element.vector:
+            return
+        p, q = (np.array(self.deck.position[n]) for n in element.nodes[::2])
+        held = [self.deck.deformations[label, str(k + 1)] for k in range(element.type.deformations)]
+        given = [*self.numbers["ESTIFF"].get(label, []), *[0.0] * 6][:6]
+        round_section = given[2] == given[3] and given[4] == given[5]
+        if len(set(held)) == 1 or (round_section and len(held) == 6 and held[2:4] == held[4:6]):
+            size = np.sort(np.abs(q - p))
+            if size[1] - size[0] < 1e-6 * size[2]:
+                least = np.eye(3)[int(np.argmin(np.abs(q - p)))]
+                self.elements[label] = replace(element, vector=tuple(least))
 
     def is_link(self, label: int) -> bool:
         held = [

@@ -10,7 +10,8 @@ from typing import Any
 
 from ...deck.rendering import ProblemsError, render_problems
 from ...designs.design import layouts_of
-from ...designs.explain import EXPLANATIONS, explain
+from ...designs.explain import explain
+from ...designs.explain_files import EXPLANATIONS
 from ...designs.files import DESIGNS, LAYOUTS, write_decks
 from ...designs.problem import Problem
 from ...designs.reading import problem_of_deck, problem_of_file
