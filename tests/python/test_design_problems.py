@@ -300,6 +300,8 @@ def test_keywords_units_and_homes_of_keys_agree():
         ),
         ("all but rotation about (0, 0, 0.3) along y", np.eye(6)[[3, 4, 5, 0, 2]]),
         ("all but translation x and rotation x", np.eye(6)[[4, 5, 1, 2]]),
+        ("all but z", [*np.eye(6)[[3, 4]], *np.eye(6)[:3]]),
+        ("all but planar z", np.eye(6)[[5, 0, 1]]),
         ("translation x; rotation about (0, 0, 0) along z", np.eye(6)[[3, 2]]),
         (["stage: translation -x"], [[0, 0, 0, -1, 0, 0]]),
         ("screw z pitch 10 mm", [[0, 0, 1, 0, 0, 0.01]]),
@@ -492,6 +494,17 @@ def test_deck_gives_the_points_of_a_body_and_what_is_declared():
     assert np.allclose(in_mm.size, found.size)
 
 
+def test_rotation_without_a_point_is_about_a_line_that_the_body_can_turn_about():
+    """A wire along z through (0.02, 0.02) leaves rotations along x about y = 0.02 alone."""
+    found = problem_of_deck(held_stage(), "stage", "stage: rotation x")
+    assert np.allclose(twists(found), [[1, 0, 0, 0, 0, -0.02]], atol=1e-12)
+    # Of several rotations that meet, the middle is where they do.
+    with pytest.raises(ModelError, match="'rotation x' is stopped"):
+        problem_of_deck(held_stage(), "stage", "spherical")
+    held = problem_of_deck(held_stage(), "stage", "spherical at (0.02, 0.02, 0)")
+    assert held.freedom.dimension == 3
+
+
 def test_problem_that_names_its_deck(tmp_path):
     file_of(tmp_path, "stage.dat", held_stage().to_deck())
     text = 'deck = "stage.dat"\nbody = "stage"\nwanted = "nothing"\n'
@@ -549,6 +562,7 @@ NONSENSE = [
     ({"wanted": ["translation x pitch 3"]}, "a translation has no pitch"),
     ({"wanted": ["all but screw z pitch 0.01"]}, "of a screw there is no one opposite"),
     ({"wanted": ["all but translation x at (0,0,1) and translation y"]}, "are of two points"),
+    ({"wanted": ["all but " * 500 + "z"]}, "is no motion"),
     ({"wanted": ["universal x"]}, "two directions are wanted"),
     ({"wanted": ["nothing at all"]}, "nothing stands behind nothing"),
     ({"wanted": ["x;; y"]}, "there is no motion between two semicolons"),

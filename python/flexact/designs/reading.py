@@ -428,7 +428,7 @@ def _regions(entries: Entries, keys: Keys) -> dict[str, Region | None]:
 def _lines(entries: Entries, keys: Keys, result: Result | None, held: Spaces | None) -> list[Line]:
     """What is wanted; of a body in a deck what is declared, if nothing is said."""
     if "wanted" in keys:
-        return lines_of(entries, *keys["wanted"], result)
+        return lines_of(entries, *keys["wanted"], result, held)
     if held is None:
         if result is None and "deck" not in keys:
             hint = 'write wanted = ["rotation about (0, 0, 0) along x"], or [] for none'
