@@ -150,14 +150,29 @@ def model_of(
         mass=problem.mass or None,
         inertia=inertia[np.triu_indices(3)].tolist() if inertia.any() else None,
     )
-    for name, _ in bodies:
-        model.body(_distinct(ends[name]), name=name)
+    for name, arms in bodies:
+        _add_body(model, name, arms, _distinct(ends[name][len(arms) :]))
     if ends["ground"]:
         model.fix(*_distinct(ends["ground"]))
     names = declared(problem.freedom)
     if names:
         model.independent("stage", *names)
     return model
+
+
+def _add_body(
+    model: Model, name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
+) -> None:
+    """A body between: from arms in a row, where it has such, to the points that are near each."""
+    if len(arms) < 2:
+        model.body([*map(tuple, arms.tolist()), *points], name=name)
+        return
+    corners = [tuple(corner) for corner in arms.tolist()]
+    for pair in zip(corners, corners[1:], strict=False):
+        model.body(pair, name=name)
+    for point in points:
+        near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))
+        model.body((corners[near], point), name=name)
 
 
 def _distinct(
