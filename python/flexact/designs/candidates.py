@@ -523,7 +523,9 @@ def planes(
     return points, across
 
 
-def ways_in_planes(points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def ways_in_planes(
+    points: FloatArray, normals: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Points, normals and directions of middle lines in planes."""
     ways = around(normals)
     many = ways.shape[1]

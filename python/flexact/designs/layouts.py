@@ -110,6 +110,7 @@ class Layout(Frozen):
 #: Coordinates of the stage, in the order of twists about the centre, (w, v).
 COORDINATES = ("rx", "ry", "rz", "x", "y", "z")
 
+
 def declared(freedom: ScrewSpace) -> tuple[str, ...]:
     """Coordinates of the stage that tell its motions apart, as many as there are.
 

@@ -41,13 +41,13 @@ from .candidates import (
     couples,
     distinct_rows,
     forces,
-    ways_in_planes,
     joined,
     lines_for,
     outside,
     planes,
     points_of,
     reached,
+    ways_in_planes,
     with_special,
 )
 from .frame import snapped
