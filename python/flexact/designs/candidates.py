@@ -13,7 +13,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -63,6 +64,7 @@ class Place(Frozen):
         there: Where they end on what holds it.
         keep_out: What they may not touch.
         sizes: What they may measure.
+        held: (c, 6) orthonormal rows of W that the body is held by already.
     """
 
     freedom: FloatArray
@@ -70,11 +72,12 @@ class Place(Frozen):
     there: tuple[Box, ...]
     keep_out: tuple[Box, ...]
     sizes: Sizes
+    held: FloatArray = field(default_factory=partial(np.zeros, (0, 6)))
 
     @property
     def constraint(self) -> FloatArray:
-        """(k, 6) orthonormal rows (f, m) of W."""
-        return complement(np.roll(self.freedom, 3, axis=1))
+        """(k, 6) orthonormal rows (f, m) of W that flexures must hold."""
+        return complement(np.concatenate((np.roll(self.freedom, 3, axis=1), self.held)))
 
 
 def boxes_of(region: Region) -> tuple[Box, ...]:
@@ -428,7 +431,8 @@ def lines_for(place: Place, fineness: int) -> tuple[FloatArray, FloatArray]:
     here = with_special(place.freedom, points_of(place.here, fineness), place.here)
     there = with_special(place.freedom, points_of(place.there, fineness), place.there)
     # From the ground few lines go to the body; there they are needed where it is small.
-    sets = [lines_through(place.freedom, here), lines_of_families(place.constraint)]
+    every = complement(np.roll(place.freedom, 3, axis=1))
+    sets = [lines_through(place.freedom, here), lines_of_families(every)]
     sets.append(lines_through(place.freedom, there))
     points, directions = _pairs(place, here, there)
     sets.append((points, directions))
@@ -436,7 +440,7 @@ def lines_for(place: Place, fineness: int) -> tuple[FloatArray, FloatArray]:
     directions = np.concatenate([each[1] for each in sets])
     # Of one line one point and one sense are enough.
     key = np.round(forces(points, directions), 9) + 0.0
-    sign = np.array([row[np.flatnonzero(row)[0]] if row.any() else 1.0 for row in key])
+    sign = key[np.arange(len(key)), (key != 0.0).argmax(axis=1)]
     _, first = np.unique(key * np.sign(sign)[:, None] + 0.0, axis=0, return_index=True)
     first = np.sort(first)
     return points[first], directions[first]
@@ -653,7 +657,7 @@ def folded(place: Place, fineness: int = 5) -> Candidates:
     middles = np.concatenate([points_of(boxes, 3) for boxes in (place.here,)])
     grid = distinct_rows(np.concatenate((grid, *_corners(place, middles))))
     folds, ways = lines_through(place.freedom, grid)
-    more = lines_of_families(place.constraint)
+    more = lines_of_families(complement(np.roll(place.freedom, 3, axis=1)))
     for point, way in zip(*more, strict=True):
         reach = np.linspace(-2.0, 2.0, 9)[:, None]
         folds = np.concatenate((folds, point + reach * way))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -16,9 +16,13 @@ from ..advice.spaces.subjects import Freed, subject_named
 from ..api import Analysis, analyse
 from ..core.arrays import FloatArray
 from ..model.model import Model
+from ..model.names import part_name
+from ..model.variation import with_vectors
 from ..util.records import Frozen
 from ..util.text import number_in_words
+from ..util.units import METRES
 from .frame import Scaled, snapped
+from .held import Held, Joined, held_by
 from .problem import KINDS, Problem
 from .rods import SHOWN_AS, Call, form_of, notch_calls, strut_calls
 from .search import Arrangement
@@ -128,43 +132,84 @@ def declared(freedom: ScrewSpace) -> tuple[str, ...]:
     return tuple(sorted(names, key=("x", "y", "z", "rx", "ry", "rz").index))
 
 
-def model_of(
+def calls_of(
     problem: Problem,
     flexures: Sequence[Flexure],
     bodies: Sequence[tuple[str, FloatArray]] = (),
-) -> Model:
-    """The model of a layout, with stiffness and mass, one beam a flexure.
+    held: Held | None = None,
+) -> Iterator[Call]:
+    """The calls of `flexact.Model` that make a layout, with places in metres.
 
     Args:
         problem: Of which material, mass and centre are taken.
         flexures: Of the layout.
         bodies: Between stage and ground: names, and further points, (n, 3) [m].
+        held: The mechanism to which they are added.
     """
-    model = Model(name=problem.title)
-    # Before flexures, whose notches may be there too.
-    centre = model.node(problem.centre)
     ends: dict[str, list[tuple[float, ...]]] = {"stage": [], "ground": []}
     for name, points in bodies:
         ends[name] = [tuple(point) for point in points.tolist()]
+    centre = tuple(problem.centre.tolist())
+    if held is None:
+        # Before flexures, whose notches may be there too.
+        yield Call("node", centre, {})
     for flexure in flexures:
-        _add(model, problem, flexure)
+        points_: list[End] = []
         for body, place in zip(flexure.between, flexure.ends.tolist(), strict=True):
-            ends[body].append(tuple(place))
-    inertia = problem.inertia
-    model.body(
-        [centre, *_distinct(ends["stage"], problem.centre)],
-        name="stage",
-        mass=problem.mass or None,
-        inertia=inertia[np.triu_indices(3)].tolist() if inertia.any() else None,
-    )
+            known = held.at(place) if held is not None and body == "stage" else None
+            if known is None:
+                ends[body].append(tuple(place))
+            points_.append(known or tuple(place))
+        yield from _calls(problem, flexure, points_)
+    distinct = {name: list(dict.fromkeys(each)) for name, each in ends.items()}
+    if held is None:
+        sizes: dict[str, object] = {"name": "stage"}
+        sizes |= {"mass": problem.mass} if problem.mass else {}
+        if problem.inertia.any():
+            sizes["inertia"] = tuple(problem.inertia[np.triu_indices(3)].tolist())
+        own = [place for place in distinct["stage"] if place != centre]
+        yield Call("body", ([centre, *own],), sizes)
+    elif distinct["stage"]:
+        yield Call("body", ([held.own, *distinct["stage"]],), {"name": problem.body})
     for name, _ in bodies:
-        model.body(_distinct(ends[name]), name=name)
-    if ends["ground"]:
-        model.fix(*_distinct(ends["ground"]))
+        yield Call("body", (distinct[name],), {"name": name})
+    if distinct["ground"]:
+        yield Call("fix", tuple(distinct["ground"]), {})
+
+
+def model_of(
+    problem: Problem,
+    flexures: Sequence[Flexure],
+    bodies: Sequence[tuple[str, FloatArray]] = (),
+    held: Held | None = None,
+) -> Model:
+    """The model of a layout, with stiffness and mass, one beam a flexure; see `calls_of`."""
+    if held is None:
+        model, units = Model(name=problem.title), METRES
+    else:
+        # Places are in metres, whatever the deck is in.
+        units = held.model.data.units
+        model = Model.from_data(replace(held.model.data, units=METRES))
+
+    def meant(value: object) -> object:
+        if isinstance(value, Joined):
+            return model.handle(*value)
+        return [meant(each) for each in value] if isinstance(value, list) else value
+
+    for method, given, named_ in calls_of(problem, flexures, bodies, held):
+        material = {"material": problem.material} if method in _OF_MATERIAL else {}
+        getattr(model, method)(*map(meant, given), **named_, **material)
     names = declared(problem.freedom)
-    if names:
-        model.independent("stage", *names)
-    return with_axes(model)
+    if names and (held is None or analyse(model).under_constrained):
+        model.independent("stage" if held is None else meant(held.own), *names)
+    made = with_axes(model)
+    return made if held is None else Model.from_data(replace(made.data, units=units))
+
+
+#: Calls that take a material.
+_OF_MATERIAL = ("wire", "sheet", "folded_sheet", "beam", "notch", "bellows")
+#: Where a flexure ends: a place [m], or a point of a mechanism that is there.
+End = tuple[float, ...]
 
 
 def with_axes(model: Model) -> Model:
@@ -172,58 +217,48 @@ def with_axes(model: Model) -> Model:
 
     How a rigid link lies about itself does not matter, but readers of a deck ask for it.
     """
-    data = model.data
-    arrays, places = data.arrays, model.positions
-    vectors = np.array(arrays.element_vector)
-    nodes = model.element_nodes
+    places, nodes, given = model.positions, model.element_nodes, model.element_vectors
+    vectors: dict[int, tuple[float, ...]] = {}
     for k, keyword in enumerate(model.element_keywords):
-        if keyword == "BEAM" and not vectors[:, k].any():
-            first, last = places[nodes[k, 0]], places[nodes[k, 2]]
-            vectors[:, k] = np.eye(3)["xyz".index(across(np.array((first, last))))]
-    vectors = np.asfortranarray(vectors)
-    return Model.from_data(replace(data, arrays=arrays._replace(element_vector=vectors)))
+        if keyword == "BEAM" and not given[k].any():
+            axis = "xyz".index(across(places[nodes[k, [0, 2]]]))
+            vectors[int(model.element_numbers[k])] = tuple(np.eye(3)[axis].tolist())
+    return Model.from_data(with_vectors(model.data, vectors))
 
 
-def _distinct(
-    places: Iterable[tuple[float, ...]], besides: FloatArray | None = None
-) -> list[tuple[float, ...]]:
-    known = dict.fromkeys(places)
-    if besides is not None:
-        known.pop(tuple(besides.tolist()), None)
-    return list(known)
-
-
-def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
-    """A flexure of a layout."""
-    p, q = (tuple(end) for end in flexure.ends.tolist())
-    name, material = flexure.name, problem.material
-    sizes = {"thickness": flexure.thickness, "breadth": flexure.width, "material": material}
-    if flexure.kind == "wire":
-        model.wire(p, q, across(flexure.ends), name, thickness=flexure.diameter, material=material)
-    elif flexure.kind == "folded sheet":
-        fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
-        model.folded_sheet(p, fold, q, along, name, **sizes)
-    elif flexure.kind in ("notch", "bellows"):
-        for method, given, named_ in _calls(problem, flexure):
-            made = named_ if method == "independent" else {**named_, "material": material}
-            getattr(model, method)(*given, **made)
-    else:
-        sheet = model.sheet(p, q, tuple(width_of(flexure).tolist()), name=name, **sizes)
-        if flexure.kind == "waisted sheet":
-            model.release(sheet, "in-plane bending", at=waist_of(flexure))
-
-
-def _calls(problem: Problem, flexure: Flexure) -> Iterable[Call]:
-    """Calls that make a notch, a rod, a strut or a bellows."""
-    p, q = (tuple(end) for end in flexure.ends.tolist())
+def _calls(problem: Problem, flexure: Flexure, points: Sequence[End]) -> Iterable[Call]:
+    """Calls that make a flexure between two points."""
+    p, q = points
     name, least = flexure.name, problem.limits.length[0]
+    if flexure.kind == "wire":
+        across_ = across(flexure.ends)
+        return [Call("wire", (p, q, across_, name), {"thickness": flexure.diameter})]
     if flexure.form == "bellows":
         return [Call("bellows", (p, q, across(flexure.ends), name), {"diameter": flexure.width})]
     if flexure.form == "strut":
         hint = across(flexure.ends)
-        return strut_calls(name, flexure.ends, hint, flexure.diameter, least)
-    sizes = flexure.width, flexure.thickness, least
-    return notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
+        made = strut_calls(name, flexure.ends, hint, flexure.diameter, least)
+        return _between(made, flexure, points)
+    if flexure.kind == "notch":
+        sizes = flexure.width, flexure.thickness, least
+        made = notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
+        return _between(made, flexure, points)
+    given = {"thickness": flexure.thickness, "breadth": flexure.width}
+    if flexure.kind == "folded sheet":
+        fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
+        return [Call("folded_sheet", (p, fold, q, along, name), given)]
+    calls = [Call("sheet", (p, q, tuple(width_of(flexure).tolist())), {"name": name, **given})]
+    if flexure.kind == "waisted sheet":
+        calls.append(Call("release", (name, "in-plane bending"), {"at": waist_of(flexure)}))
+    return calls
+
+
+def _between(calls: Iterable[Call], flexure: Flexure, points: Sequence[End]) -> Iterator[Call]:
+    """Calls whose first and last places are given as other points."""
+    meant = dict(zip(map(tuple, flexure.ends.tolist()), points, strict=True))
+    for call in calls:
+        given = (meant.get(each, each) if isinstance(each, tuple) else each for each in call.given)
+        yield call._replace(given=tuple(given))
 
 
 def across(ends: FloatArray) -> str:
@@ -283,7 +318,8 @@ def flexures_of(
             found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
     order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
     found.sort(key=lambda each: (order.index(each[1].between), each[0]))
-    names = named(flexure.form for _, flexure in found)
+    taken = {part_name(name) for name in problem.base.element_names} if problem.base else set()
+    names = named((flexure.form for _, flexure in found), taken)
     flexures = tuple(
         replace(flexure, name=name) for name, (_, flexure) in zip(names, found, strict=True)
     )
@@ -337,7 +373,12 @@ _FORMS = (*KINDS[1:4], "notch", "rod", "bellows", "strut", "wire")
 
 def counted(flexures: Sequence[Flexure]) -> str:
     """What kinds of flexures a layout has, such as "a sheet and two wires"."""
-    counts = Counter(flexure.form for flexure in flexures)
+    return kinds_in_words([flexure.form for flexure in flexures])
+
+
+def kinds_in_words(forms: Sequence[str]) -> str:
+    """Kinds of flexures, one for each, such as "a sheet and two wires"."""
+    counts = Counter(forms)
     return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
 
 
@@ -357,12 +398,14 @@ def in_a_row(items: Sequence[str]) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def named(kinds: Iterable[str], taken: Mapping[str, int] | None = None) -> list[str]:
-    """Names of flexures of some kinds, such as "wire 1": each with its number among its kind."""
-    counts = Counter(taken or {})
+def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
+    """Names of flexures of some kinds, such as "wire 1", none of which is taken."""
+    counts: Counter[str] = Counter()
     made = []
     for kind in kinds:
         counts[kind] += 1
+        while f"{kind} {counts[kind]}" in taken:
+            counts[kind] += 1
         made.append(f"{kind} {counts[kind]}")
     return made
 
@@ -379,60 +422,23 @@ def script_of(layout: Layout) -> str:
         if getattr(material, key) not in (None, "")
     }
     made = ", ".join(f"{key}={value!r}" for key, value in values.items())
-    lines = [
-        "import flexact",
-        "",
-        f"material = flexact.Material({made})",
-        f"model = flexact.Model(name={problem.title!r})",
-        f"centre = model.node({_tuple(problem.centre)})",
-    ]
-    ends: dict[str, list[str]] = {"stage": [], "ground": []}
-    ends |= {name: [_tuple(point) for point in points] for name, points in layout.bodies}
-    for flexure in layout.flexures:
-        lines += _written(problem, flexure)
-        for body, place in zip(flexure.between, flexure.ends, strict=True):
-            ends[body].append(_tuple(place))
-    own = dict.fromkeys(ends["stage"])
-    own.pop(_tuple(problem.centre), None)
-    stage = ", ".join(("centre", *own))
-    mass = f", mass={problem.mass!r}" if problem.mass else ""
-    if problem.inertia.any():
-        mass += f", inertia={tuple(problem.inertia[np.triu_indices(3)].tolist())!r}"
-    lines.append(f'model.body([{stage}], name="stage"{mass})')
-    for name, _ in layout.bodies:
-        lines.append(f"model.body([{', '.join(dict.fromkeys(ends[name]))}], name={name!r})")
-    lines.append(f"model.fix({', '.join(dict.fromkeys(ends['ground']))})")
+    lines = ["import flexact", "", f"material = flexact.Material({made})"]
+    held = held_by(problem)
+    if held is None:
+        lines.append(f"model = flexact.Model(name={problem.title!r})")
+    else:
+        lines.append(f'model = flexact.read_text("""{held.model.to_deck()}""")')
+        if held.model.data.units is not METRES:
+            lines.insert(
+                2, "# The deck is in other units than the places below, which are in metres."
+            )
+    for method, given, named_ in calls_of(problem, layout.flexures, layout.bodies, held):
+        words = [repr(each) for each in given]
+        words += [f"{key}={value!r}" for key, value in named_.items()]
+        words += ["material=material"] if method in _OF_MATERIAL else []
+        lines.append(f"model.{method}({', '.join(words)})")
     names = declared(problem.freedom)
     if names:
-        lines.append(f'model.independent("stage", {", ".join(map(repr, names))})')
+        stage = '"stage"' if held is None else repr(held.own)
+        lines.append(f"model.independent({stage}, {', '.join(map(repr, names))})")
     return "\n".join((*lines, "print(flexact.analyse(model).describe())", ""))
-
-
-def _tuple(place: FloatArray) -> str:
-    return f"({', '.join(map(repr, place.tolist()))})"
-
-
-def _written(problem: Problem, flexure: Flexure) -> list[str]:
-    """The lines of a script that make a flexure."""
-    p, q = map(_tuple, flexure.ends)
-    name, sizes = f"name={flexure.name!r}", ", material=material"
-    if flexure.kind == "wire":
-        hint = repr(across(flexure.ends))
-        return [f"model.wire({p}, {q}, {hint}, {name}, thickness={flexure.diameter!r}{sizes})"]
-    if flexure.kind in ("notch", "bellows"):
-        made = []
-        for method, given, named_ in _calls(problem, flexure):
-            words = [repr(each) for each in given]
-            words += [f"{key}={value!r}" for key, value in named_.items()]
-            words += ["material=material"] if method != "independent" else []
-            made.append(f"model.{method}({', '.join(words)})")
-        return made
-    sizes = f", thickness={flexure.thickness!r}, breadth={flexure.width!r}{sizes}"
-    if flexure.kind == "folded sheet":
-        fold, along = _tuple(flexure.via[0]), _tuple(flexure.axes[0])
-        return [f"model.folded_sheet({p}, {fold}, {q}, {along}, {name}{sizes})"]
-    lines = [f"model.sheet({p}, {q}, {_tuple(width_of(flexure))}, {name}{sizes})"]
-    if flexure.kind == "waisted sheet":
-        end = waist_of(flexure)
-        lines.append(f'model.release({flexure.name!r}, "in-plane bending", at="{end}")')
-    return lines

@@ -29,7 +29,7 @@ import numpy as np
 
 from ..core import calls
 from ..core.arrays import FloatArray
-from ..core.elements import Class
+from ..core.elements import Class, NodeKind
 from ..deck.rendering import ModelError, model_error
 from ..elasticity.elastic import Elastic, State
 from ..elasticity.equilibria import at_rest
@@ -277,7 +277,8 @@ def cheap_scores(
     by = _twist_of(at, stage, problem)
     wanted, basis = problem.freedom.scaled.T, across(problem)
     made: dict[str, float] = {}
-    with suppress(NoScoreError):
+    # None of them is lost by what another one has no answer to.
+    with suppress(FlexactError):
         worst, drive = worst_and_drive(_stiffness_at(at, stage, by), wanted, basis)
         if basis.shape[1]:
             made["worst_stiffness"] = worst
@@ -286,16 +287,19 @@ def cheap_scores(
         if basis.shape[1] and drive > 0.0:
             made["separation"] = worst / drive
     if problem.mass > 0.0:
-        made |= _frequencies(at, stage, by, problem)
-    with suppress(NoScoreError):
+        with suppress(FlexactError):
+            made |= _frequencies(at, stage, by, problem)
+    with suppress(FlexactError):
         made["turns_with_errors"] = float(np.linalg.norm(error_response(flexures, problem), 2))
-    drift = _drift(at, stage, by, problem, flexures)
-    made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
+    with suppress(FlexactError):
+        drift = _drift(at, stage, by, problem, flexures)
+        made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
     made["room"] = room_of(flexures, problem.limits.length[0])
     made["parts"] = len(flexures) + len(bodies_of(flexures)) - 1
     made["kinds"] = len({flexure.kind for flexure in flexures})
     made["symmetry"] = symmetry
-    return {key: float(f"{value:.{_DIGITS}g}") for key, value in made.items()}
+    finite = {key: value for key, value in made.items() if math.isfinite(value)}
+    return {key: float(f"{value:.{_DIGITS}g}") for key, value in finite.items()}
 
 
 def _one_beam(data: ModelData) -> Solution:
@@ -310,14 +314,19 @@ def _stage(data: ModelData, body: str) -> Point:
     """The first point of the stage.
 
     Raises:
-        FlexactError: there is no such body.
+        FlexactError: there is no such body, or it is none that turns in space.
     """
+    found = None
     # Its links are called by its name, and begin there; a body of one point has none.
     for element, name in enumerate(data.element_names):
         if name.startswith(body) and part_name(name) == body:
-            p, turn = (data.arrays.element_node[:2, element] - 1).tolist()
-            return Point(p, turn)
-    return Points(data).of(body)
+            found = Point(*(data.arrays.element_node[:2, element] - 1).tolist())
+            break
+    found = found or Points(data).of(body)
+    kinds = [data.arrays.node_kind[node] for node in found.nodes]
+    if kinds != [NodeKind.POSITION, NodeKind.ORIENTATION]:
+        raise NoScoreError(f"{in_short(body)} is no body that moves and turns in space")
+    return found
 
 
 def _centre(at: Solution, stage: Point, problem: Problem) -> FloatArray:

@@ -97,6 +97,12 @@ class Stock:
         self._blocks: dict[str, Blocks] = {}
         self._orbits: dict[tuple[str, bytes], dict[int, Blocks]] = {}
 
+    def beside(self, avoided: Sequence[tuple[FloatArray, float]]) -> Stock:
+        """The same flexures, where there are others already."""
+        made = Stock(self.place, avoided)
+        made.clearances, made._known, made._blocks = self.clearances, self._known, self._blocks
+        return made
+
     def candidates(self, kind: str) -> Candidates:
         """Flexures of a kind, thinned out evenly where there are very many."""
         if kind not in self._known:
