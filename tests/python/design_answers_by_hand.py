@@ -13,8 +13,10 @@ import flexact
 
 REFERENCE = Path(__file__).parents[1] / "reference"
 sys.path.insert(0, str(REFERENCE))
+import design_classes  # noqa: E402, F401
 import design_oracle  # noqa: E402
 import design_search  # noqa: E402, F401
+import random_freedoms  # noqa: E402, F401
 
 Json = dict[str, Any]
 

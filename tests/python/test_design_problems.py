@@ -191,6 +191,17 @@ def test_example_of_the_specification(tmp_path):
     assert len(found.remarks) == 1 and "inertia" in found.remarks[0]
 
 
+def test_options_take_the_place_of_what_a_file_says(tmp_path):
+    path = file_of(tmp_path, "hinge.toml", HINGE)
+    instead = {"rank": "parts", "kinds": "wires, sheets", "count": 3, "symmetry": "mirror x"}
+    found = problem_of_file(path, instead)
+    assert found.rank == ("parts", True) and found.limits.kinds == ("wire", "sheet")
+    assert (found.count, found.symmetry) == (3, "mirror x")
+    assert found.wanted[0].text == "rotation about (0, 0, 0) along x"
+    with pytest.raises(DeckError, match="'wier' is no kind of flexure"):
+        problem_of_file(path, {"kinds": "wier"})
+
+
 # -- forms in which the same is written ------------------------------------------------------------
 
 

@@ -567,6 +567,19 @@ def test_what_a_layout_has_not_is_said(make):
     assert ("stroke" in found) == bool(declared)
 
 
+def test_a_stage_that_is_none_is_refused_in_words():
+    problem, flexures, _ = hinge()
+    model = layout_of(problem, flexures).model
+    with pytest.raises(flexact.FlexactError, match="nothing"):
+        cheap_scores(model, replace(problem, body="nothing"), flexures)
+    flat = flexact.Model(planar=True)
+    flat.body([(0, 0), (0, 1)], "stage")
+    flat.sheet((0, 1), (1, 1), name="sheet 1", section=(W, T), material=STEEL)
+    flat.fix((1, 1))
+    with pytest.raises(NoScoreError, match="'stage' is no body that moves and turns in space"):
+        cheap_scores(flat, problem, flexures)
+
+
 def test_only_what_is_asked_is_computed():
     problem, flexures, declared = hinge()
     layout = layout_of(problem, flexures, declared)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random freedoms of all kinds, as design problems in free space.
 
-A freedom is drawn in a frame of its own by its geometry (lines that meet, are parallel, skew; pitches
-of one sense), then turned, shifted, mirrored and given by another basis. What is possible with it
-is known by its kind (`KINDS`: from the table of Hopkins and Culpepper 2010 and 2011 and from Hunt
-1978) and computed again by `design_classes.classify`, by drawing lines. Freedoms near the border
-between two kinds are drawn anew.
+A freedom is drawn in a frame of its own by its geometry (lines that meet, are parallel, skew;
+pitches of one sense), then turned, shifted, mirrored and given by another basis. What is possible
+with it is known by its kind (`known`: from the tables of Hopkins and Culpepper 2010 and 2011 and
+from Hunt 1978) and computed again by `design_classes.classify`, by drawing lines. Freedoms near the
+border between two kinds are drawn anew.
 
 ``python tests/reference/random_freedoms.py 1000`` prints as many problems as JSON.
 """
@@ -97,7 +97,10 @@ TWO: dict[str, Freedom] = {
     "two rotations that meet": lambda r: [turn(X), turn(oblique(r, X, Y))],
     "parallel rotations": lambda r: [turn(X, length(r) * Y), turn(X, -length(r) * Y)],
     "two translations": lambda r: [move(X), move(oblique(r, X, Y))],
-    "two skew rotations": lambda r: [turn(X, length(r) * Z), turn(oblique(r, X, Y), -length(r) * Z)],
+    "two skew rotations": lambda r: [
+        turn(X, length(r) * Z),
+        turn(oblique(r, X, Y), -length(r) * Z),
+    ],
     "cylindrical": lambda r: [turn(X), move(X)],
     "rotation and oblique translation": lambda r: [turn(X), move(oblique(r, X, Y))],
     "two screws of unequal pitch": lambda r: screws(r, 2, 0),
@@ -117,7 +120,11 @@ THREE: dict[str, Freedom] = {
     "paraboloid": paraboloid,
     "three translations": lambda r: [move(X), move(oblique(r, X, Y)), move(oblique(r, X, Z))],
     "two translations and a rotation along one": lambda r: [move(X), move(Y), turn(X)],
-    "two translations and an oblique rotation": lambda r: [move(X), move(Y), turn(oblique(r, X, Z))],
+    "two translations and an oblique rotation": lambda r: [
+        move(X),
+        move(Y),
+        turn(oblique(r, X, Z)),
+    ],
     "pencil and screw": lambda r: [turn(X), turn(oblique(r, X, Y)), turn(Z, O, length(r))],
     "parallels and screw": lambda r: [turn(X), move(Z), turn(Y, O, length(r))],
     "two translations and a screw": lambda r: [move(X), move(Y), turn(Z, O, length(r))],

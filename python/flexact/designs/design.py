@@ -20,6 +20,7 @@ from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
 from .explain import Explanation, explain, explained_json, nearby
 from .frame import Scaled, scaled
+from .held import Held, held_by
 from .images import Group, group_of, groups
 from .layouts import (
     Flexure,
@@ -190,11 +191,12 @@ def sizes_of(problem: Problem) -> Sizes:
     )
 
 
-def place_of(problem: Problem, frame: Scaled) -> Place:
+def place_of(problem: Problem, frame: Scaled, held: Held | None = None) -> Place:
     """Between stage and ground, for the wanted freedom."""
     return Place(
         *(frame.freedom, boxes_of(frame.stage), boxes_of(frame.ground), frame.keep_out),
         sizes_of(problem),
+        np.zeros((0, 6)) if held is None else held.rows,
     )
 
 
@@ -231,7 +233,8 @@ class _Search:
     ) -> None:
         """Begin with none."""
         self.problem, self.frame, self.show = problem, frame, show
-        self.stock = Stock(place_of(problem, frame))
+        self.held = held_by(problem)
+        self.stock = Stock(place_of(problem, frame, self.held))
         self.keys: set[object] = set()
         self.kinds: dict[str, list[Layout]] = {}
         self.refused = 0
@@ -252,6 +255,11 @@ class _Search:
             for kind, iterator in waiting:
                 if self.scored < most:
                     self.take(kind, iterator)
+
+    @property
+    def given(self) -> int:
+        """How many self-stresses there were before."""
+        return 0 if self.held is None else self.held.over_constrained
 
     @property
     def scored(self) -> int:
@@ -281,7 +289,8 @@ class _Search:
             yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
-        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint)
+        _, couples = possible(problem.freedom).bellows or (0, 0)
+        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint, couples)
         every = (
             [asked]
             if asked is not None
@@ -322,15 +331,15 @@ class _Search:
         problem = self.problem
         flexures, bodies = flexures_of(problem, self.frame, arrangement)
         try:
-            model = model_of(problem, flexures, bodies)
-            found = verified(problem, model)
+            model = model_of(problem, flexures, bodies, self.held)
+            found = verified(problem, model, problem.body)
         except FlexactError:
             self.refused += 1
             return None
         if (
             found.freedom_error > _SAME_FREEDOM
             or found.under_constrained
-            or found.over_constrained > problem.limits.over_constraint
+            or found.over_constrained > problem.limits.over_constraint + self.given
         ):
             self.refused += 1
             return None

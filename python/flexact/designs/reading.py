@@ -11,6 +11,7 @@ import math
 import os
 import re
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -112,14 +113,21 @@ def box(low: Sequence[float | str], high: Sequence[float | str]) -> Box:
     return made
 
 
-def problem_of_file(path: str | os.PathLike[str]) -> Problem:
+def problem_of_file(
+    path: str | os.PathLike[str], instead: Mapping[str, Any] | None = None
+) -> Problem:
     """The problem in a TOML, JSON or YAML file.
+
+    Args:
+        path: The file.
+        instead: Keys and values that take the place of those in it, such as kinds and rank.
 
     Raises:
         DeckError: the file cannot be read, or something in it is wrong; all of it is said.
     """
     text = file_text(path)
-    return _problem(Entries(text), text.tree, folder=os.path.dirname(os.fspath(path)))
+    folder = os.path.dirname(os.fspath(path))
+    return _problem(Entries(text), text.tree, folder=folder, instead=instead or {})
 
 
 def problem_of(given: Mapping[str, Any], name: str = "") -> Problem:
@@ -138,7 +146,7 @@ def problem_of(given: Mapping[str, Any], name: str = "") -> Problem:
 
 
 def problem_of_keywords(
-    wanted: str | Sequence[str | Mapping[str, Any]],
+    wanted: str | Sequence[str | Mapping[str, Any]] | None = None,
     stage: RegionLike | None = None,
     ground: RegionLike | None = None,
     *,
@@ -219,7 +227,12 @@ def problem_of_deck(
 
 
 def _problem(
-    entries: Entries, given: Mapping[str, Any], *, base: Model | None = None, folder: str = ""
+    entries: Entries,
+    given: Mapping[str, Any],
+    *,
+    base: Model | None = None,
+    folder: str = "",
+    instead: Mapping[str, Any] = MappingProxyType({}),
 ) -> Problem:
     """The problem of some keys.
 
@@ -228,11 +241,15 @@ def _problem(
         given: Keys and values.
         base: The model that the stage is of.
         folder: In which a deck is that is given by its name.
+        instead: Values that take the place of given ones.
 
     Raises:
         DeckError, ModelError: something is wrong.
     """
     keys = _keys(entries, entries.plain(given))
+    if "rank" in instead:
+        keys.pop("by", None)
+    keys |= {key: ((), entries.plain(value)) for key, value in instead.items()}
     if "deck" in keys and base is None:
         base = _deck(entries, *keys["deck"], folder)
     entries.units = base.data.units if base is not None else entries.units

@@ -29,7 +29,7 @@ import numpy as np
 
 from ..core import calls
 from ..core.arrays import FloatArray
-from ..core.elements import Class
+from ..core.elements import Class, NodeKind
 from ..deck.rendering import ModelError, model_error
 from ..elasticity.elastic import Elastic, State
 from ..elasticity.equilibria import at_rest
@@ -48,6 +48,7 @@ from ..util.rotations import cross, matrix_of, vector_of_euler
 from ..util.text import in_short, table, wrapped
 from .layouts import Flexure, Layout
 from .problem import Problem
+from .rods import outer_sizes, turns_of
 
 #: A twist of less than this part of another is rounding; so is a singular value.
 ROUNDED = 1.0e-9
@@ -187,7 +188,8 @@ def unit_rows(flexure: Flexure, centre: FloatArray, size: float) -> FloatArray:
     place = flexure.via.mean(axis=0) if len(flexure.via) else (a + b) / 2.0
     none = np.zeros((0, 3))
     if flexure.kind == "notch":
-        turns = np.hstack((flexure.axes, cross(flexure.via - place, flexure.axes) / size))
+        points, axes = turns_of(flexure.via, flexure.axes)
+        turns = np.hstack((axes, cross(points - place, axes) / size))
         # Twists (w, v/L) are reciprocal to (m/L, f).
         held = null_space(turns, ROUNDED).T
         forces, couples = held[:, 3:], held[:, :3]
@@ -275,7 +277,8 @@ def cheap_scores(
     by = _twist_of(at, stage, problem)
     wanted, basis = problem.freedom.scaled.T, across(problem)
     made: dict[str, float] = {}
-    with suppress(NoScoreError):
+    # None of them is lost by what another one has no answer to.
+    with suppress(FlexactError):
         worst, drive = worst_and_drive(_stiffness_at(at, stage, by), wanted, basis)
         if basis.shape[1]:
             made["worst_stiffness"] = worst
@@ -284,16 +287,19 @@ def cheap_scores(
         if basis.shape[1] and drive > 0.0:
             made["separation"] = worst / drive
     if problem.mass > 0.0:
-        made |= _frequencies(at, stage, by, problem)
-    with suppress(NoScoreError):
+        with suppress(FlexactError):
+            made |= _frequencies(at, stage, by, problem)
+    with suppress(FlexactError):
         made["turns_with_errors"] = float(np.linalg.norm(error_response(flexures, problem), 2))
-    drift = _drift(at, stage, by, problem, flexures)
-    made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
-    made["room"] = room_of(flexures)
+    with suppress(FlexactError):
+        drift = _drift(at, stage, by, problem, flexures)
+        made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
+    made["room"] = room_of(flexures, problem.limits.length[0])
     made["parts"] = len(flexures) + len(bodies_of(flexures)) - 1
     made["kinds"] = len({flexure.kind for flexure in flexures})
     made["symmetry"] = symmetry
-    return {key: float(f"{value:.{_DIGITS}g}") for key, value in made.items()}
+    finite = {key: value for key, value in made.items() if math.isfinite(value)}
+    return {key: float(f"{value:.{_DIGITS}g}") for key, value in finite.items()}
 
 
 def _one_beam(data: ModelData) -> Solution:
@@ -308,14 +314,19 @@ def _stage(data: ModelData, body: str) -> Point:
     """The first point of the stage.
 
     Raises:
-        FlexactError: there is no such body.
+        FlexactError: there is no such body, or it is none that turns in space.
     """
+    found = None
     # Its links are called by its name, and begin there; a body of one point has none.
     for element, name in enumerate(data.element_names):
         if name.startswith(body) and part_name(name) == body:
-            p, turn = (data.arrays.element_node[:2, element] - 1).tolist()
-            return Point(p, turn)
-    return Points(data).of(body)
+            found = Point(*(data.arrays.element_node[:2, element] - 1).tolist())
+            break
+    found = found or Points(data).of(body)
+    kinds = [data.arrays.node_kind[node] for node in found.nodes]
+    if kinds != [NodeKind.POSITION, NodeKind.ORIENTATION]:
+        raise NoScoreError(f"{in_short(body)} is no body that moves and turns in space")
+    return found
 
 
 def _centre(at: Solution, stage: Point, problem: Problem) -> FloatArray:
@@ -439,20 +450,27 @@ def _frequencies(at: Solution, stage: Point, by: FloatArray, problem: Problem) -
     return made
 
 
-def room_of(flexures: Sequence[Flexure]) -> float:
-    """Volume of the box, with edges along x, y and z, around the material of all flexures [m3]."""
+def room_of(flexures: Sequence[Flexure], least: float) -> float:
+    """Volume of the box, with edges along x, y and z, around the material of all flexures [m3].
+
+    Args:
+        flexures: All of them.
+        least: The least length of flexures, see `flexact.designs.rods` [m].
+    """
     corners = [np.zeros((0, 3))]
     for flexure in flexures:
         bends = flexure.via if flexure.kind == "folded sheet" else np.zeros((0, 3))
         line = np.vstack((flexure.ends[:1], bends, flexure.ends[1:]))
         for a, b in pairwise(line):
             u = (b - a) / np.linalg.norm(b - a)
-            half = flexure.diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
-            if flexure.width:
+            own = flexure.diameter, flexure.width, flexure.thickness
+            diameter, width, thickness = outer_sizes(flexure.form, *own, least)
+            half = diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
+            if width:
                 is_turned = flexure.kind in ("folded sheet", "notch") and len(flexure.axes)
                 breadth = flexure.axes[0] if is_turned else cross(flexure.normal, u)
                 deep = cross(u, breadth)
-                half = (flexure.width * np.abs(breadth) + flexure.thickness * np.abs(deep)) / 2.0
+                half = (width * np.abs(breadth) + thickness * np.abs(deep)) / 2.0
             corners += [np.array((a - half, a + half, b - half, b + half))]
     every = np.vstack(corners)
     return float(np.prod(np.ptp(every, axis=0))) if len(every) else 0.0
