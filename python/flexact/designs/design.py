@@ -448,25 +448,31 @@ def described(designs: Designs, width: int) -> Iterator[str]:
     for remark in problem.remarks:
         yield wrapped(remark, width)
     yield str(designs.explanation)
-    counts = " and ".join(
-        f"{count} {kind if count == 1 else plural(kind)}"
-        for kind, count in designs.candidates.items()
-    )
     many = len(designs.layouts)
     if not many:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    if counts:
-        of = f" of {designs.found} found" if designs.found > many else ""
-        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-        yield wrapped(f"{counts} fit the regions; {layouts}, none an image of another.", width)
+    if designs.candidates:
+        yield wrapped(found_in_words(designs), width)
     yield ""
     yield designs.table(width)
-    yield wrapped(_confirmed(designs), width)
+    yield wrapped(confirmed(designs), width)
 
 
-def _confirmed(designs: Designs) -> str:
+def found_in_words(designs: Designs) -> str:
+    """How many flexures fit the regions, and how many layouts there are."""
+    counts = " and ".join(
+        f"{count} {kind if count == 1 else plural(kind)}"
+        for kind, count in designs.candidates.items()
+    )
+    many = len(designs.layouts)
+    of = f" of {designs.found} found" if designs.found > many else ""
+    layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+    return f"{counts} fit the regions; {layouts}, none an image of another."
+
+
+def confirmed(designs: Designs) -> str:
     """What the analysis says of all layouts."""
     exact = [layout for layout in designs.layouts if not layout.over_constrained]
     worst = max(layout.freedom_error for layout in designs.layouts)
