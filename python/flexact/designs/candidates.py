@@ -15,11 +15,12 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ..advice.spaces.screws import Family, ScrewSpace, complement
-from ..core.arrays import BoolArray, FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IndexArray
 from ..util.records import Frozen, cached_property
 from ..util.rotations import unit
 from .geometry import SLACK, TINY, cut, meets_box, within
@@ -118,7 +119,7 @@ class Candidates(Frozen):
         return len(self.ends)
 
     @property
-    def arrays(self) -> dict[str, FloatArray]:
+    def arrays(self) -> dict[str, Any]:
         """What there is one of for each."""
         names = ("ends", "strips", "rows", "stiffness", "width", "normal", "via", "axes")
         return {name: getattr(self, name) for name in names}
@@ -130,7 +131,7 @@ class Candidates(Frozen):
         reach = np.linalg.norm(ends - starts, axis=2) / 2.0 + np.linalg.norm(half, axis=2)
         return (starts + ends) / 2.0, reach
 
-    def of(self, which: IntArray | BoolArray) -> Candidates:
+    def of(self, which: IndexArray | BoolArray) -> Candidates:
         """Those at some places."""
         return replace(self, **{name: each[which] for name, each in self.arrays.items()})
 
@@ -138,9 +139,10 @@ class Candidates(Frozen):
 def joined(parts: Sequence[Candidates]) -> Candidates:
     """Candidates of one kind together."""
     names = parts[0].arrays
-    return replace(
-        parts[0], **{name: np.concatenate([part.arrays[name] for part in parts]) for name in names}
-    )
+    arrays: dict[str, Any] = {
+        name: np.concatenate([part.arrays[name] for part in parts]) for name in names
+    }
+    return replace(parts[0], **arrays)
 
 
 # Points and directions ----------------------------------------------------------------
@@ -163,7 +165,7 @@ def velocities(freedom: FloatArray, points: FloatArray) -> FloatArray:
     return np.asarray(freedom[None, :, 3:] + np.cross(freedom[None, :, :3], points[:, None]))
 
 
-def able(freedom: FloatArray, points: FloatArray) -> tuple[FloatArray, IntArray]:
+def able(freedom: FloatArray, points: FloatArray) -> tuple[FloatArray, IndexArray]:
     """(n, 3, 3) unit vectors, and how many of their last ones are across all velocities."""
     if not len(freedom):
         return np.broadcast_to(np.eye(3), (len(points), 3, 3)), np.full(len(points), 3)
@@ -321,7 +323,7 @@ def reached(
     directions: FloatArray,
     half: FloatArray,
     beside: float | None = None,
-) -> tuple[IntArray, FloatArray, FloatArray]:
+) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Which lines reach from a body to what holds it, forth or back, and where they end.
 
     A strip leaves the body where its box ends and ends where that of the ground begins; where
@@ -631,8 +633,9 @@ def _along(starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray
 def in_plane(
     area: float, second: float, lengths: FloatArray, shear: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Stiffness of a sheet in its plane about its middle, in parts of the modulus: along it,
-    across, and of turning (Timoshenko, with a shear factor of 5/6).
+    """Stiffness of a sheet in its plane about its middle: along it, across, and of turning.
+
+    In parts of the modulus, by Timoshenko, with a shear factor of 5/6.
     """
     lag = 12.0 * second * shear / (5.0 / 6.0 * area * lengths**2)
     return area / lengths, 12.0 * second / (lengths**3 * (1.0 + lag)), second / lengths

@@ -347,7 +347,7 @@ class _Search:
         return Arrangement(recipe_name(found.recipe), (Part(("stage", "ground"), found),))
 
     def made(self, kind: str, arrangement: Arrangement) -> Layout | None:
-        """A layout, verified and scored; None of an image of one that is there, or of a wrong one."""
+        """A layout, verified and scored; None of an image of one that is there, or a wrong one."""
         key, alike = key_of(self.frame, arrangement)
         if key in self.keys:
             return None
@@ -370,12 +370,12 @@ class _Search:
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
         parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
         what = ", ".join(parts)
-        layout = Layout(
+        return Layout(
             *(0, what, kind, problem, flexures, bodies, model),
             *(found.over_constrained, found.internal, found.analysis.proof is not None),
-            *(found.freedom_error, order, alike, {}),
+            *(found.freedom_error, order, alike),
+            cheap_scores(model, problem, flexures, order),
         )
-        return replace(layout, scores=cheap_scores(model, problem, flexures, order))
 
     def best(self) -> tuple[Layout, ...]:
         """As many as are asked for: the best of each kind, then the next ones; in their order."""

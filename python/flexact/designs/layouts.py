@@ -227,7 +227,7 @@ def model_of(
         getattr(model, method)(*map(meant, given), **named_, **material)
     names = declared(problem.freedom)
     if names and (held is None or analyse(model).under_constrained):
-        model.independent("stage" if held is None else meant(held.own), *names)
+        model.independent("stage" if held is None else model.handle(*held.own), *names)
     made = with_axes(model)
     return made if held is None else Model.from_data(replace(made.data, units=units))
 
@@ -288,7 +288,7 @@ def _between(calls: Iterable[Call], flexure: Flexure, points: Sequence[End]) -> 
 
 
 def across(ends: FloatArray) -> str:
-    """The axis that is most nearly across a member with two ends, (2, 3); of equal ones the last."""
+    """The axis that is most nearly across a member of two ends, (2, 3); of equal ones the last."""
     along = np.abs(ends[1] - ends[0])
     along = np.round(along / along.max(), 6)
     return "xyz"[2 - int(np.argmin(along[::-1]))]
@@ -455,9 +455,7 @@ def script_of(layout: Layout) -> str:
     else:
         lines.append(f'model = flexact.read_text("""{held.model.to_deck()}""")')
         if held.model.data.units is not METRES:
-            lines.insert(
-                2, "# The deck is in other units than the places below, which are in metres."
-            )
+            lines.insert(2, "# Places below are in metres, whatever the deck is in.")
     for method, given, named_ in calls_of(problem, layout.flexures, layout.bodies, held):
         words = [repr(each) for each in given]
         words += [f"{key}={value!r}" for key, value in named_.items()]

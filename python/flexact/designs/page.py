@@ -48,13 +48,18 @@ from ..util.partial import attempted
 from ..util.text import file_name, harmless, number_in_words
 from .design import Designs, confirmed, found_in_words
 from .explain import Explanation, nearby
-from .explain_files import in_one_line, sides_of
+from .explain_files import sides_of
 from .layouts import COORDINATES, Flexure, Layout, counted, declared
 from .problem import Problem
 from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, unit_rows
 
 #: What a page of layouts needs: the viewer of all pages, and what keeps the cards.
-PAGE_SCRIPTS = (*(name for name in SCRIPTS if name != "start.js"), "finder.js", "plot.js", "layouts.js")
+PAGE_SCRIPTS = (
+    *(name for name in SCRIPTS if name != "start.js"),
+    "finder.js",
+    "plot.js",
+    "layouts.js",
+)
 START = "start_layouts.js"
 PAGE_STYLES = ("style.css", "index.css", "charts.css", "layouts.css")
 
@@ -356,7 +361,9 @@ def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
         {"key": key, "words": SCORES[key].words, "lower": SCORES[key].lower, **unit}
         for key in SCORES
         if len({layout.scores[key] for layout in layouts if key in layout.scores}) > 1
-        for unit in [dict(zip(("unit", "factor"), shown_unit(key, layouts[0].problem), strict=True))]
+        for unit in [
+            dict(zip(("unit", "factor"), shown_unit(key, layouts[0].problem), strict=True))
+        ]
     ]
     chart = ""
     if len(axes) > 1 and len(layouts) > 1:
@@ -399,7 +406,9 @@ def moving() -> str:
         )
     )
     tools = toolbar({"planar": False, "movements": [True]})
-    return f'<section class="shared moving" aria-label="All drawings" hidden>{tools}{boxes}</section>'
+    return (
+        f'<section class="shared moving" aria-label="All drawings" hidden>{tools}{boxes}</section>'
+    )
 
 
 def finder_of(layouts: Sequence[Layout], best: Sequence[bool]) -> str:

@@ -142,7 +142,7 @@ def _in_a_row(pieces: list[_Piece]) -> FloatArray:
 
 def _held(compliance: FloatArray, held: list[int]) -> FloatArray:
     """(n, r, r) stiffness against the wrenches that are held, what is released being free."""
-    return np.linalg.inv(compliance[:, held][:, :, held])
+    return np.asarray(np.linalg.inv(compliance[:, held][:, :, held]))
 
 
 def _plain(sizes: Sizes) -> Material:

@@ -213,15 +213,13 @@ def recipes(
                     made.append((surplus, (stiff,)))
                 elif rest > 0:
                     made += [(surplus, (stiff,) + (filler,) * rest) for filler in beside]
-    mixed = lambda recipe: len(set(recipe))  # noqa: E731
-    made.sort(
-        key=lambda each: (
-            each[0],
-            mixed(each[1]) > 1 and not {"sheet", "rod", "notch"} & set(each[1]),
-            mixed(each[1]),
-        )
-    )
-    return [recipe for _, recipe in dict.fromkeys(made)]
+    large = {"sheet", "rod", "notch"}
+
+    def order(each: tuple[int, tuple[str, ...]]) -> tuple[int, bool, int]:
+        kinds_ = set(each[1])
+        return each[0], len(kinds_) > 1 and not large & kinds_, len(kinds_)
+
+    return [recipe for _, recipe in sorted(dict.fromkeys(made), key=order)]
 
 
 def is_mixed(recipe: Sequence[str]) -> bool:
