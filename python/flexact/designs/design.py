@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..analysis.naming import filled
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.records import Frozen, cached_property
@@ -28,6 +29,7 @@ from .layouts import (
     Layout,
     counted,
     flexures_of,
+    in_a_row,
     middle_of,
     model_of,
     plural,
@@ -445,9 +447,18 @@ def asked_group(problem: Problem, frame: Scaled) -> Group | None:
 def described(designs: Designs, width: int) -> Iterator[str]:
     """The lines of an answer."""
     problem = designs.problem
-    for remark in problem.remarks:
-        yield wrapped(remark, width)
-    yield str(designs.explanation)
+    # What else the freedom takes is told by the explanation.
+    told = [filled(line, width=width) for line in designs.explanation.lines]
+    end = next((k for k, line in enumerate(told) if line.startswith("It takes")), len(told))
+    yield from told[: end + (1 if designs.possible.parallel else 2)]
+    counts = in_a_row(
+        [
+            f"{count} {kind if count == 1 else plural(kind)}"
+            for kind, count in designs.candidates.items()
+            if count
+        ]
+        or ["no flexures"]
+    )
     many = len(designs.layouts)
     if not many:
         yield ""
