@@ -230,6 +230,16 @@ def test_region_in_every_form(form):
     assert found.high.tolist() == [0.08, 0.08, 0.08]
 
 
+def test_none_is_as_if_it_were_left_out(tmp_path):
+    given = small(mass=None, keep_out=None, limits=None, title=None)
+    given |= {"mass": None, "keep_out": {"boxes": None}, "limits": {"width": None}, "rank": None}
+    given["wanted"] = [{"kind": "rotation", "direction": [1, 0, 0], "point": None, "pitch": None}]
+    found = problem_of(given)
+    assert found.to_dict() == problem_of(small()).to_dict()
+    path = file_of(tmp_path, "a.json", json.dumps(given))
+    assert problem_of_file(path).to_dict() == found.to_dict()
+
+
 def test_regions_of_points_and_flat_boxes():
     stage = {"points": [[0, 0, 0], ["10 mm", 0, 0]], "boxes": [[[0, 0, 0.01], [0.01, 0.01, 0.01]]]}
     found = problem_of(small(stage=stage))
@@ -869,7 +879,7 @@ def test_mutated_texts_never_end_in_a_traceback(tmp_path):
         "c.toml": toml_of(PROBLEMS["ball"]),
     }
     refused = 0
-    for turn in range(400):
+    for turn in range(200):
         name = chance.choice(sorted(texts))
         text = texts[name]
         for _ in range(chance.randint(1, 4)):
@@ -885,13 +895,13 @@ def test_mutated_texts_never_end_in_a_traceback(tmp_path):
                 lines = text.split("\n")
                 assert each.line <= len(lines)
                 assert not each.line or each.column <= len(lines[each.line - 1]) + 1
-    assert refused > 200
+    assert refused > 70
 
 
 def test_mutated_values_never_end_in_a_traceback():
     chance = random.Random(34)
     refused = 0
-    for _ in range(400):
+    for _ in range(150):
         given = json.loads(json.dumps(PROBLEMS[chance.choice(sorted(PROBLEMS))]))
         given["keep_out"] = {"boxes": [[[0.03, 0.03, 0.03], [0.04, 0.04, 0.04]]]}
         for _ in range(chance.randint(1, 3)):
@@ -903,4 +913,4 @@ def test_mutated_values_never_end_in_a_traceback():
         except ModelError as error:
             refused += 1
             assert str(error)
-    assert refused > 200
+    assert refused > 70
