@@ -725,6 +725,25 @@ def test_all_that_is_wrong_is_said_at_once_with_its_place(tmp_path):
     assert str(caught.value).count("^") >= 5 and "hinge.toml: 5 errors" in str(caught.value)
 
 
+def test_tables_in_lists_of_toml_have_places(tmp_path):
+    text = """\
+[[wanted]]
+kind = "rotation"
+direction = [1, 0, 0]
+[[wanted]]
+'kind' = "rotaton" # a comment with "quotes"
+direction = [
+  0, # and one here
+  1, 0]
+[stage."boxes".a]
+"""
+    with pytest.raises(DeckError) as caught:
+        problem_of_file(file_of(tmp_path, "a.toml", text))
+    first, second = caught.value.diagnostics
+    assert (first.line, first.column, first.last_column) == (5, 10, 18)
+    assert (second.line, second.code) == (9, "bad-region")
+
+
 def test_dependent_motions_are_both_shown(tmp_path):
     text = 'wanted = [\n  "rotation x",\n  "y",\n  {kind = "rotation", direction = [2, 0, 0]},\n]\n'
     with pytest.raises(DeckError) as caught:

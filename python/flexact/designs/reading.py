@@ -72,7 +72,6 @@ _DESCRIPTIONS = (
     *("about", "author", "comment", "date", "description", "expect", "id", "name", "note", "notes"),
     *("reference", "see", "source", "tags", "version", "$schema"),
 )
-)
 
 #: Regions, and what messages call them.
 _REGIONS = {

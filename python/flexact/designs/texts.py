@@ -232,25 +232,22 @@ class _Scanner:
         counts: dict[Path, int] = {}
         self.skip()
         while self.at < len(self.text):
-            first = self.at
-            brackets = 0
-            while self.text[self.at] == "[":
-                brackets += 1
-                self.at += 1
-            if not brackets:
+            first, is_listed = self.at, self.text.startswith("[[", self.at)
+            if self.peek() != "[":
                 self.entry(table)
             else:
+                self.at += 1 + is_listed
+                *outer, last = self.key()
                 table = ()
-                for key in self.key():
+                for key in outer:
                     table = (*table, key)
-                    if table in counts and (brackets == 1 or self.peek() != "]"):
-                        table = (*table, counts[table] - 1)
-                self.at += brackets
-                if brackets == 2:
-                    table = table[:-1] if isinstance(table[-1], int) else table
+                    table = (*table, counts[table] - 1) if table in counts else table
+                table = (*table, last)
+                if is_listed:
                     counts[table] = counts.get(table, 0) + 1
-                    table = (*table, counts[table] - 1)
-                self.keys[table] = first, self.at
+                table = (*table, counts[table] - 1) if table in counts else table
+                self.at += 1 + is_listed
+                self.put_key(table, (first, self.at))
             self.skip()
 
     def peek(self) -> str:
@@ -275,9 +272,15 @@ class _Scanner:
         place = first, self.end()
         if path in self.keys and path in self.values:
             self.twice.append((path, self.keys[path], place))
-        self.keys[path] = place
+        self.put_key(path, place)
         self.at += 1
         self.value(path)
+
+    def put_key(self, path: Path, place: tuple[int, int]) -> None:
+        """Keep where a key stands, and with it the tables that it makes."""
+        self.keys[path] = place
+        while path := path[:-1]:
+            self.keys.setdefault(path, place)
 
     def key(self) -> tuple[str, ...]:
         """The parts of a key, apart by dots, up to what stands behind it."""
