@@ -774,7 +774,7 @@ def test_dependent_motions_are_both_shown(tmp_path):
         ("a.json", '{"size": NaN, "wanted": []}', "size is not finite"),
         ("a.json", '{"size": 1e999, "wanted": []}', "size is not finite"),
         ("a.json", '{"a": ' + "[" * 100000 + "]" * 100000 + "}", "too deep|this is no JSON"),
-        ("a.json", "{" + " " * 2**22 + "}", "the file is too large"),
+        ("a.json", "{" + " " * 2**20 + "}", "the file is too large"),
         ("a.txt", "wanted = []", "the suffix '.txt' is none of a problem"),
         ("a.dat", "BEAM", "a deck (.dat) takes --body"),
     ],

@@ -344,7 +344,7 @@ def _keys(entries: Entries, tree: dict[str, Any]) -> dict[str, tuple[Path, Any]]
                     made[key] = path, value
             elif key not in others:
                 _unknown(entries, path, table, key, here)
-    for path, _, _ in entries.text.twice if entries.text else ():
+    for path in entries.text.twice if entries.text else ():
         entries.wrong(path, f"{in_short(path[-1])} is given twice", of_key=True)
     return made
 
