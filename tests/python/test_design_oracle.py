@@ -215,6 +215,10 @@ MISTAKES: dict[str, tuple[Callable[[], Case], str]] = {
         lambda: edited(HINGE, deck(("% wire 5", "% wire 6"))),
         "wire 5: is not in the deck",
     ),
+    "fold": (
+        lambda: edited(GUIDE, put(*FIRST, "flexures", 0, "fold", "point", 1, value=-0.019)),
+        "the deck has no fold of it at (0.065, -0.019, 0.01)",
+    ),
     "section": (
         lambda: edited(HINGE, put(*FIRST, "flexures", 0, "diameter", value=1.0001e-3)),
         "its section gives",
@@ -549,6 +553,24 @@ def folded(name: str, p: list[float], fold: list[float], q: list[float]) -> Json
     return {"name": name, "kind": "folded sheet", "ends": [p, q], "between": between} | sizes
 
 
+#: Lines of z = 0, and lines of y = 0 through the waist at the ground.
+WAISTED = [
+    sheet("sheet 1", [0.008, 0.02, 0.0], [0.008, 0.07, 0.0], [0.0, 0.0, 1.0], 0.02),
+    sheet("sheet 2", [-0.008, 0.0, 0.01], [-0.008, 0.0, 0.07], [0.0, 1.0, 0.0], 0.02)
+    | {"kind": "waisted sheet", "waist": [-0.008, 0.0, 0.07]},
+]
+
+
+@pytest.mark.parametrize("waist", [[-0.008, 0.0, 0.01], None])
+def test_a_waist_is_where_the_deck_has_it(waist: list[float] | None) -> None:
+    problem = PROBLEMS["hinge_of_waisted_sheet"]
+    made = layout(problem, WAISTED, "a sheet and a waisted sheet")
+    made["flexures"] = [WAISTED[0], WAISTED[1] | {"waist": waist}]
+    said = design_oracle.judge(problem, answer(problem, [made]))
+    assert len(said) == 1
+    assert "its waist is at (-0.008, 0, 0.07) in the deck" in said[0]
+
+
 BY_HAND: dict[str, list[Json]] = {
     "hinge_of_two_sheets": [
         sheet("sheet 1", [0.008, 0.02, 0.0], [0.008, 0.07, 0.0], [0.0, 0.0, 1.0], 0.02),
@@ -558,6 +580,7 @@ BY_HAND: dict[str, list[Json]] = {
         sheet("sheet 1", [0.02, 0.0, 0.008], [0.065, 0.0, 0.008], [0.0, 0.0, 1.0], 0.02),
         sheet("sheet 2", [0.02, 0.0, -0.008], [0.065, 0.0, -0.008], [0.0, 0.0, 1.0], 0.02),
     ],
+    "hinge_of_waisted_sheet": WAISTED,
     "sheet_alone": [sheet("sheet 1", [0.02, 0.0, 0.0], [0.065, 0.0, 0.0], [0.0, 0.0, 1.0], 0.02)],
     "sheet_and_three_wires": [
         sheet("sheet 1", [0.02, 0.0, 0.0], [0.065, 0.0, 0.0], [0.0, 0.0, 1.0], 0.02),

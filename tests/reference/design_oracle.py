@@ -25,9 +25,10 @@ What had to be decided, so that two programs mean the same:
 - *Length* is that between the ends; of a folded sheet that of each leaf (a layout is accepted where
   its two leaves together are within the limits, with a remark). A limit that is one number is a
   value to be met within 1e-9 of it.
-- *Solids*: a wire is a segment with a radius, a sheet a box (length, width, thickness), a folded
-  sheet two boxes, anything else a segment with half its diameter or thickness. Clearance holds
-  between any two flexures, also on one body, and to keep-outs; bodies have no points in keep-outs.
+- *Solids*: a wire is a segment with a radius, a sheet a box (length, width, thickness), also where
+  it has a waist, a folded sheet two boxes, anything else a segment with half its diameter or
+  thickness. Clearance holds between any two flexures, also on one body, and to keep-outs; bodies
+  have no points in keep-outs.
 - *Isometries* are the signed permutations about `centre` that keep T, inertia, and the lists of
   boxes and points of stage, ground, keep-out and intermediate. Two layouts are images where
   flexures of one kind, with the same sizes and ends, correspond; bodies between have no names then.
@@ -264,6 +265,13 @@ def _against_deck(structure: Structure, flexure: Json) -> list[str]:
     pieces = {"wire": 1, "sheet": 1, "folded sheet": 2, "bellows": 1}
     if kind in pieces and len(labels) != pieces[kind]:
         wrong.append(f"is of {len(labels)} elements, not {pieces[kind]}")
+    if kind == "folded sheet":
+        fold = flexure["fold"]["point"]
+        inner = [n for n in inside - set(ends) if deck.kinds[n] == "p"]
+        if not any(
+            np.linalg.norm(np.subtract(deck.position[n], fold)) < CLOSE * size for n in inner
+        ):
+            wrong.append(f"the deck has no fold of it at {_place(fold)}")
     for label in labels:
         wrong += _against_element(structure, label, flexure)
     return wrong
@@ -277,6 +285,12 @@ def _against_element(structure: Structure, label: int, flexure: Json) -> list[st
     held = {k for k in range(1, 7) if structure.deck.deformations.get((label, str(k))) == "fixed"}
     if kind in HELD and held not in HELD[kind]:
         wrong.append(f"element {label} holds {sorted(held)}, which is no {kind}")
+    if kind == "waisted sheet" and held in HELD[kind]:
+        # In-plane bending at p and q: where it is not held, there is the waist.
+        end = structure.deck.position[element.nodes[0 if 4 in held else 2]]
+        waist = np.array(flexure.get("waist") or [math.inf] * 3, dtype=float).reshape(-1)[:3]
+        if not np.linalg.norm(waist - end) < CLOSE * structure.problem["size"]:
+            wrong.append(f"its waist is at {_place(end)} in the deck, not at {_place(waist)}")
     if kind not in ("wire", "sheet", "folded sheet"):
         return wrong
     material = structure.problem.get("material")

@@ -22,7 +22,7 @@ from ..advice.spaces.screws import Family, ScrewSpace, complement
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..util.records import Frozen, cached_property
 from ..util.rotations import unit
-from .geometry import TINY, cut, meets_box, within
+from .geometry import SLACK, TINY, cut, meets_box, within
 from .problem import Box, Region
 
 #: Of screws, how much of one may be outside of a space in which it is.
@@ -355,12 +355,12 @@ def reached(
                 t = np.minimum(np.minimum(s1, g1 - least), before)
                 u = np.maximum(np.maximum(g0, t + least), after)
                 ok = (
-                    (s0 <= s1)
-                    & (g0 <= g1)
-                    & (t >= s0 - TINY)
-                    & (u - t <= most + TINY)
-                    & (g1 > s1 - TINY)
-                    & (u <= g1 + TINY)
+                    (s0 <= s1 + SLACK)
+                    & (g0 <= g1 + SLACK)
+                    & (t >= s0 - SLACK)
+                    & (u - t <= most + SLACK)
+                    & (g1 > s1 - SLACK)
+                    & (u <= g1 + SLACK)
                 )
                 ok &= u - t < best - TINY
                 best = np.where(ok, u - t, best)

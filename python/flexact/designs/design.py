@@ -368,7 +368,8 @@ class _Search:
             self.refused += 1
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
-        what = ", ".join((counted(flexures), *symmetry_words(kept, self.frame)))
+        parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
+        what = ", ".join(parts)
         layout = Layout(
             *(0, what, kind, problem, flexures, bodies, model),
             *(found.over_constrained, found.internal, found.analysis.proof is not None),
@@ -396,6 +397,16 @@ def _much_alike(one: Layout, other: Layout) -> bool:
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
         for key in keys
     )
+
+
+def between_words(arrangement: Arrangement) -> list[str]:
+    """How the bodies between are held, such as "in two layers"; empty where there are none."""
+    count = len(arrangement.bodies)
+    if not count:
+        return []
+    if "limb" in arrangement.kind:
+        return ["with a limb" if count == 1 else f"with {number_in_words(count)} limbs"]
+    return [f"in {number_in_words(count + 1)} layers"]
 
 
 def symmetry_words(kept: Sequence[Group], frame: Scaled) -> list[str]:
@@ -437,25 +448,31 @@ def described(designs: Designs, width: int) -> Iterator[str]:
     for remark in problem.remarks:
         yield wrapped(remark, width)
     yield str(designs.explanation)
-    counts = " and ".join(
-        f"{count} {kind if count == 1 else plural(kind)}"
-        for kind, count in designs.candidates.items()
-    )
     many = len(designs.layouts)
     if not many:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    if counts:
-        of = f" of {designs.found} found" if designs.found > many else ""
-        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-        yield wrapped(f"{counts} fit the regions; {layouts}, none an image of another.", width)
+    if designs.candidates:
+        yield wrapped(found_in_words(designs), width)
     yield ""
     yield designs.table(width)
-    yield wrapped(_confirmed(designs), width)
+    yield wrapped(confirmed(designs), width)
 
 
-def _confirmed(designs: Designs) -> str:
+def found_in_words(designs: Designs) -> str:
+    """How many flexures fit the regions, and how many layouts there are."""
+    counts = " and ".join(
+        f"{count} {kind if count == 1 else plural(kind)}"
+        for kind, count in designs.candidates.items()
+    )
+    many = len(designs.layouts)
+    of = f" of {designs.found} found" if designs.found > many else ""
+    layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+    return f"{counts} fit the regions; {layouts}, none an image of another."
+
+
+def confirmed(designs: Designs) -> str:
     """What the analysis says of all layouts."""
     exact = [layout for layout in designs.layouts if not layout.over_constrained]
     worst = max(layout.freedom_error for layout in designs.layouts)

@@ -7,6 +7,7 @@ import math
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -102,6 +103,16 @@ class Layout(Frozen):
     alike: int
     scores: dict[str, float]
 
+    @property
+    def worst_stiffness(self) -> float:
+        """The least stiffness of the stage across its freedom [N/m]; NaN where it has none."""
+        return self.scores.get("worst_stiffness", math.nan)
+
+    @property
+    def parts(self) -> int:
+        """How many flexures and bodies between it has."""
+        return len(self.flexures) + len(self.bodies)
+
     def python(self) -> str:
         """A script that makes the model."""
         return script_of(self)
@@ -171,10 +182,25 @@ def calls_of(
         yield Call("body", ([centre, *own],), sizes)
     elif distinct["stage"]:
         yield Call("body", ([held.own, *distinct["stage"]],), {"name": problem.body})
-    for name, _ in bodies:
-        yield Call("body", (distinct[name],), {"name": name})
+    for name, arms in bodies:
+        yield from _calls_of_body(name, arms, distinct[name][len(arms) :])
     if distinct["ground"]:
         yield Call("fix", tuple(distinct["ground"]), {})
+
+
+def _calls_of_body(
+    name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
+) -> Iterator[Call]:
+    """A body between: from arms in a row, where it has such, to the points that are near each."""
+    corners = [tuple(corner) for corner in arms.tolist()]
+    if len(arms) < 2:
+        yield Call("body", ([*corners, *points],), {"name": name})
+        return
+    for pair in pairwise(corners):
+        yield Call("body", (list(pair),), {"name": name})
+    for point in points:
+        near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))
+        yield Call("body", ([corners[near], point],), {"name": name})
 
 
 def model_of(

@@ -600,7 +600,7 @@ def refined(
             design = Design(model, how._replace(beams="auto"))
             finer = {name: of(design), **{b.name: ASKED[b.name].of(design) for b in bounds}}
             finer = {each: value for each, value in finer.items() if math.isfinite(value)}
-        except FlexactError:
+        except (FlexactError, KeyboardInterrupt):
             finer = {}
     return Refined(
         model=model,

@@ -25,7 +25,7 @@ from ..show.writers import STILLS, Writers, as_bytes
 from ..util.loading import load
 from ..util.outputs import OutputError
 from ..util.records import Frozen
-from ..util.text import USUAL, number_in_words, table
+from ..util.text import USUAL, number_in_words, table, wrapped
 from ..util.units import Units
 from .measures import ASKED, Bound, said
 from .optimum import Evaluation, Parameter, most_frequent
@@ -111,7 +111,7 @@ class Refined(Frozen):
         return min(kept, key=lambda each: sense * each.objective, default=None)
 
     def table(self) -> str:
-        """A row a start: where it begins and ends, after how many designs."""
+        """A row a start: where it begins and ends, after how many designs, with its values."""
         heads = ["start", "designs", "no state", "from", "to"]
         rows = [[*heads, *(each.name for each in self.parameters)]]
         for start in range(self.starts + 1):
@@ -119,13 +119,15 @@ class Refined(Frozen):
             if not path:
                 continue
             best = self.best_of(start)
-            first = path[0].objective
+            first = "none" if path[0].failure else "beyond limits"
+            if path[0].is_feasible:
+                first = said(path[0].objective, self.unit, self.units)
             rows.append(
                 [
                     str(start) if start else "looking around",
                     str(len(path)),
                     str(sum(bool(each.failure) for each in path)),
-                    "none" if math.isnan(first) else said(first, self.unit, self.units),
+                    first if start else "",
                     "none" if best is None else said(best.objective, self.unit, self.units),
                     *(
                         "" if best is None else said(best.values[p.name], p.unit, self.units)
@@ -184,7 +186,7 @@ class Refined(Frozen):
             )
             lines.append(f"With 8 and 16 beams a sheet, extrapolated: {told}.")
         lines.append(self._constrained())
-        return "\n".join(lines)
+        return "\n".join(wrapped(line, USUAL) for line in lines)
 
     def _unit(self, name: str) -> str:
         return self.unit if name == self.objective else ASKED[name].unit

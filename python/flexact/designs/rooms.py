@@ -218,10 +218,18 @@ def _frames(frame: Scaled, sizes: Sizes) -> Iterator[Boxes]:
 
 
 def corners_between(boxes: Boxes) -> FloatArray:
-    """(n, 3) further points of a body of several boxes: where these meet; none of one box."""
-    made = [np.zeros((0, 3))]
-    for one, other in itertools.combinations(boxes, 2):
-        low, high = np.maximum(one.low, other.low), np.minimum(one.high, other.high)
+    """(n, 3) further points of a body of several boxes: where these meet, along it; none of one."""
+    found = []
+    for i, j in itertools.combinations(range(len(boxes)), 2):
+        low = np.maximum(boxes[i].low, boxes[j].low)
+        high = np.minimum(boxes[i].high, boxes[j].high)
         if (low <= high + 1.0e-9).all():
-            made.append(((low + high) / 2.0)[None])
+            found.append(({i, j}, (low + high) / 2.0))
+    made = [np.zeros((0, 3))]
+    last = found[0][0] if found else set()
+    while found:
+        # The next one is in a box in which the last one is.
+        near = next((k for k, (both, _) in enumerate(found) if both & last), 0)
+        last, point = found.pop(near)
+        made.append(point[None])
     return np.concatenate(made)
