@@ -230,6 +230,16 @@ def test_region_in_every_form(form):
     assert found.high.tolist() == [0.08, 0.08, 0.08]
 
 
+def test_none_is_as_if_it_were_left_out(tmp_path):
+    given = small(mass=None, keep_out=None, limits=None, title=None)
+    given |= {"mass": None, "keep_out": {"boxes": None}, "limits": {"width": None}, "rank": None}
+    given["wanted"] = [{"kind": "rotation", "direction": [1, 0, 0], "point": None, "pitch": None}]
+    found = problem_of(given)
+    assert found.to_dict() == problem_of(small()).to_dict()
+    path = file_of(tmp_path, "a.json", json.dumps(given))
+    assert problem_of_file(path).to_dict() == found.to_dict()
+
+
 def test_regions_of_points_and_flat_boxes():
     stage = {"points": [[0, 0, 0], ["10 mm", 0, 0]], "boxes": [[[0, 0, 0.01], [0.01, 0.01, 0.01]]]}
     found = problem_of(small(stage=stage))
@@ -715,6 +725,25 @@ def test_all_that_is_wrong_is_said_at_once_with_its_place(tmp_path):
     assert str(caught.value).count("^") >= 5 and "hinge.toml: 5 errors" in str(caught.value)
 
 
+def test_tables_in_lists_of_toml_have_places(tmp_path):
+    text = """\
+[[wanted]]
+kind = "rotation"
+direction = [1, 0, 0]
+[[wanted]]
+'kind' = "rotaton" # a comment with "quotes"
+direction = [
+  0, # and one here
+  1, 0]
+[stage."boxes".a]
+"""
+    with pytest.raises(DeckError) as caught:
+        problem_of_file(file_of(tmp_path, "a.toml", text))
+    first, second = caught.value.diagnostics
+    assert (first.line, first.column, first.last_column) == (5, 10, 18)
+    assert (second.line, second.code) == (9, "bad-region")
+
+
 def test_dependent_motions_are_both_shown(tmp_path):
     text = 'wanted = [\n  "rotation x",\n  "y",\n  {kind = "rotation", direction = [2, 0, 0]},\n]\n'
     with pytest.raises(DeckError) as caught:
@@ -745,7 +774,7 @@ def test_dependent_motions_are_both_shown(tmp_path):
         ("a.json", '{"size": NaN, "wanted": []}', "size is not finite"),
         ("a.json", '{"size": 1e999, "wanted": []}', "size is not finite"),
         ("a.json", '{"a": ' + "[" * 100000 + "]" * 100000 + "}", "too deep|this is no JSON"),
-        ("a.json", "{" + " " * 2**22 + "}", "the file is too large"),
+        ("a.json", "{" + " " * 2**20 + "}", "the file is too large"),
         ("a.txt", "wanted = []", "the suffix '.txt' is none of a problem"),
         ("a.dat", "BEAM", "a deck (.dat) takes --body"),
     ],
@@ -869,7 +898,7 @@ def test_mutated_texts_never_end_in_a_traceback(tmp_path):
         "c.toml": toml_of(PROBLEMS["ball"]),
     }
     refused = 0
-    for turn in range(400):
+    for turn in range(200):
         name = chance.choice(sorted(texts))
         text = texts[name]
         for _ in range(chance.randint(1, 4)):
@@ -885,13 +914,13 @@ def test_mutated_texts_never_end_in_a_traceback(tmp_path):
                 lines = text.split("\n")
                 assert each.line <= len(lines)
                 assert not each.line or each.column <= len(lines[each.line - 1]) + 1
-    assert refused > 200
+    assert refused > 70
 
 
 def test_mutated_values_never_end_in_a_traceback():
     chance = random.Random(34)
     refused = 0
-    for _ in range(400):
+    for _ in range(150):
         given = json.loads(json.dumps(PROBLEMS[chance.choice(sorted(PROBLEMS))]))
         given["keep_out"] = {"boxes": [[[0.03, 0.03, 0.03], [0.04, 0.04, 0.04]]]}
         for _ in range(chance.randint(1, 3)):
@@ -903,4 +932,4 @@ def test_mutated_values_never_end_in_a_traceback():
         except ModelError as error:
             refused += 1
             assert str(error)
-    assert refused > 200
+    assert refused > 70
