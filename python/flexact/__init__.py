@@ -40,6 +40,10 @@ Whether it is exactly constrained
 What to do about it
     Advice, Step: what is wrong and why; one way to mend it
 
+From a wanted freedom to a mechanism
+    design, Designs, Layout: layouts of flexures that leave a body one freedom and no other
+    box: where flexures may end
+
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
@@ -50,6 +54,9 @@ With stiffness and mass
     StateSpace: A, B, C, D, poles and frequency response of a state, for a controller
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
+
+Better designs
+    refine, Refined: lengths, thicknesses and places that are best within limits
 
 Many variants, and paths
     sweep, grid, Table: variants of a design in one table
@@ -99,6 +106,11 @@ if _typing.TYPE_CHECKING:
     from .costs.shape import Shape, shape
     from .deck.diagnostics import Diagnostic, Place, Severity
     from .deck.rendering import DeckError, ModelError
+    from .designs.design import Designs, design
+    from .designs.layouts import Layout
+    from .designs.reading import box
+    from .designs.refine import refine
+    from .designs.refined import Refined
     from .elasticity import (
         Elastic,
         ElasticError,
@@ -185,6 +197,11 @@ _HOMES = {
         "DeckError",
         "ModelError",
     ),
+    "designs.design": ("Designs", "design"),
+    "designs.layouts": ("Layout",),
+    "designs.reading": ("box",),
+    "designs.refine": ("refine",),
+    "designs.refined": ("Refined",),
     "elasticity": (
         "Elastic",
         "ElasticError",
@@ -263,6 +280,7 @@ __all__ = [
     "Crossing",
     "Crossings",
     "DeckError",
+    "Designs",
     "Diagnostic",
     "Elastic",
     "ElasticError",
@@ -273,6 +291,7 @@ __all__ = [
     "FoldedSheet",
     "Gap",
     "Jacobian",
+    "Layout",
     "Limits",
     "Margin",
     "Material",
@@ -285,6 +304,7 @@ __all__ = [
     "Place",
     "PointTable",
     "Proof",
+    "Refined",
     "ReinforcedSheet",
     "Results",
     "Scatter",
@@ -306,14 +326,17 @@ __all__ = [
     "Wire",
     "__version__",
     "analyse",
+    "box",
     "cost",
     "deformations",
+    "design",
     "elastic",
     "grid",
     "jacobian",
     "polar",
     "read",
     "read_text",
+    "refine",
     "shape",
     "sweep",
     "tolerances",

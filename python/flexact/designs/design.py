@@ -3,26 +3,49 @@
 
 from __future__ import annotations
 
+import json
+import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from ..model.model import Model
 from ..util.errors import FlexactError
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
+from ..util.text import USUAL, number_in_words, wrapped
+from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
+from .explain import Explanation, explain, explained_json, nearby
 from .frame import Scaled, scaled
+from .held import Held, held_by
 from .images import Group, group_of, groups
-from .layouts import Layout, counted, flexures_of, middle_of, model_of, verified
+from .layers import layered
+from .layouts import (
+    Flexure,
+    Layout,
+    counted,
+    flexures_of,
+    middle_of,
+    model_of,
+    plural,
+    verified,
+)
+from .limbs import limbs
 from .possible import Possible, possible
 from .problem import Problem
-from .scores import cheap_scores, ranked
+from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
+from .reasons import Reason, reason_of
+from .scores import cheap_scores, pareto, rank_by, ranked, table_of
 from .search import (
     Arrangement,
     Found,
     Part,
     Stock,
+    is_mixed,
+    is_symmetric,
     key_of,
     recipes,
     sets_of,
@@ -32,8 +55,11 @@ from .search import (
 
 #: From how many first members the sets of the first recipe are sought, and those of the others.
 _STARTS, _FEWER = 12, 6
-#: Of each kind of layouts so many are scored at most, and of all.
-_OF_A_KIND, _SCORED = 4, 36
+#: Of each kind of layouts so many are scored at most.
+_OF_A_KIND = 10
+#: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
+#: layouts with bodies between are sought where none are needed.
+_SYMMETRIC, _FEW_KINDS = 2, 3
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -51,6 +77,7 @@ class Designs(Frozen):
         candidates: How many flexures of each kind were found within the regions.
         found: How many layouts there were to choose from, images of one another counted once.
         refused: How many the analysis did not confirm, which is an error of this program.
+        why_none: Which condition leaves none; None where there is a layout.
         seconds: That it took.
     """
 
@@ -60,6 +87,7 @@ class Designs(Frozen):
     candidates: dict[str, int]
     found: int
     refused: int
+    why_none: Reason | None
     seconds: float
 
     def __len__(self) -> int:
@@ -73,6 +101,86 @@ class Designs(Frozen):
     def __iter__(self) -> Iterator[Layout]:
         """The layouts, the best first."""
         return iter(self.layouts)
+
+    def __repr__(self) -> str:
+        """How many there are, for what."""
+        many = f"{len(self.layouts)} layout{'s' * (len(self.layouts) != 1)}"
+        return f"Designs({self.problem.title!r}, {many})"
+
+    @cached_property
+    def explanation(self) -> Explanation:
+        """What the wanted freedom takes, in words."""
+        return explain(self.problem)
+
+    def table(self, width: int = USUAL) -> str:
+        """The layouts with their scores in columns.
+
+        Args:
+            width: Columns of text.
+        """
+        return table_of(self.layouts, self.problem.rank, width)
+
+    def describe(self, width: int = USUAL) -> str:
+        """What the freedom takes, the layouts with their scores, and what was proven of them."""
+        return "\n".join(described(self, width))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as the JSON has it (docs/design.schema.json)."""
+        return answer_of(self)
+
+    def to_json(self) -> str:
+        """One object in one line."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+
+def design(
+    problem: str | os.PathLike[str] | Mapping[str, Any] | Problem | Model | None = None,
+    *,
+    show: Callable[[Layout], None] | None = None,
+    **given: Any,
+) -> Designs:
+    """Layouts of flexures that give a body the freedom that is wanted of it.
+
+    `design("hinge.toml")`, or the same by keywords:
+
+        flexact.design(
+            wanted=["rotation about (0, 0, 0) along x"],
+            stage=flexact.box((-0.02, -0.02, -0.01), (0.02, 0.02, 0.01)),
+            ground=[flexact.box((0.06, -0.08, -0.08), (0.08, 0.08, 0.08))],
+            length=(0.03, 0.09), width=(0.01, 0.03), thickness=0.3e-3,
+        )
+
+    Each layout is exactly constrained by the analysis, and has the wanted freedom.
+
+    Args:
+        problem: A file (.toml, .json, .yaml), a mapping with the keys of one, or a model, to a body
+            of which flexures are added; without one keywords say it.
+        show: Told of each layout as soon as it is verified and scored.
+        given: The problem by keywords (`flexact.designs.reading.problem_of_keywords`); with a model
+            also `body`, the stage.
+
+    Raises:
+        ModelError: something of the problem is wrong; all of it is said.
+        DeckError: the file is wrong; likewise.
+    """
+    return layouts_of(problem_given(problem, given), show)
+
+
+def problem_given(
+    problem: str | os.PathLike[str] | Mapping[str, Any] | Problem | Model | None,
+    given: Mapping[str, Any],
+) -> Problem:
+    """The problem of a call."""
+    if isinstance(problem, Model):
+        return problem_of_deck(problem, **given)
+    if problem is None:
+        return problem_of_keywords(**given)
+    if given:
+        names = " and ".join(given)
+        raise TypeError(f"a problem is given as a file or by keywords, not both: {names}")
+    if isinstance(problem, Problem):
+        return problem
+    return problem_of(problem) if isinstance(problem, Mapping) else problem_of_file(problem)
 
 
 def sizes_of(problem: Problem) -> Sizes:
@@ -90,11 +198,12 @@ def sizes_of(problem: Problem) -> Sizes:
     )
 
 
-def place_of(problem: Problem, frame: Scaled) -> Place:
+def place_of(problem: Problem, frame: Scaled, held: Held | None = None) -> Place:
     """Between stage and ground, for the wanted freedom."""
     return Place(
         *(frame.freedom, boxes_of(frame.stage), boxes_of(frame.ground), frame.keep_out),
         sizes_of(problem),
+        np.zeros((0, 6)) if held is None else held.rows,
     )
 
 
@@ -109,10 +218,18 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
     frame = scaled(problem)
     search = _Search(problem, frame, show)
     search.run()
+    found, layouts = possible(problem.freedom), search.best()
+    why = None if layouts else reason_of(problem, found, has_layout)
     return Designs(
-        *(problem, possible(problem.freedom), search.best(), search.stock.counts),
-        *(len(search.keys), search.refused, time.perf_counter() - begun),
+        *(problem, found, layouts, search.stock.counts),
+        *(len(search.keys), search.refused, why, time.perf_counter() - begun),
     )
+
+
+def has_layout(problem: Problem) -> bool:
+    """Whether any layout is found for a problem."""
+    search = _Search(problem, scaled(problem), None)
+    return any(search.take(kind, iter(each)) for kind, each in search.sources())
 
 
 class _Search:
@@ -123,25 +240,35 @@ class _Search:
     ) -> None:
         """Begin with none."""
         self.problem, self.frame, self.show = problem, frame, show
-        self.stock = Stock(place_of(problem, frame))
+        self.held = held_by(problem)
+        self.stock = Stock(place_of(problem, frame, self.held))
         self.keys: set[object] = set()
         self.kinds: dict[str, list[Layout]] = {}
         self.refused = 0
 
     def run(self) -> None:
-        """Find layouts of each kind, first the best of each."""
+        """Find layouts of each kind, first the best of each; the next ones where few are found."""
         waiting: list[tuple[str, Iterator[Arrangement]]] = []
+        count = self.problem.count
+        # Sets come with the stiffest first; by another score the best may be a later one.
+        most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
             iterator = iter(arrangements)
-            if self.take(kind, iterator):
-                waiting.append((kind, iterator))
-            if self.scored >= _SCORED:
+            while self.take(kind, iterator):
+                if kind:
+                    waiting.append((kind, iterator))
+                    break
+            if len(self.kinds) >= count:
                 break
-        # Then the next ones of each kind, round by round.
         for _ in range(_OF_A_KIND - 1):
             for kind, iterator in waiting:
-                if self.scored < _SCORED:
+                if self.scored < most:
                     self.take(kind, iterator)
+
+    @property
+    def given(self) -> int:
+        """How many self-stresses there were before."""
+        return 0 if self.held is None else self.held.over_constrained
 
     @property
     def scored(self) -> int:
@@ -151,10 +278,15 @@ class _Search:
     def take(self, kind: str, arrangements: Iterator[Arrangement]) -> bool:
         """Take the next layout of a kind that is not much like one that is there."""
         for arrangement in arrangements:
-            layout = self.made(kind, arrangement)
+            own = kind or arrangement.kind
+            there = self.kinds.get(own, [])
+            # Of kinds that come in any order one more is enough for now.
+            if not kind and len(there) > 1:
+                continue
+            layout = self.made(own, arrangement)
             if layout is None:
                 continue
-            there = self.kinds.setdefault(kind, [])
+            self.kinds[own] = there
             if any(_much_alike(layout, other) for other in there):
                 continue
             there.append(layout)
@@ -164,26 +296,41 @@ class _Search:
         return False
 
     def sources(self) -> Iterator[tuple[str, Iterator[Arrangement]]]:
-        """Kinds of layouts, and where they come from."""
+        """Kinds of layouts, and where they come from; without a name what tells its own kinds."""
         problem, stock = self.problem, self.stock
-        count = len(stock.constraint)
+        count, limits = len(stock.constraint), problem.limits
         if not count:
             yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
-        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint)
-        every = [asked] if asked is not None else list(groups(stock.place.freedom, self.frame.isometries))
-        for k, recipe in enumerate(made):
-            if asked is None:
-                yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
-        if problem.symmetry == "none":
+        found = possible(problem.freedom)
+        _, couples = found.bellows or (0, 0)
+        made = recipes(count, limits.kinds, limits.over_constraint, couples)
+        plain = [recipe for recipe in made if not is_mixed(recipe)]
+        for k, recipe in enumerate(plain if asked is None else ()):
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
+        if not found.parallel:
+            yield from self.with_bodies(asked)
+        for recipe in plain[: _SYMMETRIC if asked is None else None]:
+            # By default the images of whole groups are offered, too.
+            every = [asked] if asked else list(groups(stock.place.freedom, self.frame.isometries))
+            for group in every if problem.symmetry != "none" else ():
+                axis = ", ".join(f"{part:.3g}" for part in group.axis + 0.0)
+                name = f"{recipe_name(recipe)}, {group.order} about ({axis})"
+                yield name, self.of_group(group, recipe)
+        for recipe in [recipe for recipe in made if recipe not in plain] if asked is None else ():
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER)
+        if found.parallel and len(self.kinds) < _FEW_KINDS:
+            yield from self.with_bodies(asked)
+
+    def with_bodies(self, asked: Group | None) -> Iterator[tuple[str, Iterator[Arrangement]]]:
+        """Layouts with bodies between, if they are allowed."""
+        problem, sizes = self.problem, self.stock.place.sizes
+        if problem.limits.bodies < 1 or self.held is not None:
             return
-        for recipe in made:
-            for group in every:
-                yield (
-                    f"{recipe_name(recipe)}, {group.order} about {group.axis.tolist()}",
-                    self.of_group(group, recipe),
-                )
+        for source in (layered, limbs):
+            found = source(problem, self.frame, sizes, problem.limits.kinds)
+            yield "", (each for each in found if asked is None or is_symmetric(each, asked))
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""
@@ -208,23 +355,25 @@ class _Search:
         problem = self.problem
         flexures, bodies = flexures_of(problem, self.frame, arrangement)
         try:
-            model = model_of(problem, flexures, bodies)
-            found = verified(problem, model)
+            model = model_of(problem, flexures, bodies, self.held)
+            found = verified(problem, model, problem.body)
         except FlexactError:
             self.refused += 1
             return None
         if (
             found.freedom_error > _SAME_FREEDOM
             or found.under_constrained
-            or found.over_constrained > problem.limits.over_constraint
+            or found.over_constrained > problem.limits.over_constraint + self.given
         ):
             self.refused += 1
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
-        what = ", ".join((counted(flexures), *symmetry_words(kept, self.frame)))
+        parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
+        what = ", ".join(parts)
         layout = Layout(
             *(0, what, kind, problem, flexures, bodies, model),
-            *(found.over_constrained, found.internal, found.freedom_error, order, alike, {}),
+            *(found.over_constrained, found.internal, found.analysis.proof is not None),
+            *(found.freedom_error, order, alike, {}),
         )
         return replace(layout, scores=cheap_scores(model, problem, flexures, order))
 
@@ -248,6 +397,16 @@ def _much_alike(one: Layout, other: Layout) -> bool:
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
         for key in keys
     )
+
+
+def between_words(arrangement: Arrangement) -> list[str]:
+    """How the bodies between are held, such as "in two layers"; empty where there are none."""
+    count = len(arrangement.bodies)
+    if not count:
+        return []
+    if "limb" in arrangement.kind:
+        return ["with a limb" if count == 1 else f"with {number_in_words(count)} limbs"]
+    return [f"in {number_in_words(count + 1)} layers"]
 
 
 def symmetry_words(kept: Sequence[Group], frame: Scaled) -> list[str]:
@@ -278,3 +437,112 @@ def asked_group(problem: Problem, frame: Scaled) -> Group | None:
         return None
     axis = frame.turn @ np.eye(3)["xyz".index(words[-1])]
     return group_of(0 if words[0] == "mirror" else int(words[0].split("-")[0]), axis)
+
+
+# In words and as JSON -------------------------------------------------------------------
+
+
+def described(designs: Designs, width: int) -> Iterator[str]:
+    """The lines of an answer."""
+    problem = designs.problem
+    for remark in problem.remarks:
+        yield wrapped(remark, width)
+    yield str(designs.explanation)
+    counts = " and ".join(
+        f"{count} {kind if count == 1 else plural(kind)}"
+        for kind, count in designs.candidates.items()
+    )
+    many = len(designs.layouts)
+    if not many:
+        yield ""
+        yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
+        return
+    if counts:
+        of = f" of {designs.found} found" if designs.found > many else ""
+        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+        yield wrapped(f"{counts} fit the regions; {layouts}, none an image of another.", width)
+    yield ""
+    yield designs.table(width)
+    yield wrapped(_confirmed(designs), width)
+
+
+def _confirmed(designs: Designs) -> str:
+    """What the analysis says of all layouts."""
+    exact = [layout for layout in designs.layouts if not layout.over_constrained]
+    worst = max(layout.freedom_error for layout in designs.layouts)
+    rest = len(designs.layouts) - len(exact)
+    proven = all(layout.is_proven for layout in exact)
+    how = "proven for the decimals as typed" if proven else "as the analysis found"
+    some = "All of them" if not rest else f"{number_in_words(len(exact)).capitalize()} of them"
+    said = f"{some}: exactly constrained, {how}" if exact else "None is exactly constrained"
+    over = f"; {number_in_words(rest)} over-constrained" if rest else ""
+    return f"{said}{over}; freedom as wanted within {max(worst, 1.0e-16):.0e}."
+
+
+def answer_of(designs: Designs) -> dict[str, Any]:
+    """The answer as the JSON has it."""
+    problem, found = designs.problem, designs.possible
+    typed = [motion.twist for motion in problem.wanted]
+    best = pareto(designs.layouts)
+    made = explained_json(found, typed)
+    made |= {
+        "title": problem.title,
+        "rank_by": rank_by(problem.rank),
+        "size": problem.size,
+        "centre": problem.centre.tolist(),
+        "layouts": [
+            layout_json(layout) | {"pareto": is_best}
+            for layout, is_best in zip(designs.layouts, best, strict=True)
+        ],
+        "candidates": designs.candidates,
+        "found": designs.found,
+        "seconds": round(designs.seconds, 3),
+    }
+    if designs.why_none is not None:
+        made["none"] = designs.why_none._asdict()
+        made["nearby"] = [statement for _, statement in nearby(found, typed, units=METRES)]
+    return made
+
+
+def layout_json(layout: Layout) -> dict[str, Any]:
+    """A layout as the JSON has it."""
+    return {
+        "number": layout.number,
+        "what": layout.what,
+        "kind": layout.kind,
+        "deck": layout.model.to_deck(),
+        "stage": layout.problem.body,
+        "flexures": [flexure_json(flexure) for flexure in layout.flexures],
+        "bodies": [{"name": name, "points": points.tolist()} for name, points in layout.bodies],
+        "over_constrained": layout.over_constrained,
+        "internal": layout.internal,
+        "freedom_error": layout.freedom_error,
+        "scores": layout.scores,
+        "symmetry": layout.symmetry,
+        "alike": layout.alike,
+    }
+
+
+def flexure_json(flexure: Flexure) -> dict[str, Any]:
+    """A flexure as the JSON has it; what it has not is null."""
+    made: dict[str, Any] = {
+        "name": flexure.name,
+        "kind": flexure.kind,
+        "ends": flexure.ends.tolist(),
+        "between": list(flexure.between),
+        "width": flexure.width or None,
+        "thickness": flexure.thickness or None,
+        "diameter": flexure.diameter or None,
+        "normal": flexure.normal.tolist() if flexure.normal.any() else None,
+    }
+    if flexure.kind == "folded sheet":
+        point, direction = flexure.via[0].tolist(), flexure.axes[0].tolist()
+        made["fold"] = {"point": point, "direction": direction}
+    elif flexure.kind == "waisted sheet":
+        made["waist"] = flexure.via[0].tolist()
+    elif len(flexure.via):
+        made["notches"] = [
+            {"point": point, "axis": axis}
+            for point, axis in zip(flexure.via.tolist(), flexure.axes.tolist(), strict=True)
+        ]
+    return made

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,24 +18,6 @@ from ..util.records import Frozen, cached_property
 
 #: Kinds of flexures that a designer may ask for, in the order in which layouts use them.
 KINDS = ("wire", "sheet", "waisted sheet", "folded sheet", "notch", "bellows")
-
-#: What layouts may be ordered by: keys of their scores, and whether less is better.
-RANKS: Mapping[str, bool] = {
-    "worst_stiffness": False,
-    "drive_stiffness": True,
-    "separation": False,
-    "first_frequency": False,
-    "first_parasitic_frequency": False,
-    "turns_with_errors": True,
-    "tightest_tolerance": False,
-    "thermal_drift": True,
-    "stroke": False,
-    "stiffness_at_end_of_stroke": False,
-    "buckling_load": False,
-    "room": True,
-    "parts": True,
-    "symmetry": False,
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,7 +252,7 @@ class Problem(Frozen):
             },
             "mass": self.mass,
             "inertia": _least_of(self.inertia),
-            "rank": f"{'lower' if less else 'higher'}:{key}" if less is not RANKS.get(key) else key,
+            "rank": f"{'lower' if less else 'higher'}:{key}",
             "count": self.count,
         }
         if self.base is not None:
