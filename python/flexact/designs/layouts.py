@@ -183,22 +183,28 @@ def calls_of(
     elif distinct["stage"]:
         yield Call("body", ([held.own, *distinct["stage"]],), {"name": problem.body})
     for name, arms in bodies:
-        yield from _calls_of_body(name, arms, distinct[name][len(arms) :])
+        yield from _body_calls(name, arms, distinct[name])
     if distinct["ground"]:
         yield Call("fix", tuple(distinct["ground"]), {})
 
 
-def _calls_of_body(
+def _body_calls(
     name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
 ) -> Iterator[Call]:
-    """A body between: from arms in a row, where it has such, to the points that are near each."""
-    corners = [tuple(corner) for corner in arms.tolist()]
+    """Calls that make a body between; one with arms has a link to a point from the nearest of them.
+
+    Args:
+        name: Of the body.
+        arms: (n, 3) further points, one linked to the next.
+        points: All of its points, the further ones first.
+    """
     if len(arms) < 2:
-        yield Call("body", ([*corners, *points],), {"name": name})
+        yield Call("body", (list(points),), {"name": name})
         return
-    for pair in pairwise(corners):
+    corners = points[: len(arms)]
+    for pair in zip(corners, corners[1:], strict=False):
         yield Call("body", (list(pair),), {"name": name})
-    for point in points:
+    for point in points[len(arms) :]:
         near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))
         yield Call("body", ([corners[near], point],), {"name": name})
 
