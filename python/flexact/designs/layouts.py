@@ -269,12 +269,10 @@ def _calls(problem: Problem, flexure: Flexure, points: Sequence[End]) -> Iterabl
         return [Call("bellows", (p, q, across(flexure.ends), name), {"diameter": flexure.width})]
     if flexure.form == "strut":
         hint = across(flexure.ends)
-        made = strut_calls(name, flexure.ends, hint, flexure.diameter, least)
-        return _between(made, flexure, points)
+        return strut_calls(name, points, flexure.ends, hint, flexure.diameter, least)
     if flexure.kind == "notch":
         sizes = flexure.width, flexure.thickness, least
-        made = notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
-        return _between(made, flexure, points)
+        return notch_calls(name, points, flexure.ends, flexure.via, flexure.axes[0], *sizes)
     given = {"thickness": flexure.thickness, "breadth": flexure.width}
     if flexure.kind == "folded sheet":
         fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
@@ -283,14 +281,6 @@ def _calls(problem: Problem, flexure: Flexure, points: Sequence[End]) -> Iterabl
     if flexure.kind == "waisted sheet":
         calls.append(Call("release", (name, "in-plane bending"), {"at": waist_of(flexure)}))
     return calls
-
-
-def _between(calls: Iterable[Call], flexure: Flexure, points: Sequence[End]) -> Iterator[Call]:
-    """Calls whose first and last places are given as other points."""
-    meant = dict(zip(map(tuple, flexure.ends.tolist()), points, strict=True))
-    for call in calls:
-        given = (meant.get(each, each) if isinstance(each, tuple) else each for each in call.given)
-        yield call._replace(given=tuple(given))
 
 
 def across(ends: FloatArray) -> str:
