@@ -8,6 +8,7 @@ coefficients of Cowper, 1966. Rigid bodies carry the ends of flexures; folds hav
 """
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -81,8 +82,11 @@ def layout_of(problem, flexures, declared=(), number=1, what="by hand", over=0, 
     for name in declared:
         model.independent("stage", name)
     return Layout(
-        *(number, what, what, problem, tuple(flexures), (), model, over),
-        *(sum(f.kind == "folded sheet" for f in flexures), 0.0, 1, 1, scores or {}),
+        **{"number": number, "what": what, "kind": what, "problem": problem, "model": model},
+        **{"flexures": tuple(flexures), "bodies": (), "over_constrained": over},
+        internal=sum(f.kind == "folded sheet" for f in flexures),
+        **{"is_proven": True, "freedom_error": 0.0, "symmetry": 1, "alike": 1},
+        scores=scores or {},
     )
 
 
@@ -163,7 +167,7 @@ def system(problem, flexures, pieces=1):
         line = [f.ends[0], *(f.via if f.kind == "folded sheet" else ()), f.ends[1]]
         nodes = [f.between[0]]
         chain = [line[0]]
-        for a, b in zip(line[:-1], line[1:], strict=True):
+        for a, b in pairwise(line):
             for j in range(1, pieces + 1):
                 chain.append(a + (b - a) * j / pieces)
                 nodes.append(count)

@@ -13,7 +13,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from ..advice.spaces.screws import Family, ScrewSpace, complement
 from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..util.records import Frozen, cached_property
 from ..util.rotations import unit
-from .geometry import TINY, cut, meets_box, within
+from .geometry import SLACK, TINY, cut, meets_box, within
 from .problem import Box, Region
 
 #: Of screws, how much of one may be outside of a space in which it is.
@@ -63,6 +64,7 @@ class Place(Frozen):
         there: Where they end on what holds it.
         keep_out: What they may not touch.
         sizes: What they may measure.
+        held: (c, 6) orthonormal rows of W that the body is held by already.
     """
 
     freedom: FloatArray
@@ -70,11 +72,12 @@ class Place(Frozen):
     there: tuple[Box, ...]
     keep_out: tuple[Box, ...]
     sizes: Sizes
+    held: FloatArray = field(default_factory=partial(np.zeros, (0, 6)))
 
     @property
     def constraint(self) -> FloatArray:
-        """(k, 6) orthonormal rows (f, m) of W."""
-        return complement(np.roll(self.freedom, 3, axis=1))
+        """(k, 6) orthonormal rows (f, m) of W that flexures must hold."""
+        return complement(np.concatenate((np.roll(self.freedom, 3, axis=1), self.held)))
 
 
 def boxes_of(region: Region) -> tuple[Box, ...]:
@@ -189,6 +192,13 @@ def _turned(first: FloatArray, second: FloatArray) -> FloatArray:
             )
         )
     return np.stack(made, axis=1)
+
+
+def around(axes: FloatArray) -> FloatArray:
+    """(n, a, 3) directions across axes, (n, 3)."""
+    axis = np.eye(3)[np.abs(axes).argmin(axis=1)]
+    first = unit(np.cross(axes, axis))
+    return _turned(first, np.cross(axes, first))
 
 
 #: Directions from the middle of a cube to its faces, edges and corners, one of each pair.
@@ -306,7 +316,11 @@ def distinct_rows(rows: FloatArray) -> FloatArray:
 
 
 def reached(
-    place: Place, points: FloatArray, directions: FloatArray, half: FloatArray
+    place: Place,
+    points: FloatArray,
+    directions: FloatArray,
+    half: FloatArray,
+    beside: float | None = None,
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Which lines reach from a body to what holds it, forth or back, and where they end.
 
@@ -318,13 +332,17 @@ def reached(
         place: The regions.
         points: (n, 3) of the lines.
         directions: (n, 3) unit vectors.
-        half: (n, 3) half of the width of the strips, of which the edges must be in the regions.
+        half: (n, 3) half of the width of the strips, of which the edges must be in the regions; of
+            what has more edges (m, n, 3).
+        beside: How far strips go at least to both sides of the points; None where they need not
+            pass through these.
 
     Returns:
         The lines, with their ends on the body and on the ground, (m, 3) each.
     """
     which, starts, ends = [], [], []
     least, most = place.sizes.length
+    before, after = (np.inf, -np.inf) if beside is None else (-beside, beside)
     here = [_spans(points, directions, half, box) for box in place.here]
     there = [_spans(points, directions, half, box) for box in place.there]
     for sense in (1.0, -1.0):
@@ -334,14 +352,15 @@ def reached(
         for first, last in here:
             s0, s1 = (first, last) if sense > 0.0 else (-last, -first)
             for g0, g1 in grounds:
-                t = np.minimum(s1, g1 - least)
-                u = np.maximum(g0, t + least)
+                t = np.minimum(np.minimum(s1, g1 - least), before)
+                u = np.maximum(np.maximum(g0, t + least), after)
                 ok = (
-                    (s0 <= s1)
-                    & (g0 <= g1)
-                    & (t >= s0 - TINY)
-                    & (u - t <= most + TINY)
-                    & (g1 > s1 - TINY)
+                    (s0 <= s1 + SLACK)
+                    & (g0 <= g1 + SLACK)
+                    & (t >= s0 - SLACK)
+                    & (u - t <= most + SLACK)
+                    & (g1 > s1 - SLACK)
+                    & (u <= g1 + SLACK)
                 )
                 ok &= u - t < best - TINY
                 best = np.where(ok, u - t, best)
@@ -362,8 +381,9 @@ def _spans(
     if not half.any() or (box.high - box.low).max() <= TINY:
         # At a point the middle of the clamp is, however wide it is.
         return cut(points, directions, box.low, box.high)
-    one, other = (cut(points + h, directions, box.low, box.high) for h in (half, -half))
-    return np.maximum(one[0], other[0]), np.minimum(one[1], other[1])
+    edges = [each for h in half.reshape(-1, *points.shape) for each in (h, -h)]
+    cuts = [cut(points + edge, directions, box.low, box.high) for edge in edges]
+    return np.max([each[0] for each in cuts], axis=0), np.min([each[1] for each in cuts], axis=0)
 
 
 def clear_of_boxes(place: Place, strips: FloatArray, radius: float) -> BoolArray:
@@ -411,7 +431,8 @@ def lines_for(place: Place, fineness: int) -> tuple[FloatArray, FloatArray]:
     here = with_special(place.freedom, points_of(place.here, fineness), place.here)
     there = with_special(place.freedom, points_of(place.there, fineness), place.there)
     # From the ground few lines go to the body; there they are needed where it is small.
-    sets = [lines_through(place.freedom, here), lines_of_families(place.constraint)]
+    every = complement(np.roll(place.freedom, 3, axis=1))
+    sets = [lines_through(place.freedom, here), lines_of_families(every)]
     sets.append(lines_through(place.freedom, there))
     points, directions = _pairs(place, here, there)
     sets.append((points, directions))
@@ -419,7 +440,7 @@ def lines_for(place: Place, fineness: int) -> tuple[FloatArray, FloatArray]:
     directions = np.concatenate([each[1] for each in sets])
     # Of one line one point and one sense are enough.
     key = np.round(forces(points, directions), 9) + 0.0
-    sign = np.array([row[np.flatnonzero(row)[0]] if row.any() else 1.0 for row in key])
+    sign = key[np.arange(len(key)), (key != 0.0).argmax(axis=1)]
     _, first = np.unique(key * np.sign(sign)[:, None] + 0.0, axis=0, return_index=True)
     first = np.sort(first)
     return points[first], directions[first]
@@ -506,16 +527,16 @@ def planes(
     return points, across
 
 
-def _in_plane(points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def ways_in_planes(
+    points: FloatArray, normals: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Points, normals and directions of middle lines in planes."""
-    axis = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = unit(np.cross(normals, axis))
-    ways = _turned(first, np.cross(normals, first))
+    ways = around(normals)
     many = ways.shape[1]
     return np.repeat(points, many, axis=0), np.repeat(normals, many, axis=0), ways.reshape(-1, 3)
 
 
-def _breadths(sizes: Sizes) -> list[float]:
+def breadths(sizes: Sizes) -> list[float]:
     """Breadths that are tried: the limits, and their geometric mean."""
     low, high = sizes.width
     return sorted({high, math.sqrt(low * high), low}, reverse=True)
@@ -525,7 +546,7 @@ def sheets(place: Place, fineness: int = 3) -> Candidates:
     """Whole sheets, in planes all lines of which are in W (theorem 2)."""
     here = with_special(place.freedom, points_of(place.here, fineness), place.here)
     points, normals = planes(place.freedom, here, pencil=False)
-    return _strips(place, *_in_plane(points, normals), "sheet")
+    return _strips(place, *ways_in_planes(points, normals), "sheet")
 
 
 def waisted(place: Place, fineness: int = 3) -> Candidates:
@@ -535,7 +556,7 @@ def waisted(place: Place, fineness: int = 3) -> Candidates:
         boxes = place.here if at_end == 0 else place.there
         points = with_special(place.freedom, points_of(boxes, fineness), boxes)
         at, normals = planes(place.freedom, points, pencil=True)
-        made.append(_strips(place, *_in_plane(at, normals), "waisted sheet", at_end))
+        made.append(_strips(place, *ways_in_planes(at, normals), "waisted sheet", at_end))
     return joined(made)
 
 
@@ -550,7 +571,7 @@ def _strips(
     """Sheets through points, along directions; with a waist at the point."""
     sizes = place.sizes
     made = []
-    for breadth in _breadths(sizes):
+    for breadth in breadths(sizes):
         half = breadth / 2.0 * np.cross(normals, ways)
         which, starts, ends = reached(place, points, ways, half)
         if waist is not None and len(which):
@@ -636,7 +657,7 @@ def folded(place: Place, fineness: int = 5) -> Candidates:
     middles = np.concatenate([points_of(boxes, 3) for boxes in (place.here,)])
     grid = distinct_rows(np.concatenate((grid, *_corners(place, middles))))
     folds, ways = lines_through(place.freedom, grid)
-    more = lines_of_families(place.constraint)
+    more = lines_of_families(complement(np.roll(place.freedom, 3, axis=1)))
     for point, way in zip(*more, strict=True):
         reach = np.linspace(-2.0, 2.0, 9)[:, None]
         folds = np.concatenate((folds, point + reach * way))
@@ -644,7 +665,7 @@ def folded(place: Place, fineness: int = 5) -> Candidates:
     held = outside(place.freedom, forces(folds, ways)) <= _OUTSIDE
     folds, ways = folds[held], ways[held]
     made = []
-    for breadth in _breadths(place.sizes)[1:]:
+    for breadth in breadths(place.sizes)[1:]:
         half = breadth / 2.0 * ways
         begins = [_nearest(folds, ways, half, box) for box in place.here]
         ends = [_nearest(folds, ways, half, box) for box in place.there]

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..core.arrays import BoolArray, FloatArray, IntArray
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
 from .candidates import Candidates
 from .geometry import between_strips
 
@@ -51,6 +51,11 @@ class Blocks(Frozen):
         """How many there are."""
         return len(self.members)
 
+    @cached_property
+    def largest(self) -> float:
+        """The largest weighted row."""
+        return float(np.linalg.norm(self.weighted, axis=2).max(initial=0.0)) or 1.0
+
 
 def blocks_of(candidates: Candidates, constraint: FloatArray) -> Blocks:
     """Each candidate by itself.
@@ -65,6 +70,7 @@ def blocks_of(candidates: Candidates, constraint: FloatArray) -> Blocks:
 def blocks_of_sets(candidates: Candidates, members: IntArray, constraint: FloatArray) -> Blocks:
     """Sets of candidates, (n, q) places among them."""
     sizes = np.linalg.norm(candidates.rows, axis=2, keepdims=True)
+    # Of what is held already the part at right angles to it counts.
     rows = candidates.rows @ constraint.T
     roots = np.linalg.cholesky(candidates.stiffness).transpose(0, 2, 1)
     shape = (len(members), members.shape[1] * rows.shape[1], len(constraint))
@@ -259,7 +265,7 @@ def _gains(rows: FloatArray, slot: Blocks, count: int) -> FloatArray:
 
     Of G = rows' rows, held a little all over, det(G + B'B) / det(G) = det(1 + B inv(G) B').
     """
-    size = float(np.linalg.norm(slot.weighted[0]))
+    size = slot.largest
     gram = rows.T @ rows + (_SOFT * size) ** 2 * np.eye(count)
     back = np.linalg.inv(np.linalg.cholesky(gram)).T
     beyond = slot.weighted @ back

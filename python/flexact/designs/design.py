@@ -20,7 +20,9 @@ from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
 from .explain import Explanation, explain, explained_json, nearby
 from .frame import Scaled, scaled
+from .held import Held, held_by
 from .images import Group, group_of, groups
+from .layers import layered
 from .layouts import (
     Flexure,
     Layout,
@@ -31,6 +33,7 @@ from .layouts import (
     plural,
     verified,
 )
+from .limbs import limbs
 from .possible import Possible, possible
 from .problem import Problem
 from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
@@ -41,6 +44,8 @@ from .search import (
     Found,
     Part,
     Stock,
+    is_mixed,
+    is_symmetric,
     key_of,
     recipes,
     sets_of,
@@ -50,8 +55,11 @@ from .search import (
 
 #: From how many first members the sets of the first recipe are sought, and those of the others.
 _STARTS, _FEWER = 12, 6
-#: Of each kind of layouts so many are scored at most, and of all.
-_OF_A_KIND, _SCORED = 4, 36
+#: Of each kind of layouts so many are scored at most.
+_OF_A_KIND = 10
+#: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
+#: layouts with bodies between are sought where none are needed.
+_SYMMETRIC, _FEW_KINDS = 2, 3
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -190,11 +198,12 @@ def sizes_of(problem: Problem) -> Sizes:
     )
 
 
-def place_of(problem: Problem, frame: Scaled) -> Place:
+def place_of(problem: Problem, frame: Scaled, held: Held | None = None) -> Place:
     """Between stage and ground, for the wanted freedom."""
     return Place(
         *(frame.freedom, boxes_of(frame.stage), boxes_of(frame.ground), frame.keep_out),
         sizes_of(problem),
+        np.zeros((0, 6)) if held is None else held.rows,
     )
 
 
@@ -231,25 +240,35 @@ class _Search:
     ) -> None:
         """Begin with none."""
         self.problem, self.frame, self.show = problem, frame, show
-        self.stock = Stock(place_of(problem, frame))
+        self.held = held_by(problem)
+        self.stock = Stock(place_of(problem, frame, self.held))
         self.keys: set[object] = set()
         self.kinds: dict[str, list[Layout]] = {}
         self.refused = 0
 
     def run(self) -> None:
-        """Find layouts of each kind, first the best of each."""
+        """Find layouts of each kind, first the best of each; the next ones where few are found."""
         waiting: list[tuple[str, Iterator[Arrangement]]] = []
+        count = self.problem.count
+        # Sets come with the stiffest first; by another score the best may be a later one.
+        most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
             iterator = iter(arrangements)
-            if self.take(kind, iterator):
-                waiting.append((kind, iterator))
-            if self.scored >= _SCORED:
+            while self.take(kind, iterator):
+                if kind:
+                    waiting.append((kind, iterator))
+                    break
+            if len(self.kinds) >= count:
                 break
-        # Then the next ones of each kind, round by round.
         for _ in range(_OF_A_KIND - 1):
             for kind, iterator in waiting:
-                if self.scored < _SCORED:
+                if self.scored < most:
                     self.take(kind, iterator)
+
+    @property
+    def given(self) -> int:
+        """How many self-stresses there were before."""
+        return 0 if self.held is None else self.held.over_constrained
 
     @property
     def scored(self) -> int:
@@ -259,10 +278,15 @@ class _Search:
     def take(self, kind: str, arrangements: Iterator[Arrangement]) -> bool:
         """Take the next layout of a kind that is not much like one that is there."""
         for arrangement in arrangements:
-            layout = self.made(kind, arrangement)
+            own = kind or arrangement.kind
+            there = self.kinds.get(own, [])
+            # Of kinds that come in any order one more is enough for now.
+            if not kind and len(there) > 1:
+                continue
+            layout = self.made(own, arrangement)
             if layout is None:
                 continue
-            there = self.kinds.setdefault(kind, [])
+            self.kinds[own] = there
             if any(_much_alike(layout, other) for other in there):
                 continue
             there.append(layout)
@@ -272,30 +296,41 @@ class _Search:
         return False
 
     def sources(self) -> Iterator[tuple[str, Iterator[Arrangement]]]:
-        """Kinds of layouts, and where they come from."""
+        """Kinds of layouts, and where they come from; without a name what tells its own kinds."""
         problem, stock = self.problem, self.stock
-        count = len(stock.constraint)
+        count, limits = len(stock.constraint), problem.limits
         if not count:
             yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
-        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint)
-        every = (
-            [asked]
-            if asked is not None
-            else list(groups(stock.place.freedom, self.frame.isometries))
-        )
-        for k, recipe in enumerate(made):
-            if asked is None:
-                yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
-        if problem.symmetry == "none":
+        found = possible(problem.freedom)
+        _, couples = found.bellows or (0, 0)
+        made = recipes(count, limits.kinds, limits.over_constraint, couples)
+        plain = [recipe for recipe in made if not is_mixed(recipe)]
+        for k, recipe in enumerate(plain if asked is None else ()):
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
+        if not found.parallel:
+            yield from self.with_bodies(asked)
+        for recipe in plain[: _SYMMETRIC if asked is None else None]:
+            # By default the images of whole groups are offered, too.
+            every = [asked] if asked else list(groups(stock.place.freedom, self.frame.isometries))
+            for group in every if problem.symmetry != "none" else ():
+                axis = ", ".join(f"{part:.3g}" for part in group.axis + 0.0)
+                name = f"{recipe_name(recipe)}, {group.order} about ({axis})"
+                yield name, self.of_group(group, recipe)
+        for recipe in [recipe for recipe in made if recipe not in plain] if asked is None else ():
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER)
+        if found.parallel and len(self.kinds) < _FEW_KINDS:
+            yield from self.with_bodies(asked)
+
+    def with_bodies(self, asked: Group | None) -> Iterator[tuple[str, Iterator[Arrangement]]]:
+        """Layouts with bodies between, if they are allowed."""
+        problem, sizes = self.problem, self.stock.place.sizes
+        if problem.limits.bodies < 1 or self.held is not None:
             return
-        for recipe in made:
-            for group in every:
-                yield (
-                    f"{recipe_name(recipe)}, {group.order} about {group.axis.tolist()}",
-                    self.of_group(group, recipe),
-                )
+        for source in (layered, limbs):
+            found = source(problem, self.frame, sizes, problem.limits.kinds)
+            yield "", (each for each in found if asked is None or is_symmetric(each, asked))
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""
@@ -320,20 +355,21 @@ class _Search:
         problem = self.problem
         flexures, bodies = flexures_of(problem, self.frame, arrangement)
         try:
-            model = model_of(problem, flexures, bodies)
-            found = verified(problem, model)
+            model = model_of(problem, flexures, bodies, self.held)
+            found = verified(problem, model, problem.body)
         except FlexactError:
             self.refused += 1
             return None
         if (
             found.freedom_error > _SAME_FREEDOM
             or found.under_constrained
-            or found.over_constrained > problem.limits.over_constraint
+            or found.over_constrained > problem.limits.over_constraint + self.given
         ):
             self.refused += 1
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
-        what = ", ".join((counted(flexures), *symmetry_words(kept, self.frame)))
+        parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
+        what = ", ".join(parts)
         layout = Layout(
             *(0, what, kind, problem, flexures, bodies, model),
             *(found.over_constrained, found.internal, found.analysis.proof is not None),
@@ -361,6 +397,16 @@ def _much_alike(one: Layout, other: Layout) -> bool:
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
         for key in keys
     )
+
+
+def between_words(arrangement: Arrangement) -> list[str]:
+    """How the bodies between are held, such as "in two layers"; empty where there are none."""
+    count = len(arrangement.bodies)
+    if not count:
+        return []
+    if "limb" in arrangement.kind:
+        return ["with a limb" if count == 1 else f"with {number_in_words(count)} limbs"]
+    return [f"in {number_in_words(count + 1)} layers"]
 
 
 def symmetry_words(kept: Sequence[Group], frame: Scaled) -> list[str]:
@@ -402,25 +448,31 @@ def described(designs: Designs, width: int) -> Iterator[str]:
     for remark in problem.remarks:
         yield wrapped(remark, width)
     yield str(designs.explanation)
-    counts = " and ".join(
-        f"{count} {kind if count == 1 else plural(kind)}"
-        for kind, count in designs.candidates.items()
-    )
     many = len(designs.layouts)
     if not many:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    if counts:
-        of = f" of {designs.found} found" if designs.found > many else ""
-        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-        yield wrapped(f"{counts} fit the regions; {layouts}, none an image of another.", width)
+    if designs.candidates:
+        yield wrapped(found_in_words(designs), width)
     yield ""
     yield designs.table(width)
-    yield wrapped(_confirmed(designs), width)
+    yield wrapped(confirmed(designs), width)
 
 
-def _confirmed(designs: Designs) -> str:
+def found_in_words(designs: Designs) -> str:
+    """How many flexures fit the regions, and how many layouts there are."""
+    counts = " and ".join(
+        f"{count} {kind if count == 1 else plural(kind)}"
+        for kind, count in designs.candidates.items()
+    )
+    many = len(designs.layouts)
+    of = f" of {designs.found} found" if designs.found > many else ""
+    layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+    return f"{counts} fit the regions; {layouts}, none an image of another."
+
+
+def confirmed(designs: Designs) -> str:
     """What the analysis says of all layouts."""
     exact = [layout for layout in designs.layouts if not layout.over_constrained]
     worst = max(layout.freedom_error for layout in designs.layouts)

@@ -7,7 +7,6 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,10 +18,6 @@ from ..advice.spaces.words import Geometry, space_in_words
 from ..analysis.naming import Line, Pieces, filled, line_of, plain
 from ..analysis.places import axis_words, listed
 from ..core.arrays import FloatArray
-from ..show.picture.make import check_packages
-from ..show.writers import PAGES, STILLS, Writers, require_name, write
-from ..util.loading import load
-from ..util.outputs import OutputError
 from ..util.records import Frozen, cached_property
 from ..util.text import number_in_words
 from ..util.units import METRES, Units
@@ -70,17 +65,6 @@ class Explanation(Frozen):
         """One object in one line."""
         return json.dumps(explained_json(self.found, self.typed), allow_nan=False)
 
-    def save(self, path: str | Path) -> None:
-        """Draw freedom and constraint: .png, .svg, .pdf, or .html with the words.
-
-        Raises:
-            FlexactError: There is no such kind of file, it cannot be written, or a package is
-                missing.
-        """
-        path = Path(path)
-        require_name(path)
-        write(path, EXPLANATIONS.contents(self, path))
-
 
 def explain(problem: Problem, units: Units = METRES) -> Explanation:
     """What the wanted freedom of a problem takes."""
@@ -91,22 +75,6 @@ def explain(problem: Problem, units: Units = METRES) -> Explanation:
         *(possible(problem.freedom), problem.title, body, wanted, typed),
         *(problem.stage.boxes, units),
     )
-
-
-#: Of explanations. Pictures and pages take a while to load.
-EXPLANATIONS = Writers(
-    lambda path, known: OutputError(f"the suffix of {path} is to be one of {', '.join(known)}")
-)
-
-
-@EXPLANATIONS.register(STILLS, require=check_packages)
-def _picture(made: Explanation, path: Path) -> bytes:
-    return bytes(load("flexact.designs.explain_files").picture_bytes(made, path))
-
-
-@EXPLANATIONS.register(PAGES)
-def _page(made: Explanation, path: Path) -> bytes:
-    return bytes(load("flexact.designs.explain_files").page_bytes(made))
 
 
 def _lines(geometry: Geometry, made: Explanation) -> Iterator[Line]:
@@ -236,8 +204,8 @@ def _otherwise(geometry: Geometry, found: Possible) -> Iterator[Line]:
     if couples:
         each = "a couple" if couples == 1 else "each couple"
         yield line_of(
-            f"For {each}: a bellows, or a limb: a body on a hinge, and beside the hinge two parallel "
-            "wires across it, to the stage."
+            f"For {each}: a bellows, or a limb: a body on a hinge, and beside the hinge two "
+            "parallel wires across it, to the stage."
         )
     if pitched:
         each = "the force with a moment" if pitched == 1 else "each force with a moment"

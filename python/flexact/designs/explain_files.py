@@ -5,18 +5,19 @@ from __future__ import annotations
 
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ..advice.spaces.words import Geometry, space_in_words
-from ..analysis.naming import plain
+from ..analysis.naming import Line, plain
 from ..model.data import ModelData
 from ..model.model import Model
-from ..show.page.compare import Side, spaces_page
-from ..show.page.viewer import Shaped
-from ..show.picture import has_packages, spaces_bytes
+from ..show.picture import check_packages, has_packages, spaces_bytes
 from ..show.spaces import SpaceShown, space_shown
-from ..show.writers import as_bytes
+from ..show.writers import PAGES, STILLS, Writers, as_bytes, require_name, write
+from ..util.loading import load
+from ..util.outputs import OutputError
 from ..util.text import harmless
 from .explain import Explanation
 
@@ -25,29 +26,64 @@ from .explain import Explanation
 _SIZE, _HALF, _OPACITY = 2.2, 0.3, 0.12
 
 
-def picture_bytes(made: Explanation, path: Path, **options: object) -> bytes:
-    """The picture as the content of a file, as of `flexact.show.picture.spaces_bytes`."""
-    shown = shown_of(made)
-    return spaces_bytes(body_of(made), shown, made.title, path.suffix.lower(), **options)  # type: ignore[arg-type]
+#: Of explanations.
+EXPLANATIONS = Writers(
+    lambda path, known: OutputError(f"the suffix of {path} is to be one of {', '.join(known)}")
+)
 
 
-def page_bytes(made: Explanation) -> bytes:
+def save(made: Explanation, path: str | Path) -> None:
+    """Draw freedom and constraint: .png, .svg, .pdf, or .html with the words.
+
+    Raises:
+        FlexactError: There is no such kind of file, it cannot be written, or a package is missing.
+    """
+    path = Path(path)
+    require_name(path)
+    write(path, EXPLANATIONS.contents(made, path))
+
+
+@EXPLANATIONS.register(STILLS, require=check_packages)
+def picture_bytes(made: Explanation, path: Path) -> bytes:
+    """The picture as the content of a file."""
+    return spaces_bytes(body_of(made), shown_of(made), made.title, path.suffix.lower())
+
+
+@EXPLANATIONS.register(PAGES)
+def page_bytes(made: Explanation, path: Path) -> bytes:
     """The page as the content of a file: both spaces, to be turned, and what it takes."""
+    headline, *told = made.lines
+    page: str = load("flexact.show.page").spaces_page(
+        harmless(made.title), in_one_line(headline), told, sides_of(made)
+    )
+    return as_bytes(page)
+
+
+def in_one_line(line: Line) -> str:
+    """A line as a headline has it."""
+    return f"{plain(line.head).strip()} {'; '.join(map(plain, line.items))}".strip()
+
+
+def sides_of(made: Explanation) -> list[Any]:
+    """Freedom and constraint as a page draws them, `flexact.show.page.Side`."""
+    # Pages take a while to load.
+    viewer, pages = load("flexact.show.page.viewer"), load("flexact.show.page")
     data, sides = body_of(made), []
     for number, each in enumerate(shown_of(made)):
         still = spaces_bytes(data, [each], made.title) if has_packages() else None
-        words = f"{each.words}."
-        sides.append(Side(number, each.title, words, Shaped(data, ()), still, (each,)))
-    headline, *told = made.lines
-    headed = " ".join((plain(headline.head).strip(), *map(plain, headline.items)))
-    return as_bytes(spaces_page(harmless(made.title), headed, told, sides))
+        shaped = viewer.Shaped(data, ())
+        sides.append(pages.Side(number, each.title, f"{each.words}.", shaped, still, (each,)))
+    return sides
 
 
 def shown_of(made: Explanation) -> list[SpaceShown]:
     """Freedom and constraint as they are drawn."""
     found = made.found
     geometry, size = Geometry(made.units, found.freedom.length), _SIZE * found.freedom.length
-    spaces = (("Freedom", found.freedom, "none"), ("Constraint", found.constraint, "none"))
+    spaces = (
+        ("Freedom", found.freedom, "nothing moves"),
+        ("Constraint", found.constraint, "nothing is held"),
+    )
     return [
         space_shown(
             space,

@@ -153,3 +153,18 @@ def _key(
         numbers += (np.round(turned.points, _DIGITS) + 0.0).ravel().tolist()
     numbers += (np.round(turn @ inertia @ turn.T, _DIGITS) + 0.0).ravel().tolist()
     return tuple(numbers)
+
+
+#: What a place is off a short decimal by rounding, in parts of itself or of the size.
+_ROUNDING = 1.0e-13
+
+
+def snapped(places: FloatArray, size: float) -> FloatArray:
+    """Places as they would be typed: what rounding made of short decimals is taken back."""
+    flat = np.asarray(places, float).ravel()
+    made = []
+    for value in flat.tolist():
+        short = float(f"{value:.9g}") if abs(value) > _ROUNDING * size else 0.0
+        is_near = abs(short - value) <= _ROUNDING * max(abs(value), size)
+        made.append(short if is_near else float(f"{value:.15g}"))
+    return np.array(made).reshape(np.shape(places)) + 0.0

@@ -137,7 +137,7 @@ def orbits(
     images = [moved(candidates, turn) for turn in group.turns]
     fits = np.ones(len(candidates), dtype=bool)
     for image in images[1:]:
-        fits &= _is_within(image, place)
+        fits &= is_within(image, place)
     keys = np.stack([materials(image) for image in images], axis=1)
     made = []
     # A set is one whichever of its members is looked at.
@@ -177,7 +177,7 @@ def _picked(images: Sequence[Candidates], places: IntArray, which: IntArray) -> 
     return replace(first, **arrays)
 
 
-def _is_within(candidates: Candidates, place: Place) -> BoolArray:
+def is_within(candidates: Candidates, place: Place) -> BoolArray:
     """(n,) whether flexures end in the regions and stay out of what is to be kept out of."""
     ok = np.ones(len(candidates), dtype=bool)
     for end, boxes in ((0, place.here), (1, place.there)):

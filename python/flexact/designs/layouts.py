@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +17,15 @@ from ..advice.spaces.subjects import Freed, subject_named
 from ..api import Analysis, analyse
 from ..core.arrays import FloatArray
 from ..model.model import Model
+from ..model.names import part_name
+from ..model.variation import with_vectors
 from ..util.records import Frozen
 from ..util.text import number_in_words
-from .frame import Scaled
+from ..util.units import METRES
+from .frame import Scaled, snapped
+from .held import Held, Joined, held_by
 from .problem import KINDS, Problem
+from .rods import SHOWN_AS, Call, form_of, notch_calls, strut_calls
 from .search import Arrangement
 
 
@@ -32,13 +38,15 @@ class Flexure(Frozen):
         kind: Of `flexact.designs.problem.KINDS`.
         between: The bodies at its two ends: "stage", "ground", or a body between.
         ends: (2, 3) middles of its clamped ends, in the order of `between` [m].
-        diameter: Of a wire; 0 otherwise [m].
-        width: Breadth of a sheet; 0 otherwise [m].
+        diameter: Of a wire, of the necks of a strut; 0 otherwise [m].
+        width: Breadth of a sheet or a notch, outer diameter of a bellows; 0 otherwise [m].
         thickness: Of a sheet or at the thinnest of a notch; 0 otherwise [m].
-        normal: (3,) unit vector across a sheet; zeros otherwise.
+        normal: (3,) unit vector across a sheet, or across a rod and the axes of its notches; zeros
+            otherwise.
         via: (n, 3) places between the ends: of a folded sheet its fold, of a waisted sheet its
-            waist, of a rod its notches [m].
-        axes: (n, 3) unit vectors: of a folded sheet along its fold, of a rod those of its notches.
+            waist, of a rod its notches, of a strut its necks [m].
+        axes: (n, 3) unit vectors: of a folded sheet along its fold, of a rod those of its notches;
+            zeros of waists and necks.
     """
 
     name: str
@@ -51,6 +59,11 @@ class Flexure(Frozen):
     normal: FloatArray = field(default_factory=lambda: np.zeros(3))
     via: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     axes: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+
+    @property
+    def form(self) -> str:
+        """Its kind, and which of notch, rod and strut a notch is."""
+        return form_of(self.kind, self.via, self.axes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +103,16 @@ class Layout(Frozen):
     alike: int
     scores: dict[str, float]
 
+    @property
+    def worst_stiffness(self) -> float:
+        """The least stiffness of the stage across its freedom [N/m]; NaN where it has none."""
+        return self.scores.get("worst_stiffness", math.nan)
+
+    @property
+    def parts(self) -> int:
+        """How many flexures and bodies between it has."""
+        return len(self.flexures) + len(self.bodies)
+
     def python(self) -> str:
         """A script that makes the model."""
         return script_of(self)
@@ -101,19 +124,6 @@ class Layout(Frozen):
 
 #: Coordinates of the stage, in the order of twists about the centre, (w, v).
 COORDINATES = ("rx", "ry", "rz", "x", "y", "z")
-#: What a place is off a short decimal by rounding, in parts of itself or of the size.
-_ROUNDING = 1.0e-13
-
-
-def snapped(places: FloatArray, size: float) -> FloatArray:
-    """Places as they would be typed: what rounding made of short decimals is taken back."""
-    flat = np.asarray(places, float).ravel()
-    made = []
-    for value in flat.tolist():
-        short = float(f"{value:.9g}") if abs(value) > _ROUNDING * size else 0.0
-        is_near = abs(short - value) <= _ROUNDING * max(abs(value), size)
-        made.append(short if is_near else float(f"{value:.15g}"))
-    return np.array(made).reshape(np.shape(places)) + 0.0
 
 
 def declared(freedom: ScrewSpace) -> tuple[str, ...]:
@@ -133,41 +143,99 @@ def declared(freedom: ScrewSpace) -> tuple[str, ...]:
     return tuple(sorted(names, key=("x", "y", "z", "rx", "ry", "rz").index))
 
 
-def model_of(
+def calls_of(
     problem: Problem,
     flexures: Sequence[Flexure],
     bodies: Sequence[tuple[str, FloatArray]] = (),
-) -> Model:
-    """The model of a layout, with stiffness and mass, one beam a flexure.
+    held: Held | None = None,
+) -> Iterator[Call]:
+    """The calls of `flexact.Model` that make a layout, with places in metres.
 
     Args:
         problem: Of which material, mass and centre are taken.
         flexures: Of the layout.
         bodies: Between stage and ground: names, and further points, (n, 3) [m].
+        held: The mechanism to which they are added.
     """
-    model = Model(name=problem.title)
     ends: dict[str, list[tuple[float, ...]]] = {"stage": [], "ground": []}
     for name, points in bodies:
         ends[name] = [tuple(point) for point in points.tolist()]
+    centre = tuple(problem.centre.tolist())
+    if held is None:
+        # Before flexures, whose notches may be there too.
+        yield Call("node", centre, {})
     for flexure in flexures:
-        _add(model, problem, flexure)
+        points_: list[End] = []
         for body, place in zip(flexure.between, flexure.ends.tolist(), strict=True):
-            ends[body].append(tuple(place))
-    inertia = problem.inertia
-    model.body(
-        [tuple(problem.centre.tolist()), *_distinct(ends["stage"], problem.centre)],
-        name="stage",
-        mass=problem.mass or None,
-        inertia=inertia[np.triu_indices(3)].tolist() if inertia.any() else None,
-    )
-    for name, _ in bodies:
-        model.body(_distinct(ends[name]), name=name)
-    if ends["ground"]:
-        model.fix(*_distinct(ends["ground"]))
+            known = held.at(place) if held is not None and body == "stage" else None
+            if known is None:
+                ends[body].append(tuple(place))
+            points_.append(known or tuple(place))
+        yield from _calls(problem, flexure, points_)
+    distinct = {name: list(dict.fromkeys(each)) for name, each in ends.items()}
+    if held is None:
+        sizes: dict[str, object] = {"name": "stage"}
+        sizes |= {"mass": problem.mass} if problem.mass else {}
+        if problem.inertia.any():
+            sizes["inertia"] = tuple(problem.inertia[np.triu_indices(3)].tolist())
+        own = [place for place in distinct["stage"] if place != centre]
+        yield Call("body", ([centre, *own],), sizes)
+    elif distinct["stage"]:
+        yield Call("body", ([held.own, *distinct["stage"]],), {"name": problem.body})
+    for name, arms in bodies:
+        yield from _calls_of_body(name, arms, distinct[name][len(arms) :])
+    if distinct["ground"]:
+        yield Call("fix", tuple(distinct["ground"]), {})
+
+
+def _calls_of_body(
+    name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
+) -> Iterator[Call]:
+    """A body between: from arms in a row, where it has such, to the points that are near each."""
+    corners = [tuple(corner) for corner in arms.tolist()]
+    if len(arms) < 2:
+        yield Call("body", ([*corners, *points],), {"name": name})
+        return
+    for pair in pairwise(corners):
+        yield Call("body", (list(pair),), {"name": name})
+    for point in points:
+        near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))
+        yield Call("body", ([corners[near], point],), {"name": name})
+
+
+def model_of(
+    problem: Problem,
+    flexures: Sequence[Flexure],
+    bodies: Sequence[tuple[str, FloatArray]] = (),
+    held: Held | None = None,
+) -> Model:
+    """The model of a layout, with stiffness and mass, one beam a flexure; see `calls_of`."""
+    if held is None:
+        model, units = Model(name=problem.title), METRES
+    else:
+        # Places are in metres, whatever the deck is in.
+        units = held.model.data.units
+        model = Model.from_data(replace(held.model.data, units=METRES))
+
+    def meant(value: object) -> object:
+        if isinstance(value, Joined):
+            return model.handle(*value)
+        return [meant(each) for each in value] if isinstance(value, list) else value
+
+    for method, given, named_ in calls_of(problem, flexures, bodies, held):
+        material = {"material": problem.material} if method in _OF_MATERIAL else {}
+        getattr(model, method)(*map(meant, given), **named_, **material)
     names = declared(problem.freedom)
-    if names:
-        model.independent("stage", *names)
-    return with_axes(model)
+    if names and (held is None or analyse(model).under_constrained):
+        model.independent("stage" if held is None else meant(held.own), *names)
+    made = with_axes(model)
+    return made if held is None else Model.from_data(replace(made.data, units=units))
+
+
+#: Calls that take a material.
+_OF_MATERIAL = ("wire", "sheet", "folded_sheet", "beam", "notch", "bellows")
+#: Where a flexure ends: a place [m], or a point of a mechanism that is there.
+End = tuple[float, ...]
 
 
 def with_axes(model: Model) -> Model:
@@ -175,41 +243,48 @@ def with_axes(model: Model) -> Model:
 
     How a rigid link lies about itself does not matter, but readers of a deck ask for it.
     """
-    data = model.data
-    arrays, places = data.arrays, model.positions
-    vectors = np.array(arrays.element_vector)
-    nodes = model.element_nodes
+    places, nodes, given = model.positions, model.element_nodes, model.element_vectors
+    vectors: dict[int, tuple[float, ...]] = {}
     for k, keyword in enumerate(model.element_keywords):
-        if keyword == "BEAM" and not vectors[:, k].any():
-            first, last = places[nodes[k, 0]], places[nodes[k, 2]]
-            vectors[:, k] = np.eye(3)["xyz".index(across(np.array((first, last))))]
-    vectors = np.asfortranarray(vectors)
-    return Model.from_data(replace(data, arrays=arrays._replace(element_vector=vectors)))
+        if keyword == "BEAM" and not given[k].any():
+            axis = "xyz".index(across(places[nodes[k, [0, 2]]]))
+            vectors[int(model.element_numbers[k])] = tuple(np.eye(3)[axis].tolist())
+    return Model.from_data(with_vectors(model.data, vectors))
 
 
-def _distinct(
-    places: Iterable[tuple[float, ...]], besides: FloatArray | None = None
-) -> list[tuple[float, ...]]:
-    known = dict.fromkeys(places)
-    if besides is not None:
-        known.pop(tuple(besides.tolist()), None)
-    return list(known)
-
-
-def _add(model: Model, problem: Problem, flexure: Flexure) -> None:
-    """A flexure of a layout."""
-    p, q = (tuple(end) for end in flexure.ends.tolist())
-    name, material = flexure.name, problem.material
-    sizes = {"thickness": flexure.thickness, "breadth": flexure.width, "material": material}
+def _calls(problem: Problem, flexure: Flexure, points: Sequence[End]) -> Iterable[Call]:
+    """Calls that make a flexure between two points."""
+    p, q = points
+    name, least = flexure.name, problem.limits.length[0]
     if flexure.kind == "wire":
-        model.wire(p, q, across(flexure.ends), name, thickness=flexure.diameter, material=material)
-    elif flexure.kind == "folded sheet":
+        across_ = across(flexure.ends)
+        return [Call("wire", (p, q, across_, name), {"thickness": flexure.diameter})]
+    if flexure.form == "bellows":
+        return [Call("bellows", (p, q, across(flexure.ends), name), {"diameter": flexure.width})]
+    if flexure.form == "strut":
+        hint = across(flexure.ends)
+        made = strut_calls(name, flexure.ends, hint, flexure.diameter, least)
+        return _between(made, flexure, points)
+    if flexure.kind == "notch":
+        sizes = flexure.width, flexure.thickness, least
+        made = notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
+        return _between(made, flexure, points)
+    given = {"thickness": flexure.thickness, "breadth": flexure.width}
+    if flexure.kind == "folded sheet":
         fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
-        model.folded_sheet(p, fold, q, along, name, **sizes)
-    else:
-        sheet = model.sheet(p, q, tuple(width_of(flexure).tolist()), name=name, **sizes)
-        if flexure.kind == "waisted sheet":
-            model.release(sheet, "in-plane bending", at=waist_of(flexure))
+        return [Call("folded_sheet", (p, fold, q, along, name), given)]
+    calls = [Call("sheet", (p, q, tuple(width_of(flexure).tolist())), {"name": name, **given})]
+    if flexure.kind == "waisted sheet":
+        calls.append(Call("release", (name, "in-plane bending"), {"at": waist_of(flexure)}))
+    return calls
+
+
+def _between(calls: Iterable[Call], flexure: Flexure, points: Sequence[End]) -> Iterator[Call]:
+    """Calls whose first and last places are given as other points."""
+    meant = dict(zip(map(tuple, flexure.ends.tolist()), points, strict=True))
+    for call in calls:
+        given = (meant.get(each, each) if isinstance(each, tuple) else each for each in call.given)
+        yield call._replace(given=tuple(given))
 
 
 def across(ends: FloatArray) -> str:
@@ -251,13 +326,15 @@ def flexures_of(
 
     for part in arrangement.parts:
         for candidates, k in part.found.chosen.members:
-            kind = candidates.kind
-            is_wire = kind == "wire"
+            form = candidates.kind
+            kind = SHOWN_AS.get(form, form)
+            is_round = form in ("wire", "strut")
+            is_flat = not is_round and form != "bellows"
             flexure = Flexure(
-                *(kind, kind, part.between, placed(candidates.ends[k])),
-                0.0 if not is_wire else snapped(np.array(diameter), size).item(),
+                *(form, kind, part.between, placed(candidates.ends[k])),
+                snapped(np.array(diameter), size).item() if is_round else 0.0,
                 snapped(candidates.width[k] * size, size).item(),
-                0.0 if is_wire else snapped(np.array(thickness), size).item(),
+                snapped(np.array(thickness), size).item() if is_flat else 0.0,
                 snapped(frame.turned_back(candidates.normal[k]), 1.0),
                 placed(candidates.via[k]),
                 snapped(frame.turned_back(candidates.axes[k]), 1.0),
@@ -267,7 +344,8 @@ def flexures_of(
             found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
     order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
     found.sort(key=lambda each: (order.index(each[1].between), each[0]))
-    names = named(flexure.kind for _, flexure in found)
+    taken = {part_name(name) for name in problem.base.element_names} if problem.base else set()
+    names = named((flexure.form for _, flexure in found), taken)
     flexures = tuple(
         replace(flexure, name=name) for name, (_, flexure) in zip(names, found, strict=True)
     )
@@ -315,17 +393,24 @@ def verified(problem: Problem, model: Model, body: str = "stage") -> Verified:
 # Words ----------------------------------------------------------------------------------
 
 
+#: Forms of flexures in the order in which they are told, those that fill up last.
+_FORMS = (*KINDS[1:4], "notch", "rod", "bellows", "strut", "wire")
+
+
 def counted(flexures: Sequence[Flexure]) -> str:
     """What kinds of flexures a layout has, such as "a sheet and two wires"."""
-    counts = Counter(flexure.kind for flexure in flexures)
-    ordered = sorted(counts, key=lambda kind: (kind == "wire", KINDS.index(kind)))
-    return in_a_row([_many(counts[kind], kind) for kind in ordered])
+    return kinds_in_words([flexure.form for flexure in flexures])
 
 
-def _many(count: int, kind: str) -> str:
-    if count == 1:
-        return f"a {kind}"
-    return f"{number_in_words(count)} {plural(kind)}"
+def kinds_in_words(forms: Sequence[str]) -> str:
+    """Kinds of flexures, one for each, such as "a sheet and two wires"."""
+    counts = Counter(forms)
+    return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
+
+
+def _many(count: int, form: str) -> str:
+    made = f"a {form}" if count == 1 else f"{number_in_words(count)} {plural(form)}"
+    return f"{made} with two notches" if form == "rod" else made
 
 
 def plural(kind: str) -> str:
@@ -339,12 +424,14 @@ def in_a_row(items: Sequence[str]) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def named(kinds: Iterable[str], taken: Mapping[str, int] | None = None) -> list[str]:
-    """Names of flexures of some kinds, such as "wire 1": each with its number among its kind."""
-    counts = Counter(taken or {})
+def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
+    """Names of flexures of some kinds, such as "wire 1", none of which is taken."""
+    counts: Counter[str] = Counter()
     made = []
     for kind in kinds:
         counts[kind] += 1
+        while f"{kind} {counts[kind]}" in taken:
+            counts[kind] += 1
         made.append(f"{kind} {counts[kind]}")
     return made
 
@@ -361,49 +448,23 @@ def script_of(layout: Layout) -> str:
         if getattr(material, key) not in (None, "")
     }
     made = ", ".join(f"{key}={value!r}" for key, value in values.items())
-    lines = [
-        "import flexact",
-        "",
-        f"material = flexact.Material({made})",
-        f"model = flexact.Model(name={problem.title!r})",
-    ]
-    ends: dict[str, list[str]] = {"stage": [], "ground": []}
-    ends |= {name: [_tuple(point) for point in points] for name, points in layout.bodies}
-    for flexure in layout.flexures:
-        lines += _written(flexure)
-        for body, place in zip(flexure.between, flexure.ends, strict=True):
-            ends[body].append(_tuple(place))
-    stage = ", ".join((_tuple(problem.centre), *dict.fromkeys(ends["stage"])))
-    mass = f", mass={problem.mass!r}" if problem.mass else ""
-    if problem.inertia.any():
-        mass += f", inertia={tuple(problem.inertia[np.triu_indices(3)].tolist())!r}"
-    lines.append(f'model.body([{stage}], name="stage"{mass})')
-    for name, _ in layout.bodies:
-        lines.append(f"model.body([{', '.join(dict.fromkeys(ends[name]))}], name={name!r})")
-    lines.append(f"model.fix({', '.join(dict.fromkeys(ends['ground']))})")
+    lines = ["import flexact", "", f"material = flexact.Material({made})"]
+    held = held_by(problem)
+    if held is None:
+        lines.append(f"model = flexact.Model(name={problem.title!r})")
+    else:
+        lines.append(f'model = flexact.read_text("""{held.model.to_deck()}""")')
+        if held.model.data.units is not METRES:
+            lines.insert(
+                2, "# The deck is in other units than the places below, which are in metres."
+            )
+    for method, given, named_ in calls_of(problem, layout.flexures, layout.bodies, held):
+        words = [repr(each) for each in given]
+        words += [f"{key}={value!r}" for key, value in named_.items()]
+        words += ["material=material"] if method in _OF_MATERIAL else []
+        lines.append(f"model.{method}({', '.join(words)})")
     names = declared(problem.freedom)
     if names:
-        lines.append(f'model.independent("stage", {", ".join(map(repr, names))})')
+        stage = '"stage"' if held is None else repr(held.own)
+        lines.append(f"model.independent({stage}, {', '.join(map(repr, names))})")
     return "\n".join((*lines, "print(flexact.analyse(model).describe())", ""))
-
-
-def _tuple(place: FloatArray) -> str:
-    return f"({', '.join(map(repr, place.tolist()))})"
-
-
-def _written(flexure: Flexure) -> list[str]:
-    """The lines of a script that make a flexure."""
-    p, q = map(_tuple, flexure.ends)
-    name, sizes = f"name={flexure.name!r}", ", material=material"
-    if flexure.kind == "wire":
-        hint = repr(across(flexure.ends))
-        return [f"model.wire({p}, {q}, {hint}, {name}, thickness={flexure.diameter!r}{sizes})"]
-    sizes = f", thickness={flexure.thickness!r}, breadth={flexure.width!r}{sizes}"
-    if flexure.kind == "folded sheet":
-        fold, along = _tuple(flexure.via[0]), _tuple(flexure.axes[0])
-        return [f"model.folded_sheet({p}, {fold}, {q}, {along}, {name}{sizes})"]
-    lines = [f"model.sheet({p}, {q}, {_tuple(width_of(flexure))}, {name}{sizes})"]
-    if flexure.kind == "waisted sheet":
-        end = waist_of(flexure)
-        lines.append(f'model.release({flexure.name!r}, "in-plane bending", at="{end}")')
-    return lines

@@ -29,8 +29,9 @@ from ..util.records import Frozen, cached_property
 #: A freedom that is nearer to a special one (parts of the characteristic length, or rad) is taken
 #: for it, and one that is nearer than the second is told to be near it.
 NEAR, DOUBTFUL = 1.0e-6, 1.0e-4
-#: What is rounding of unit rows, and how often one steps towards a special freedom at most.
-_ROUNDING, _STEPS = 1.0e-14, 12
+#: What is rounding of unit rows, how often one steps towards a special freedom at most, and the
+#: part of a screw outside a space with which it is clearly no member.
+_ROUNDING, _STEPS, _CLEAR = 1.0e-14, 12, 0.1
 
 #: A sheet's three rows, the two of a waisted one, and so on: dimensions of what flexures hold.
 _SHEET, _ROD, _NOTCH = 3, 4, 5
@@ -121,12 +122,15 @@ class Possible(Frozen):
     @cached_property
     def extra(self) -> ScrewSpace:
         """What wires alone leave besides: translations, where there are such, else screws."""
-        free, lined = parted(self.alone.scaled, EXACT)
-        spanned = self.freedom.scaled
-        for row in (*canonical(free), *principal_rows(lined), *lined):
-            more = np.concatenate((spanned, row[None]))
-            spanned = more if len(orthonormal(more)) == len(more) else spanned
-        return self.freedom.of_scaled(orthonormal(spanned[self.dimension :]))
+        every, spanned, made = self.alone.scaled, self.freedom.scaled, []
+        free, lined = parted(every, EXACT)
+        across = orthonormal(every - (every @ spanned.T) @ spanned)
+        for row in (*canonical(free), *principal_rows(lined), *across):
+            rest = row - spanned.T @ (spanned @ row)
+            if np.linalg.norm(rest) > _CLEAR * np.linalg.norm(row):
+                made.append(row)
+                spanned = np.concatenate((spanned, rest[None] / np.linalg.norm(rest)))
+        return self.freedom.of_scaled(orthonormal(np.array(made).reshape(-1, 6)))
 
     @property
     def parallel(self) -> bool:
@@ -163,14 +167,17 @@ class Possible(Frozen):
 
         A waisted sheet holds the lines through its waist in its plane. W has such a pencil at
         every point where T has rank one or less: everywhere for one motion or none; of two
-        motions at the points of a rotation, which pencils share where it is itself a force of W.
+        motions at the points of a rotation. Two pencils are independent but where both have a line
+        in common, which is a rotation that is itself a force of W, or are in one plane.
         """
         if not self.parallel:
             return None
         if self.dimension <= 1:
             count = self.needed // 2
         elif self.dimension == 2:
-            count = 0 if not self.freedom.lines else 1 if self.signature_freedom[2] == 1 else 2
+            kinds, zero = {family.kind for family in self.freedom.lines}, self.signature_freedom[2]
+            is_one = zero == 1 or FamilyKind.PARALLELS_IN_PLANE in kinds
+            count = 0 if not kinds else 1 if is_one else 2
         else:
             count = int(any(family.kind in _WITH_PENCILS for family in self.constraint.families))
         return (count, self.needed - 2 * count) if count else None

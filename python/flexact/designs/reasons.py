@@ -57,7 +57,9 @@ def reason_of(problem: Problem, found: Possible, exists: Callable[[Problem], boo
     if not exists(in_free_space(problem)):
         kinds = " and ".join(plural(kind) for kind in limits.kinds)
         if exists(in_free_space(replace(problem, limits=every))):
-            said = f"In no place can {kinds} alone leave just this; with other kinds it is possible."
+            said = (
+                f"In no place can {kinds} alone leave just this; with other kinds it is possible."
+            )
             return Reason("kinds", None, said)
         return Reason("wires", None, _of_wires(geometry, found, limits.bodies))
     for condition, loosened in _loosened(problem):

@@ -48,6 +48,7 @@ from ..util.rotations import cross, matrix_of, vector_of_euler
 from ..util.text import in_short, table, wrapped
 from .layouts import Flexure, Layout
 from .problem import Problem
+from .rods import outer_sizes, turns_of
 
 #: A twist of less than this part of another is rounding; so is a singular value.
 ROUNDED = 1.0e-9
@@ -187,7 +188,8 @@ def unit_rows(flexure: Flexure, centre: FloatArray, size: float) -> FloatArray:
     place = flexure.via.mean(axis=0) if len(flexure.via) else (a + b) / 2.0
     none = np.zeros((0, 3))
     if flexure.kind == "notch":
-        turns = np.hstack((flexure.axes, cross(flexure.via - place, flexure.axes) / size))
+        points, axes = turns_of(flexure.via, flexure.axes)
+        turns = np.hstack((axes, cross(points - place, axes) / size))
         # Twists (w, v/L) are reciprocal to (m/L, f).
         held = null_space(turns, ROUNDED).T
         forces, couples = held[:, 3:], held[:, :3]
@@ -232,8 +234,9 @@ def across(problem: Problem) -> FloatArray:
 def error_response(flexures: Sequence[Flexure], problem: Problem) -> FloatArray:
     """(6, n) the twist (w L, v) of the stage, across T, by unit errors of each row.
 
-    Errors e of lengths move it by this times e, and errors dA of the rows of flexures that all
-    end on the ground turn its freedom by minus this times dA T.
+    A row is a force along the flexure from its first end to its second one, so that e is by how
+    much it is too short, in metres; of a couple, by how much too little it turns, times L. Errors
+    dA of the rows of flexures that all end on the ground turn the freedom by minus this times dA T.
 
     Raises:
         NoScoreError: these flexures alone do not hold the stage across T.
@@ -274,7 +277,8 @@ def cheap_scores(
     by = _twist_of(at, stage, problem)
     wanted, basis = problem.freedom.scaled.T, across(problem)
     made: dict[str, float] = {}
-    with suppress(NoScoreError):
+    # None of them is lost by what another one has no answer to.
+    with suppress(FlexactError):
         worst, drive = worst_and_drive(_stiffness_at(at, stage, by), wanted, basis)
         if basis.shape[1]:
             made["worst_stiffness"] = worst
@@ -283,16 +287,19 @@ def cheap_scores(
         if basis.shape[1] and drive > 0.0:
             made["separation"] = worst / drive
     if problem.mass > 0.0:
-        made |= _frequencies(at, stage, by, problem)
-    with suppress(NoScoreError):
+        with suppress(FlexactError):
+            made |= _frequencies(at, stage, by, problem)
+    with suppress(FlexactError):
         made["turns_with_errors"] = float(np.linalg.norm(error_response(flexures, problem), 2))
-    drift = _drift(at, stage, by, problem, flexures)
-    made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
-    made["room"] = room_of(flexures)
+    with suppress(FlexactError):
+        drift = _drift(at, stage, by, problem, flexures)
+        made["thermal_drift"] = float(np.linalg.norm(drift[3:]))
+    made["room"] = room_of(flexures, problem.limits.length[0])
     made["parts"] = len(flexures) + len(bodies_of(flexures)) - 1
     made["kinds"] = len({flexure.kind for flexure in flexures})
     made["symmetry"] = symmetry
-    return {key: float(f"{value:.{_DIGITS}g}") for key, value in made.items()}
+    finite = {key: value for key, value in made.items() if math.isfinite(value)}
+    return {key: float(f"{value:.{_DIGITS}g}") for key, value in finite.items()}
 
 
 def _one_beam(data: ModelData) -> Solution:
@@ -307,14 +314,19 @@ def _stage(data: ModelData, body: str) -> Point:
     """The first point of the stage.
 
     Raises:
-        FlexactError: there is no such body.
+        FlexactError: there is no such body, or it is none that turns in space.
     """
+    found = None
     # Its links are called by its name, and begin there; a body of one point has none.
     for element, name in enumerate(data.element_names):
         if name.startswith(body) and part_name(name) == body:
-            p, turn = (data.arrays.element_node[:2, element] - 1).tolist()
-            return Point(p, turn)
-    return Points(data).of(body)
+            found = Point(*(data.arrays.element_node[:2, element] - 1).tolist())
+            break
+    found = found or Points(data).of(body)
+    kinds = [data.arrays.node_kind[node] for node in found.nodes]
+    if kinds != [NodeKind.POSITION, NodeKind.ORIENTATION]:
+        raise NoScoreError(f"{in_short(body)} is no body that moves and turns in space")
+    return found
 
 
 def _centre(at: Solution, stage: Point, problem: Problem) -> FloatArray:
@@ -418,9 +430,9 @@ def _frequencies(at: Solution, stage: Point, by: FloatArray, problem: Problem) -
     energy = np.einsum("eim,eij,ejm->m", of_element, stiffness, of_element)
     within = np.sum((problem.freedom.scaled @ twists) ** 2, axis=0)
     # What moves without stiffness is wanted, where the stage moves at all.
-    still = energy <= 0.0
-    share = within * np.where(still, np.inf, found.values) / np.where(still, 1.0, energy)
-    share = np.nan_to_num(share, nan=0.0, posinf=np.inf)
+    still = (found.values <= 0.0) | (energy <= 0.0)
+    share = within * found.values / np.where(still, 1.0, energy)
+    share[still] = np.where(within > ROUNDED * within.max(), np.inf, 0.0)[still]
 
     # A wanted motion that moves no mass is in none of the modes.
     count = problem.freedom.dimension
@@ -438,20 +450,27 @@ def _frequencies(at: Solution, stage: Point, by: FloatArray, problem: Problem) -
     return made
 
 
-def room_of(flexures: Sequence[Flexure]) -> float:
-    """Volume of the box, with edges along x, y and z, around the material of all flexures [m3]."""
+def room_of(flexures: Sequence[Flexure], least: float) -> float:
+    """Volume of the box, with edges along x, y and z, around the material of all flexures [m3].
+
+    Args:
+        flexures: All of them.
+        least: The least length of flexures, see `flexact.designs.rods` [m].
+    """
     corners = [np.zeros((0, 3))]
     for flexure in flexures:
         bends = flexure.via if flexure.kind == "folded sheet" else np.zeros((0, 3))
         line = np.vstack((flexure.ends[:1], bends, flexure.ends[1:]))
         for a, b in pairwise(line):
             u = (b - a) / np.linalg.norm(b - a)
-            half = flexure.diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
-            if flexure.width:
+            own = flexure.diameter, flexure.width, flexure.thickness
+            diameter, width, thickness = outer_sizes(flexure.form, *own, least)
+            half = diameter / 2.0 * np.sqrt(np.maximum(1.0 - u**2, 0.0))
+            if width:
                 is_turned = flexure.kind in ("folded sheet", "notch") and len(flexure.axes)
                 breadth = flexure.axes[0] if is_turned else cross(flexure.normal, u)
                 deep = cross(u, breadth)
-                half = (flexure.width * np.abs(breadth) + flexure.thickness * np.abs(deep)) / 2.0
+                half = (width * np.abs(breadth) + thickness * np.abs(deep)) / 2.0
             corners += [np.array((a - half, a + half, b - half, b + half))]
     every = np.vstack(corners)
     return float(np.prod(np.ptp(every, axis=0))) if len(every) else 0.0
@@ -540,6 +559,7 @@ class _Way(NamedTuple):
     name: str
     coordinate: Coordinate
     ends: tuple[float, float]
+    """Its values there."""
     value: float
     unit: str
     reason: str
@@ -578,33 +598,31 @@ class _Dear:
             raise NoScoreError("nothing is wanted of the stage, so that it has no stroke")
         locked = replace(self.model, drive="locked")
         made = []
-        for each in declared:
+        for each, turns in zip(declared, self._turning(declared), strict=True):
             name, number = points.name(each), points.number(each.node)
             found = locked.limits(number, name, share=1.0, against="strength")
-            low, high = found.low, found.high
-            size = min(-low, high)
-            state = locked.driven(each, [found.rest + size])[0]
-            unit, value = self._moved(state)
-            made.append(_Way(name, each, (-size, size), value, unit, found.nearest.words))
+            size = min(-found.low, found.high)
+            there = locked.driven(each, [found.rest + size])[0].finest.raw.configuration
+            # The wanted motion itself, of which the coordinate is but a part.
+            moved = there[:3, self.point.position] - arrays.node_value[:3, self.point.position]
+            turned = vector_of_euler(there[:, self.point.orientation])
+            value, unit = (turned, "rad") if turns else (moved, "m")
+            ends = found.rest - size, found.rest + size
+            told = float(np.linalg.norm(value)), unit, found.nearest.words
+            made.append(_Way(name, each, ends, *told))
         return tuple(made)
 
-    def _moved(self, state: State) -> tuple[str, float]:
-        """By how much the stage has turned [rad], or moved [m] where it does not turn."""
-        position, turn = self.point
-        found = state.finest.raw.configuration
-        angle = 0.0
-        if turn >= 0 and self.data.arrays.node_kind[turn] == NodeKind.ORIENTATION:
-            angle = 2.0 * math.atan2(float(np.linalg.norm(found[1:, turn])), abs(found[0, turn]))
-        move = float(
-            np.linalg.norm(found[:3, position] - self.data.arrays.node_value[:3, position])
-        )
-        is_turn = angle * self.problem.size > math.sqrt(ROUNDED) * move and self._turns
-        return ("rad", angle) if is_turn else ("m", move)
-
-    @cached_property
-    def _turns(self) -> bool:
-        """Whether any wanted motion turns the stage."""
-        return bool(np.abs(self.problem.freedom.scaled[:, :3]).max(initial=0.0) > ROUNDED)
+    def _turning(self, declared: Sequence[Coordinate]) -> list[bool]:
+        """Whether the stage turns where a declared coordinate changes and the others do not."""
+        freedom, (position, turn) = self.problem.freedom, self.point
+        twists = freedom.basis.copy()
+        arm = self.data.arrays.node_value[:3, position] - self.problem.centre
+        twists[:, 3:] += cross(twists[:, :3], arm)
+        places = [each.axis + 3 * (each.node != turn) for each in declared]
+        alone = np.linalg.pinv(twists[:, places], rcond=ROUNDED) @ twists * freedom.factors
+        sizes = np.linalg.norm(alone, axis=1)
+        turns = np.linalg.norm(alone[:, :3], axis=1)
+        return [bool(turn > ROUNDED * size) for turn, size in zip(turns, sizes, strict=True)]
 
     @property
     def stroke(self) -> float:
@@ -624,14 +642,9 @@ class _Dear:
             self._worst(state)
             for each in self.ways
             for end in each.ends
-            for state in self.model.driven(each.coordinate, [self._rest(each.coordinate) + end])
+            for state in self.model.driven(each.coordinate, [end])
         ]
         return min(found) / rest
-
-    def _rest(self, coordinate: Coordinate) -> float:
-        arrays = self.data.arrays
-        is_turn = arrays.node_kind[coordinate.node] > NodeKind.POSITION
-        return 0.0 if is_turn else float(arrays.node_value[coordinate.axis, coordinate.node])
 
     def _worst(self, state: State) -> float:
         """The worst stiffness of a state, where the centre is in it; T stays where it is."""
@@ -726,7 +739,7 @@ def _plain(text: str) -> str:
 def _no_such_score(name: str) -> ModelError:
     known = [score.key.replace("_", " ") for score in SCORES.values()]
     near = nearest(_plain(name), known)
-    hint = f"did you mean {' or '.join(near)}?" if near else f"give one of {', '.join(known)}"
+    hint = f"did you mean {' or '.join(near)}?" if near else f"give one of {', '.join(known)};"
     return model_error(
         "no-such-score",
         f"layouts cannot be ordered by {in_short(name.strip())}",
@@ -793,8 +806,10 @@ def cell(key: str, layout: Layout, *, unit: bool = True) -> str:
         return ""
     name, factor = shown_unit(key, layout.problem)
     value = layout.scores[key] * factor
-    # Three digits, without an exponent where a person would write none.
-    text = f"{value:.3g}" if not 1.0e3 <= abs(value) < 1.0e7 else f"{value:.0f}"
+    text = f"{value:.3g}"
+    if 1.0e-6 <= abs(value) < 1.0e7:
+        # Three digits, without an exponent where a person would write none.
+        text = np.format_float_positional(float(text), trim="-")
     return f"{text} {name}" if unit and name else text
 
 
@@ -816,17 +831,18 @@ def table_of(layouts: Sequence[Layout], rank: tuple[str, bool], width: int) -> s
         return ""
     every = [SCORES[key] for key in columns_of(layouts, rank)]
     best, wide = pareto(layouts), len(str(max(layout.number for layout in layouts)))
+    is_told = not all(best)
     rows = [
         [" " * (wide + 3) + "layout", *(score.head for score in every)],
         ["", *(score.under for score in every)],
     ]
     for layout, is_best in zip(layouts, best, strict=True):
-        first = f"{layout.number:>{wide}} {'*' if is_best else ' '} {layout.what}"
+        first = f"{layout.number:>{wide}} {'*' if is_best and is_told else ' '} {layout.what}"
         # A unit that the heading has is not said again.
         said = [cell(s.key, layout, unit=not s.under.startswith("N/um")) for s in every]
         rows.append([first, *said])
     lines = [table(rows, width, second=True)]
-    if not all(best):
+    if is_told:
         lines.append(
             "* No layout is better in stiffness, drive, frequency or parts without a loss."
         )

@@ -20,14 +20,22 @@ from .candidates import Candidates, Place, folded, sheets, waisted, wires
 from .choice import Blocks, Chosen, Clearances, blocks_of, chosen_sets, clear_of
 from .frame import Scaled
 from .images import Group, groups, materials, moved, orbits
+from .rods import bellows, notches, rods, struts
 
 #: How much flexures of each kind hold.
-HOLDS = {"wire": 1, "folded sheet": 1, "waisted sheet": 2, "sheet": 3}
+HOLDS = {
+    **{"wire": 1, "folded sheet": 1, "strut": 1, "bellows": 1},
+    **{"waisted sheet": 2, "sheet": 3, "rod": 4, "notch": 5},
+}
 _MAKERS: dict[str, Callable[[Place, int], Candidates]] = {
     "wire": wires,
     "folded sheet": folded,
     "waisted sheet": waisted,
     "sheet": sheets,
+    "notch": notches,
+    "rod": rods,
+    "strut": struts,
+    "bellows": bellows,
 }
 #: Points along an edge of a region, finer where few flexures were found.
 _FINENESS = (3, 5, 9)
@@ -89,6 +97,12 @@ class Stock:
         self._blocks: dict[str, Blocks] = {}
         self._orbits: dict[tuple[str, bytes], dict[int, Blocks]] = {}
 
+    def beside(self, avoided: Sequence[tuple[FloatArray, float]]) -> Stock:
+        """The same flexures, where there are others already."""
+        made = Stock(self.place, avoided)
+        made.clearances, made._known, made._blocks = self.clearances, self._known, self._blocks
+        return made
+
     def candidates(self, kind: str) -> Candidates:
         """Flexures of a kind, thinned out evenly where there are very many."""
         if kind not in self._known:
@@ -146,22 +160,34 @@ def thinned(candidates: Candidates, most: int) -> Candidates:
     return candidates.of(np.unique(np.linspace(0, len(candidates) - 1, most).astype(int)))
 
 
-def recipes(count: int, kinds: Sequence[str], over: int = 0) -> list[tuple[str, ...]]:
+def recipes(
+    count: int, kinds: Sequence[str], over: int = 0, couples: int = 0
+) -> list[tuple[str, ...]]:
     """Recipes for a space of wrenches: how many flexures of which kinds hold it.
 
-    One kind that holds a single force fills up what sheets leave; exact ones come first. Two whole
-    sheets are never exact together (theorem 2).
+    One kind that holds a single force fills up what sheets, rods and notches leave; exact ones come
+    first. Two whole sheets are never exact together (theorem 2). Bellows take what wires cannot, or
+    everything where nothing else is asked for.
 
     Args:
         count: Dimensions of W.
-        kinds: Of the flexures.
+        kinds: Of the flexures, of `flexact.designs.problem.KINDS`.
         over: How many self-stresses there may be.
+        couples: How many bellows lines of W leave to do (`Possible.bellows`).
     """
     fillers = [kind for kind in ("wire", "folded sheet") if kind in kinds]
+    fillers += ["strut"] if "notch" in kinds else []
+    # Beside what holds more wires are struts enough.
+    beside = fillers[:-1] if {"wire", "strut"} <= set(fillers) else fillers
     most_sheets = 0 if "sheet" not in kinds else 1 if not over else 2
+    last: tuple[str, ...] = ()
+    if "bellows" in kinds:
+        last = ("bellows",) * (couples if set(kinds) != {"bellows"} else count)
     made = []
     for surplus in range(over + 1):
-        whole = count + surplus
+        whole = count + surplus - len(last)
+        if whole == 0:
+            made.append((surplus, last))
         for sheets_, waists in itertools.product(range(most_sheets + 1), range(whole // 2 + 1)):
             if waists and "waisted sheet" not in kinds:
                 continue
@@ -172,17 +198,35 @@ def recipes(count: int, kinds: Sequence[str], over: int = 0) -> list[tuple[str, 
                 continue
             big = ("sheet",) * sheets_ + ("waisted sheet",) * waists
             if rest == 0:
-                made.append((surplus, big))
+                made.append((surplus, big + last))
             else:
-                made += [(surplus, big + (filler,) * rest) for filler in fillers]
-        if len(fillers) == 2:
+                some = beside if big else fillers
+                made += [(surplus, big + (filler,) * rest + last) for filler in some]
+        if {"wire", "folded sheet"} <= set(fillers):
             for wires_ in range(whole - 1, 0, -1):
-                made.append((surplus, ("wire",) * wires_ + ("folded sheet",) * (whole - wires_)))
+                few = ("wire",) * wires_ + ("folded sheet",) * (whole - wires_)
+                made.append((surplus, few + last))
+        if "notch" in kinds and not surplus and not last:
+            for stiff in ("notch", "rod"):
+                rest = whole - HOLDS[stiff]
+                if rest == 0:
+                    made.append((surplus, (stiff,)))
+                elif rest > 0:
+                    made += [(surplus, (stiff,) + (filler,) * rest) for filler in beside]
     mixed = lambda recipe: len(set(recipe))  # noqa: E731
     made.sort(
-        key=lambda each: (each[0], mixed(each[1]) > 1 and "sheet" not in each[1], mixed(each[1]))
+        key=lambda each: (
+            each[0],
+            mixed(each[1]) > 1 and not {"sheet", "rod", "notch"} & set(each[1]),
+            mixed(each[1]),
+        )
     )
     return [recipe for _, recipe in dict.fromkeys(made)]
+
+
+def is_mixed(recipe: Sequence[str]) -> bool:
+    """Whether several kinds that hold a single force each fill up what others leave."""
+    return len({kind for kind in recipe if HOLDS[kind] == 1}) > 1
 
 
 def sets_of(stock: Stock, recipe: tuple[str, ...], starts: int) -> list[Found]:
@@ -261,6 +305,12 @@ def turns_that_keep(freedom: FloatArray, arrangement: Arrangement) -> tuple[int,
                 if not any(np.abs(turn - other).max() < 1.0e-9 for other in kept):
                     kept.append(turn)
     return len(kept), found
+
+
+def is_symmetric(arrangement: Arrangement, group: Group) -> bool:
+    """Whether the material of a layout is its own image under a group."""
+    sets = _sets(arrangement)
+    return _material(sets, group.turns[1], 5) == _material(sets, np.eye(3), 5)
 
 
 def key_of(frame: Scaled, arrangement: Arrangement) -> tuple[object, int]:

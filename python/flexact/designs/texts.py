@@ -24,7 +24,7 @@ Path = tuple[str | int, ...]
 #: A person's file is smaller.
 _MOST_BYTES = 2**22
 #: Tables and lists within each other.
-_MOST_DEPTH = 24
+MOST_DEPTH = 24
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 #: Where TOML and JSON have a number with its unit behind and no quotes.
@@ -306,7 +306,7 @@ class _Scanner:
 
     def value(self, path: Path) -> None:
         """A value, and all within it."""
-        if len(path) > _MOST_DEPTH:
+        if len(path) > MOST_DEPTH:
             raise RecursionError
         self.skip()
         first = self.at
@@ -367,7 +367,7 @@ def _yaml(text: str, source: Source) -> FileText:
     def tree(node: Any, path: Path) -> Any:
         place = node.start_mark.index, node.end_mark.index
         values[path] = place[0], place[0] + len(text[slice(*place)].rstrip())
-        if len(path) > _MOST_DEPTH:
+        if len(path) > MOST_DEPTH:
             raise RecursionError
         if id(node) in seen:
             raise _SyntaxError("an alias stands for another part: write it out", place[0])

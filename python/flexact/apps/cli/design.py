@@ -5,16 +5,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ...deck.rendering import ProblemsError, render_problems
 from ...designs.design import layouts_of
-from ...designs.explain import EXPLANATIONS, explain
+from ...designs.explain import explain
+from ...designs.explain_files import EXPLANATIONS
 from ...designs.files import DESIGNS, LAYOUTS, write_decks
 from ...designs.problem import Problem
-from ...designs.reading import problem_of, problem_of_deck, problem_of_file
+from ...designs.reading import problem_of_deck, problem_of_file
 from ...model.reading import read
 from ...show.writers import write
 from ...util.decks import DeckFile
@@ -131,12 +131,7 @@ def _problem(chosen: argparse.Namespace) -> Problem:
     """
     instead = {name: getattr(chosen, name) for name in _INSTEAD if getattr(chosen, name)}
     if Path(chosen.problem).suffix.lower() in PROBLEMS:
-        problem = problem_of_file(chosen.problem)
-        if not instead:
-            return problem
-        given = problem.to_dict()
-        given["limits"]["kinds"] = instead.pop("kinds", given["limits"]["kinds"])
-        return replace(problem_of(given | instead), remarks=problem.remarks)
+        return problem_of_file(chosen.problem, instead)
     model = read(chosen.problem)
     of_deck: dict[str, Any] = {"ground": chosen.ground} if chosen.ground else {}
     return problem_of_deck(model, chosen.body, chosen.wanted, **of_deck, **instead)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
 import json
 import re
@@ -123,6 +124,11 @@ TERMS: dict[str, str] = {
     "multiplier": "By how much the stresses of a state grow until it buckles.",
     "parasitic frequency": "A natural frequency that does not belong to a declared motion.",
 }
+
+
+def packed(content: bytes) -> str:
+    """Bytes compressed, in letters; the same each time."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
 def text(words: str) -> str:

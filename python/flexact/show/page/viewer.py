@@ -328,6 +328,8 @@ def _placed(points: list[FloatArray], frame: Frame) -> FloatArray:
 
 #: Pieces of a bent member, which mostly is a part of a divided sheet.
 _PIECES = 4
+#: The same in a small drawing.
+_SOME_PIECES = 8
 
 
 class Shape(NamedTuple):
@@ -390,6 +392,27 @@ def _swings(shaped: Shaped, tracks: Tracks) -> Iterator[tuple[dict[str, Any], in
         data, added = tracks.movement(movement)
         told = {"kind": each.kind, "label": each.label, "title": title, "note": note}
         yield {**told, **data}, added
+
+
+def motions_data(
+    parts: Parts, frame: Frame, motions: Sequence[tuple[str, Moving]], spaces: Sequence[SpaceShown]
+) -> dict[str, Any]:
+    """What a small viewer draws: motions, each with what it is called, and spaces; no stresses."""
+    tracks = Tracks(frame, _SOME_PIECES, FEW_SHAPES)
+    played = [
+        {"kind": "wanted", "label": label, "title": label, "note": "", **tracks.movement(made)[0]}
+        for label, made in ((label, move(frame.drawing, motion)) for label, motion in motions)
+    ]
+    return {
+        **static_data(parts, frame, tracks.segments),
+        "reference": tracks.data(),
+        "segments": tracks.segments,
+        "movements": played,
+        "stresses": [],
+        "spaces": [_space(each, frame, f"{each.words}.") for each in spaces],
+        "held": [],
+        "first": [("movement", "0")] * bool(played),
+    }
 
 
 def viewer_data(
