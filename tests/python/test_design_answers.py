@@ -10,6 +10,7 @@ import io
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from design_answers_by_hand import Json, design_oracle, problems, random_freedoms
 
@@ -44,6 +45,24 @@ def wrong(problem: Json, folder: Path, *options: str) -> list[str]:
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_the_answer_to_a_problem_holds(name: str, tmp_path: Path) -> None:
     assert wrong(PROBLEMS[name], tmp_path) == []
+
+
+WAYS = {
+    "turned and shifted": (np.eye(3)[[2, 0, 1]], np.array([0.5, -0.25, 1.0]), 1.0),
+    "mirrored": (np.diag([-1.0, 1.0, 1.0]), np.zeros(3), 1.0),
+    "a thousand times as large": (np.eye(3), np.zeros(3), 1e3),
+    "a thousandth": (np.eye(3)[[1, 0, 2]], np.zeros(3), 1e-3),
+}
+
+
+@pytest.mark.dear(2)
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", ["hinge", "screw", "three_skew_rotations", "guide_folded"])
+def test_a_moved_problem_has_the_same_layouts(name: str, way: str, tmp_path: Path) -> None:
+    problem = PROBLEMS[name]
+    _, here = answered(problem, tmp_path)
+    _, there = answered(design_oracle.moved(problem, *WAYS[way]), tmp_path)
+    assert design_oracle.correspond(problem, here, there, WAYS[way]) == []
 
 
 RANDOM = list(random_freedoms.problems(2 * len(random_freedoms.FREEDOMS)))

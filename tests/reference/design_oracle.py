@@ -29,6 +29,7 @@ What had to be decided, so that two programs mean the same:
   it has a waist, a folded sheet two boxes, anything else a segment with half its diameter or
   thickness. Clearance holds between any two flexures, also on one body, and to keep-outs; bodies
   have no points in keep-outs.
+- *Mass and inertia* of the stage are those of the problem, about `centre`.
 - *Isometries* are the signed permutations about `centre` that keep T, inertia, and the lists of
   boxes and points of stage, ground, keep-out and intermediate. Two layouts are images where
   flexures of one kind, with the same sizes and ends, correspond; bodies between have no names then.
@@ -193,6 +194,9 @@ def judge_layout(problem: Json, layout: Json) -> tuple[list[str], list[str]]:
         remarks += [f"{flexure['name']}: {text}" for text in said]
     wrong += _bodies_between(problem, structure, layout)
     wrong += _apart(problem, structure, flexures)
+    wrong += _weight(problem, structure)
+    if isinstance(layout["stage"], str) and layout["stage"] != "stage":
+        wrong.append(f"calls the stage {layout['stage']}")
     wrong += _mobility(problem, structure, layout)
     wrong += _scores(problem, structure, layout)
     asked = problem.get("symmetry", problem["limits"].get("symmetry", "any"))
@@ -432,6 +436,20 @@ def _apart(problem: Json, structure: Structure, flexures: list[Json]) -> list[st
                 wrong.append(
                     f"{name} is {gap:.6g} m from the keep-out at {_place(box[0])}, not {least:.6g}"
                 )
+    return wrong
+
+
+def _weight(problem: Json, structure: Structure) -> list[str]:
+    """Mass and inertia of the stage in the deck."""
+    mass, inertia = structure.weight()
+    asked = problem.get("mass") or 0.0
+    given = problem.get("inertia") or 0.0
+    tensor = given * np.eye(3) if isinstance(given, (int, float)) else _inertia(given)
+    wrong = []
+    if not math.isclose(mass, asked, rel_tol=1e-9):
+        wrong.append(f"the stage has {mass:.6g} kg in the deck, not {asked:.6g}")
+    if np.max(np.abs(inertia - tensor)) > 1e-9 * max(asked * problem["size"] ** 2, 1e-300):
+        wrong.append("the stage has another inertia about the centre in the deck")
     return wrong
 
 
@@ -697,6 +715,8 @@ def examine(problem: Json, answer: Json) -> tuple[list[str], list[str]]:
             wrong.append(f"no layout, and no condition that leaves none: {none}")
         elif "why" in expected and none["condition"] not in _reasons(expected["why"]):
             wrong.append(f"no layout by {none['condition']}, not by {expected['why']}")
+        if "nearby" not in answer:
+            wrong.append("no layout, and nothing of what is possible nearby")
         if isinstance(none, dict) and not str(none.get("statement", "")).strip():
             wrong.append("no layout, and no sentence about it")
     elif none:
@@ -710,6 +730,75 @@ def examine(problem: Json, answer: Json) -> tuple[list[str], list[str]]:
     wrong += _images(problem, layouts)
     wrong += _order(answer, layouts)
     return wrong, remarks
+
+
+def moved(problem: Json, turn: Real, shift: Real, scale: float) -> Json:
+    """A problem turned about the origin by a signed permutation, scaled, and shifted then."""
+    result = json.loads(json.dumps(problem))
+    sense = float(np.sign(np.linalg.det(turn)))
+
+    def point(at: Any) -> list[float]:
+        return [float(value) for value in shift + scale * (turn @ np.array(at, dtype=float))]
+
+    for motion in result["wanted"]:
+        motion["direction"] = (turn @ np.array(motion["direction"], dtype=float)).tolist()
+        motion |= {"point": point(motion["point"])} if "point" in motion else {}
+        motion |= {"pitch": sense * scale * motion["pitch"]} if "pitch" in motion else {}
+    for name in ("stage", "ground", "keep_out", "intermediate"):
+        if name in result:
+            boxes = [[point(corner) for corner in box] for box in boxes_of(problem, name)]
+            result[name] = {"boxes": [np.sort(np.array(box), axis=0).tolist() for box in boxes]}
+            result[name]["points"] = [point(at) for at in points_of(problem, name)]
+    result["centre"], result["size"] = point(centre_of(problem)), scale * problem["size"]
+    for key in ("length", "width", "thickness", "diameter", "clearance"):
+        if key in result["limits"]:
+            result["limits"][key] = (scale * np.array(result["limits"][key])).tolist()
+    if isinstance(result.get("inertia"), float):
+        result["inertia"] *= scale**5
+    if "mass" in result:
+        result["mass"] *= scale**3
+    return dict(result)
+
+
+def correspond(problem: Json, one: Json, other: Json, way: tuple[Real, Real, float]) -> list[str]:
+    """What differs between the layouts of a problem and of the moved one, up to its isometries.
+
+    Args:
+        problem: The first problem.
+        one: Its answer.
+        other: The answer to `moved(problem, *way)`.
+        way: Signed permutation, shift, scale.
+    """
+    turn, shift, scale = way
+    there = moved(problem, turn, shift, scale)
+    turns = isometries(there)
+    left, wrong = [layout["flexures"] for layout in other["layouts"]], []
+
+    def point(at: Any) -> list[float]:
+        return [float(value) for value in shift + scale * (turn @ np.array(at, dtype=float))]
+
+    for layout in one["layouts"]:
+        flexures = json.loads(json.dumps(layout["flexures"]))
+        for flexure in flexures:
+            flexure["ends"] = [point(end) for end in flexure["ends"]]
+            for key in ("width", "thickness", "diameter"):
+                flexure[key] = scale * (flexure.get(key) or 0.0)
+            if flexure.get("normal"):
+                flexure["normal"] = (turn @ np.array(flexure["normal"])).tolist()
+            if flexure.get("fold"):
+                along = (turn @ np.array(flexure["fold"]["direction"])).tolist()
+                flexure["fold"] = {"point": point(flexure["fold"]["point"]), "direction": along}
+            if flexure.get("waist"):
+                flexure["waist"] = point(flexure["waist"])
+        hit = next(
+            (k for k, o in enumerate(left) if any(image(there, flexures, o, t) for t in turns)),
+            None,
+        )
+        if hit is None:
+            wrong.append(f"layout {layout['number']} is not among those of the moved problem")
+        else:
+            del left[hit]
+    return wrong + [f"{len(left)} layouts of the moved problem are others"] * bool(left)
 
 
 def judge(problem: Json, answer: Json) -> list[str]:
