@@ -188,7 +188,7 @@ def finder(
     one = what.removesuffix("s")
     return (
         f'<section class="finder" role="search" aria-label="Find {what}" data-what="{one}" hidden>'
-        f'{facet("kind", "Show only", kinds)}{further}'
+        f"{facet('kind', 'Show only', kinds)}{further}"
         '<div class="group"><label class="find">Find <input type="search" id="find" '
         'autocomplete="off" spellcheck="false" placeholder="name or words"></label>'
         f'<label>Sort by <select id="sort">{options}</select></label>'
