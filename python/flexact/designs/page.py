@@ -9,7 +9,6 @@ in the place of the cards. The drawings share one viewer.
 from __future__ import annotations
 
 import hashlib
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
@@ -24,7 +23,9 @@ from ..analysis.naming import Line, line_of
 from ..api import Analysis, analyse
 from ..show.drawing import Moving, drawing_of
 from ..show.page.assets import (
-    SCRIPTS,
+    FEW_SHAPES,
+    LAYOUT_SCRIPTS,
+    LAYOUT_STYLES,
     filled,
     folded,
     json_for_script,
@@ -41,27 +42,19 @@ from ..show.page.controls import choices_part, facet, finder, toolbar
 from ..show.page.drawing import drawing_part, frames_of
 from ..show.page.index import data_of
 from ..show.page.viewer import motions_data
-from ..show.saving import small_picture
+from ..show.picture import has_packages, spaces_bytes
+from ..show.picture.files import fewer_colours
 from ..show.spaces import SpaceShape, SpaceShown, shape_of_hold, space_shown
 from ..show.writers import as_bytes
 from ..util.partial import attempted
-from ..util.text import file_name, harmless, number_in_words
+from ..util.text import harmless, number_in_words
 from .design import Designs, confirmed, found_in_words
 from .explain import Explanation, nearby
 from .explain_files import sides_of
+from .files import slug, stem_of
 from .layouts import COORDINATES, Flexure, Layout, counted, declared
 from .problem import Problem
 from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, unit_rows
-
-#: What a page of layouts needs: the viewer of all pages, and what keeps the cards.
-PAGE_SCRIPTS = (
-    *(name for name in SCRIPTS if name != "start.js"),
-    "finder.js",
-    "plot.js",
-    "layouts.js",
-)
-START = "start_layouts.js"
-PAGE_STYLES = ("style.css", "index.css", "charts.css", "layouts.css")
 
 #: A twist whose part along a coordinate is less than this of the largest does not move it.
 _STAYS = 1.0e-9
@@ -75,7 +68,9 @@ def page_of(designs: Designs, title: str) -> bytes:
         title: Of the page where the problem has none.
     """
     made = Cards(with_pictures=True).content_of(designs, title)
-    return as_bytes(filled(made.title, made.body, (*PAGE_SCRIPTS, START), PAGE_STYLES))
+    return as_bytes(
+        filled(made.title, made.body, (*LAYOUT_SCRIPTS, "start_layouts.js"), LAYOUT_STYLES)
+    )
 
 
 class Cards:
@@ -85,9 +80,10 @@ class Cards:
         """None yet; pictures are for browsers without scripts or WebGL."""
         self.with_pictures = with_pictures
         self._drawings: dict[str, str] = {}
+        self._wholes: dict[str, str] = {}
 
-    def content_of(self, designs: Designs, title: str) -> Content:
-        """What the page of an answer holds."""
+    def content_of(self, designs: Designs, title: str, *, is_whole: bool = True) -> Content:
+        """What the page of an answer holds; whole, it has the page of each deck, too."""
         problem = designs.problem
         title = harmless(problem.title or title)
         if not designs.layouts:
@@ -95,7 +91,7 @@ class Cards:
         many = len(designs.layouts)
         told = found_in_words(designs), confirmed(designs)
         words = f"{title}: {number_in_words(many)} layout{'s' * (many > 1)}"
-        return self._content(words, designs.explanation, designs.layouts, told, is_whole=True)
+        return self._content(words, designs.explanation, designs.layouts, told, is_whole)
 
     def content_so_far(
         self, problem: Problem, explanation: Explanation, layouts: Sequence[Layout], title: str
@@ -103,7 +99,7 @@ class Cards:
         """What the page holds while further layouts are sought: cards without whole pages."""
         words = f"{harmless(problem.title or title)}: {number_in_words(len(layouts))} so far"
         told = ("Further layouts are being sought.",)
-        return self._content(words, explanation, layouts, told, is_whole=False)
+        return self._content(words, explanation, layouts, told, False)
 
     def _content(
         self,
@@ -111,7 +107,6 @@ class Cards:
         explanation: Explanation,
         layouts: Sequence[Layout],
         told: Sequence[str],
-        *,
         is_whole: bool,
     ) -> Content:
         best = pareto(layouts)
@@ -160,12 +155,10 @@ class Cards:
             name = f'<a href="#layout={number}">{name}</a>'
         whole = ""
         if is_whole:
-            missing = "The page of the deck"
-            page = attempted(missing, lambda: content_of(analysis, has_origin=False).body, "", None)
-            whole = (
-                '<script type="application/octet-stream" class="whole">'
-                f"{packed(as_bytes(page))}</script>"
-            )
+            if key not in self._wholes:
+                self._wholes[key] = packed(as_bytes(page_of_deck(analysis)))
+            kind = "application/octet-stream"
+            whole = f'<script type="{kind}" class="whole">{self._wholes[key]}</script>'
         return (
             f'<li class="card layout" id="card-{number}"{data_of(data)}>'
             f'<div class="said"><h2><span class="number">{number}</span> {name}</h2>'
@@ -175,7 +168,7 @@ class Cards:
 
     def _drawing(self, layout: Layout, analysis: Analysis, key: str) -> str:
         """The drawing of a card with its choices; a sentence where it cannot be made."""
-        still = small_picture(analysis) if self.with_pictures else None
+        still = picture_of(layout, analysis) if self.with_pictures else None
         words = f"Layout {layout.number}, {layout.what}"
 
         def drawn() -> str:
@@ -193,6 +186,17 @@ class Cards:
         if not made:
             return f'<p class="note">{text(" ".join(missing))}</p>'
         return f'<div class="viewer">{made}</div>'
+
+
+def page_of_deck(analysis: Analysis) -> str:
+    """What the page of `flexact show` holds; why not, where it cannot be made."""
+    missing: list[str] = []
+
+    def made() -> str:
+        return content_of(analysis, has_origin=False, room=FEW_SHAPES).body
+
+    body = attempted("The page of the deck", made, "", missing)
+    return body or f'<main class="plain"><p>{text(" ".join(missing))}</p></main>'
 
 
 def without_layouts(designs: Designs, title: str) -> Content:
@@ -251,6 +255,25 @@ def spaces_of(layout: Layout, size: float) -> Iterator[SpaceShown]:
     holds = [held_by(flexure, layout.problem, size) for flexure in layout.flexures]
     shape = reduce(add, holds, SpaceShape(is_freedom=False))
     yield SpaceShown("Constraints", shape, "what the flexures hold", np.zeros((0, 2, 3)))
+
+
+#: Width and height of a still picture [px], and how many colours it has.
+_STILL, _COLOURS = (720, 330), 24
+
+
+def picture_of(layout: Layout, analysis: Analysis) -> bytes | None:
+    """Freedom and constraints side by side as PNG, where the packages for it are there."""
+    if not has_packages():
+        return None
+    given = analysis.given
+
+    def drawn() -> bytes:
+        shown = list(spaces_of(layout, drawing_of(given).size))
+        return fewer_colours(
+            spaces_bytes(given, shown, layout.what, size=_STILL, plain=True), _COLOURS
+        )
+
+    return attempted("The picture", drawn, None, None)
 
 
 def held_by(flexure: Flexure, problem: Problem, size: float) -> SpaceShape:
@@ -327,20 +350,11 @@ def taken(layout: Layout, deck: str, is_whole: bool) -> str:
     )
 
 
-def stem_of(layout: Layout) -> str:
-    """What files of a layout are called, without a suffix."""
-    return f"{layout.number:02d}_{file_name(slug(layout.what, '_'))}"
-
-
-def slug(words: str, between: str = "-") -> str:
-    """Words as a class or a file may be called."""
-    return re.sub(r"[^a-z0-9]+", between, words.lower()).strip(between)
-
-
 def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     """All layouts in a table, and in a chart whose axes are chosen where there are scripts."""
     rank = layouts[0].problem.rank
-    keys = columns_of(layouts, rank)
+    # That by which they are ordered stands first; on a phone it stands alone.
+    keys = sorted(columns_of(layouts, rank), key=lambda key: key != rank[0])
     heads = ("layout", *(f"{SCORES[key].head} {SCORES[key].under}" for key in keys))
     rows = (
         row(
@@ -358,20 +372,17 @@ def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
         for layout, is_best in zip(layouts, best, strict=True)
     )
     axes = [
-        {"key": key, "words": SCORES[key].words, "lower": SCORES[key].lower, **unit}
+        _axis(key, layouts[0].problem)
         for key in SCORES
         if len({layout.scores[key] for layout in layouts if key in layout.scores}) > 1
-        for unit in [
-            dict(zip(("unit", "factor"), shown_unit(key, layouts[0].problem), strict=True))
-        ]
     ]
     chart = ""
     if len(axes) > 1 and len(layouts) > 1:
         chart = (
             '<figure class="chart plot" hidden>'
             f'<script type="application/json" class="axes">{json_for_script({"axes": axes})}'
-            f"</script>{_axis('x', 'Along', axes, OBJECTIVES[1])}"
-            f"{_axis('y', 'Up', axes, OBJECTIVES[0])}"
+            f"</script>{_axis_chosen('x', 'Along', axes, OBJECTIVES[1])}"
+            f"{_axis_chosen('y', 'Up', axes, OBJECTIVES[0])}"
             '<div class="plotted"></div></figure>'
         )
     size = 1.0e3 * layouts[0].problem.size
@@ -387,7 +398,14 @@ def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     return section("compared", "Compared", f'<div class="both">{chart}{whole}</div>')
 
 
-def _axis(name: str, words: str, axes: Sequence[Mapping[str, object]], first: str) -> str:
+def _axis(key: str, problem: Problem) -> dict[str, object]:
+    """What the plot needs to know of a score."""
+    unit, factor = shown_unit(key, problem)
+    words, lower = SCORES[key].words, SCORES[key].lower
+    return {"key": key, "words": words, "lower": lower, "unit": unit, "factor": factor}
+
+
+def _axis_chosen(name: str, words: str, axes: Sequence[Mapping[str, object]], first: str) -> str:
     options = "".join(
         f'<option value="{text(str(each["key"]))}"{" selected" * (each["key"] == first)}>'
         f"{text(str(each['words']))}</option>"

@@ -218,7 +218,8 @@ def html_of(analysis: Result) -> str:
     body = content_of(analysis, is_short=True).body
     return (
         f"<{tag()}>{_light(analysis)}"
-        f'<script type="application/octet-stream" class="flexact-data">{packed(as_bytes(body))}</script>'
+        '<script type="application/octet-stream" class="flexact-data">'
+        f"{packed(as_bytes(body))}</script>"
         f"</{tag()}>{script() if is_wanted() else ''}"
     )
 

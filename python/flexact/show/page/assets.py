@@ -234,6 +234,12 @@ SCRIPTS = (
     "main.js",
     "start.js",
 )
+#: Of pages of layouts, whose cards share a viewer, without what starts them; and their styles.
+LAYOUT_SCRIPTS = (
+    *(name for name in SCRIPTS if name != "start.js"),
+    *("finder.js", "plot.js", "layouts.js"),
+)
+LAYOUT_STYLES = ("style.css", "index.css", "charts.css", "layouts.css")
 #: Of pages without a drawing.
 PLAIN_SCRIPTS = ("theme.js", "printing.js", "terms.js", "plain.js")
 

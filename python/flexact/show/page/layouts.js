@@ -96,12 +96,15 @@ const Layouts = (() => {
       const viewer = Main.make(opened), [first] = this.viewers;
       viewer.ending = new AbortController();
       viewer.choices = new Controls.Choices(viewer);
+      viewer.stage.apart = true;
+      viewer.layers.arrows = false;
       Main.link(root, viewer, () => true, viewer.ending.signal);
       Main.scrollPast(viewer);
       viewer.stage.canvas.style.touchAction = "pan-y"; // a finger scrolls past it
       this.toolbar.listenToKeys(viewer);
       this.take(card, viewer);
-      viewer.player.playing = this.plays && (!viewer.stage.software || !first);
+      const others = this.viewers.some((each) => each !== viewer && each.player.playing);
+      viewer.player.playing = this.plays && (!viewer.stage.software || !others);
       viewer.amplify(Number(this.toolbar.amplitude.value) / 100);
       viewer.player.speed = Number(this.toolbar.speed.value);
       viewer.showStress(-1);
@@ -111,11 +114,12 @@ const Layouts = (() => {
       viewer.choices.picked.clear();
       viewer.stage.look("iso");
       if (first) {
-        viewer.stage.lookAgain(first.stage.looks());
+        viewer.stage.adopt(first.stage);
         viewer.player.cycle = first.player.cycle;
       }
       viewer.dress();
       this.showSpaces();
+      this.toolbar.refresh();
     }
 
     /** Have a viewer among those that are seen from the same side. */
@@ -191,7 +195,10 @@ const Layouts = (() => {
         before.leave(card);
         this.fresh.set(own, before.fresh.get(card));
         place.replaceWith(viewer.root);
+        const others = this.viewers.some(({ player }) => player.playing);
         this.take(own, viewer);
+        viewer.player.playing = this.plays && (!viewer.stage.software || !others);
+        viewer.stage.request();
       }
     }
 

@@ -3,12 +3,13 @@
 // Two scores of all cards over each other, axes as chosen; each point leads to its card.
 
 const Plot = (() => {
-  const WIDTH = 560, HEIGHT = 360; // of the drawing, in its own units
+  const NARROW = 280, WIDE = 620, SHAPE = 0.62; // widths [px], and the height in parts of it
   const LEFT = 62, RIGHT = 14, TOP = 16, BOTTOM = 48;
   const RADIUS = 11; // of a number
   const ROOM = 0.08; // free beside the outermost points, in parts of the axis
   const DECADE = 8; // a ratio of values from which an axis is logarithmic
   const ROUNDS = 60; // by which numbers that lie over each other come apart
+  let width = WIDE, height = SHAPE * WIDE; // of the drawing
 
   class Plot {
     /** Of the data of `cards`; `go(number)` leads to a card. */
@@ -20,6 +21,7 @@ const Plot = (() => {
       this.known = JSON.parse(this.figure.querySelector(".axes").textContent).axes;
       this.figure.hidden = false;
       for (const each of this.choices) each.addEventListener("change", () => this.draw());
+      new ResizeObserver(() => this.figure.clientWidth && this.draw()).observe(this.figure);
     }
 
     /** Keys of both axes. */
@@ -37,18 +39,20 @@ const Plot = (() => {
 
     draw() {
       if (!this.figure) return;
+      width = Math.max(NARROW, Math.min(WIDE, this.figure.clientWidth));
+      height = SHAPE * width + BOTTOM / 2;
       const [x, y] = this.choices.map(({ value }) => this.known.find(({ key }) => key === value));
       const points = this.cards
         .map((card) => ({ card, x: x.factor * Number(card.dataset[x.key]), y: y.factor * Number(card.dataset[y.key]) }))
         .filter((each) => Number.isFinite(each.x) && Number.isFinite(each.y));
-      const across = scale(points.map((each) => each.x), LEFT, WIDTH - RIGHT);
-      const up = scale(points.map((each) => each.y), HEIGHT - BOTTOM, TOP);
+      const across = scale(points.map((each) => each.x), LEFT, width - RIGHT);
+      const up = scale(points.map((each) => each.y), height - BOTTOM, TOP);
       for (const each of points) {
         each.at = [across.place(each.x), up.place(each.y)];
         each.shown = [...each.at];
       }
       part(points);
-      const svg = made("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "group",
+      const svg = made("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "group",
         "aria-label": `${y.words} over ${x.words}` });
       svg.append(...grid(across, up), ...titles(x, y));
       // What is hidden lies below, the Pareto set above.
@@ -124,11 +128,11 @@ const Plot = (() => {
     }
   }
 
-  const inside = (x, y) => [Math.max(LEFT + RADIUS, Math.min(WIDTH - RADIUS, x)),
-    Math.max(RADIUS, Math.min(HEIGHT - BOTTOM - RADIUS, y))];
+  const inside = (x, y) => [Math.max(LEFT + RADIUS, Math.min(width - RADIUS, x)),
+    Math.max(RADIUS, Math.min(height - BOTTOM - RADIUS, y))];
 
   function grid(across, up) {
-    const right = WIDTH - RIGHT, foot = HEIGHT - BOTTOM;
+    const right = width - RIGHT, foot = height - BOTTOM;
     return [
       ...across.ticks.flatMap((tick) => {
         const x = across.place(tick);
@@ -148,9 +152,9 @@ const Plot = (() => {
   /** What the axes are, with arrows to where it is better. */
   function titles(x, y) {
     const words = ({ words: name, unit }) => `${name}${unit ? ` [${unit}]` : ""}`;
-    const foot = HEIGHT - 8, middle = (TOP + HEIGHT - BOTTOM) / 2;
+    const foot = height - 8, middle = (TOP + height - BOTTOM) / 2;
     return [
-      made("text", { x: (LEFT + WIDTH - RIGHT) / 2, y: foot, class: "middle" },
+      made("text", { x: (LEFT + width - RIGHT) / 2, y: foot, class: "middle" },
         x.lower ? `\u2190 better: ${words(x)}` : `${words(x)}: better \u2192`),
       made("text", { x: 0, y: 0, class: "middle", transform: `translate(13 ${middle}) rotate(-90)` },
         y.lower ? `\u2190 better: ${words(y)}` : `${words(y)}: better \u2192`),
