@@ -240,7 +240,7 @@ def test_function_of_the_state_and_limits_in_words() -> None:
     closed = (stiff * LONG**3 / (2 * E * BREADTH)) ** (1 / 3)
     assert found.values["thickness of sheet *"] == pytest.approx(closed, rel=2e-3)
     assert found.objective == "objective" and found.unit == ""
-    assert "first frequency 30 Hz, at most 30 Hz" in found.describe()
+    assert "first frequency 30 Hz (at most 30 Hz)" in found.describe()
 
 
 # -- what is varied ------------------------------------------------------------------------------
