@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..analysis.places import listed
-from ..api import analyse
+from ..api import Analysis, analyse
 from ..core.elements import Class, Member, member_table
 from ..core.progress import Progress
 from ..costs.request import RequestError, stroke_given
@@ -35,6 +35,7 @@ from ..util.loading import load
 from ..util.quantities import Quantity, QuantityError, quantity
 from ..util.text import in_short
 from ..util.units import METRES, Units
+from .layouts import Layout
 from .measures import ASKED, Bound, Design, How, said
 from .refined import Refined
 from .search import Measured, Outcome, Parameter, SearchError, method_of, search
@@ -53,7 +54,7 @@ Goal = str | Callable[[State], float]
 
 
 def refine(
-    of: Model | Build,
+    of: Model | Analysis | Layout | str | os.PathLike[str] | Build,
     vary: Iterable[str] | Mapping[str, object],
     *,
     maximise: Goal | None = None,
@@ -93,7 +94,8 @@ def refine(
     Ctrl-C ends the search, and gives the best so far. The same seed looks at the same designs.
 
     Args:
-        of: A model, or a function that makes one of the parameters, `build(H=..., t=...)`.
+        of: A model, a layout, an analysis, the path of a deck, or a function that makes a model of the
+            parameters, `build(H=..., t=...)`.
         vary: What is varied, and between which bounds: of a model texts (`designs.varied`), of a
             function two numbers by name, as it takes them.
         maximise: What is to be large: "first frequency", "first parasitic frequency" (the drive
@@ -234,6 +236,8 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
     """
     if isinstance(of, (str, os.PathLike)):
         of = read(of)
+    # Of an analysis, or a layout.
+    of = held if isinstance(held := getattr(of, "model", None), Model) else of
     if isinstance(of, Model):
         if start is not None:
             raise RequestError("a model begins as it was drawn: start is for a function")
