@@ -196,6 +196,36 @@ def test_shortest_guide_for_a_stroke() -> None:
     assert found.failing == 0 and not found.maximised
 
 
+def test_sheet_that_is_pressed_is_as_thin_as_buckling_permits() -> None:
+    # Euler, both ends clamped: it buckles when shortened by pi^2 t^2/(3 l).
+    pressed = 2e-5
+
+    def build(t: float) -> flexact.Model:
+        model = flexact.Model(planar=True)
+        material = {"E": E, "G": E / 2.6}
+        sheet = model.sheet((0, 0), (LONG, 0), thickness=t, breadth=BREADTH, material=material)
+        model.fix(sheet.nodes[0])
+        model.fix(sheet.nodes[-1], "y", "rz")
+        model.independent(sheet.nodes[-1], "x")
+        return model
+
+    found = flexact.refine(
+        build,
+        {"t": (0.1e-3, 2e-3)},
+        minimise="drive force",
+        stroke=-pressed,
+        buckling=2.0,
+        over_constrained=1,
+        beams=8,
+        starts=2,
+        evaluations=60,
+    )
+    assert found.values["t"] == pytest.approx(math.sqrt(2 * pressed * 3 * LONG) / math.pi, rel=1e-2)
+    assert found.active == ("buckling",)
+    # Thinner than 1/sqrt(2) of that it has buckled, and has no state.
+    assert any("it buckles before the end" in each.failure for each in found.evaluations)
+
+
 def test_function_of_the_state_and_limits_in_words() -> None:
     # The frequency of a mass on 2 E b t^3/l^3 is 30 Hz with a thickness of which that is the root.
     found = flexact.refine(
@@ -210,7 +240,7 @@ def test_function_of_the_state_and_limits_in_words() -> None:
     closed = (stiff * LONG**3 / (2 * E * BREADTH)) ** (1 / 3)
     assert found.values["thickness of sheet *"] == pytest.approx(closed, rel=2e-3)
     assert found.objective == "objective" and found.unit == ""
-    assert "first frequency 30 Hz, at most 30 Hz" in found.describe()
+    assert "first frequency 30 Hz (at most 30 Hz)" in found.describe()
 
 
 # -- what is varied ------------------------------------------------------------------------------

@@ -446,41 +446,32 @@ def asked_group(problem: Problem, frame: Scaled) -> Group | None:
 
 def described(designs: Designs, width: int) -> Iterator[str]:
     """The lines of an answer."""
-    problem = designs.problem
     # What else the freedom takes is told by the explanation.
     told = [filled(line, width=width) for line in designs.explanation.lines]
     end = next((k for k, line in enumerate(told) if line.startswith("It takes")), len(told))
     yield from told[: end + (1 if designs.possible.parallel else 2)]
-    counts = in_a_row(
-        [
-            f"{count} {kind if count == 1 else plural(kind)}"
-            for kind, count in designs.candidates.items()
-            if count
-        ]
-        or ["no flexures"]
-    )
     many = len(designs.layouts)
     if not many:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    if designs.candidates:
-        yield wrapped(found_in_words(designs), width)
+    yield wrapped(found_in_words(designs), width)
     yield ""
     yield designs.table(width)
     yield wrapped(confirmed(designs), width)
+    for remark in designs.problem.remarks:
+        yield wrapped(f"Remark: {remark}.", width)
 
 
 def found_in_words(designs: Designs) -> str:
     """How many flexures fit the regions, and how many layouts there are."""
-    counts = " and ".join(
-        f"{count} {kind if count == 1 else plural(kind)}"
-        for kind, count in designs.candidates.items()
-    )
+    every = designs.candidates.items()
+    counts = in_a_row([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
     many = len(designs.layouts)
     of = f" of {designs.found} found" if designs.found > many else ""
     layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-    return f"{counts} fit the regions; {layouts}, none an image of another."
+    fit = f"{counts} fit the regions; " if counts else ""
+    return f"{fit}{layouts}, none an image of another."
 
 
 def confirmed(designs: Designs) -> str:

@@ -7,7 +7,6 @@ import math
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -188,9 +187,7 @@ def calls_of(
         yield Call("fix", tuple(distinct["ground"]), {})
 
 
-def _body_calls(
-    name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
-) -> Iterator[Call]:
+def _body_calls(name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]) -> Iterator[Call]:
     """Calls that make a body between; one with arms has a link to a point from the nearest of them.
 
     Args:

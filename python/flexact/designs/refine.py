@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from ..analysis.places import listed
-from ..api import analyse
+from ..api import Analysis, analyse
 from ..core.elements import Class, Member, member_table
 from ..core.progress import Progress
-from ..costs.request import RequestError, stroke_of
+from ..costs.request import RequestError, stroke_given
 from ..deck.rendering import ModelError
 from ..elasticity.elastic import State
 from ..elasticity.errors import ElasticError
@@ -35,6 +35,7 @@ from ..util.loading import load
 from ..util.quantities import Quantity, QuantityError, quantity
 from ..util.text import in_short
 from ..util.units import METRES, Units
+from .layouts import Layout
 from .measures import ASKED, Bound, Design, How, said
 from .optimum import Measured, Outcome, Parameter, SearchError, method_of, search
 from .refined import Refined
@@ -53,13 +54,13 @@ Goal = str | Callable[[State], float]
 
 
 def refine(
-    of: Model | Build,
+    of: Model | Analysis | Layout | str | os.PathLike[str] | Build,
     vary: Iterable[str] | Mapping[str, object],
     *,
     maximise: Goal | None = None,
     minimise: Goal | None = None,
     at: str = REST,
-    stroke: str | Quantity | Sequence[Quantity] | None = None,
+    stroke: Quantity | Sequence[Any] | None = None,
     drive: tuple[object, str] | None = None,
     stress: Quantity | None = None,
     force: Quantity | None = None,
@@ -93,7 +94,8 @@ def refine(
     Ctrl-C ends the search, and gives the best so far. The same seed looks at the same designs.
 
     Args:
-        of: A model, or a function that makes one of the parameters, `build(H=..., t=...)`.
+        of: A model, a layout, an analysis, the path of a deck, or a function that makes a model of the
+            parameters, `build(H=..., t=...)`.
         vary: What is varied, and between which bounds: of a model texts (`designs.varied`), of a
             function two numbers by name, as it takes them.
         maximise: What is to be large: "first frequency", "first parasitic frequency" (the drive
@@ -103,7 +105,8 @@ def refine(
         minimise: What is to be small, likewise.
         at: "rest", or "end of stroke", where that is measured.
         stroke: How far the drive goes from rest [m, rad], or to two ends, as a number or text such
-            as "3 mm"; or with its point as for `flexact.cost`, "stage:rz=0..0.5rad".
+            as "3 mm"; or with its point as for `flexact.cost`, "stage:rz=0..0.5rad", or
+            ("stage", "rz", 0, 0.5).
         drive: Point and coordinate; by default the only declared one.
         stress: The largest normal stress at the ends of the stroke [Pa], as `State.peak_stress`.
         force: Of the drive there, at most [N].
@@ -188,6 +191,7 @@ def refine(
                 'stroke="stage:y=+-3mm"'
             )
     size_of = tried(_read_length, length, first, units)
+    point = None if first is None else tried(_lasting, first, point)
     if wrong or source is None or first is None or asked is None or goal is None:
         raise RequestError(*dict.fromkeys(wrong))
     if evaluations < len(source[0]) + 2:
@@ -232,6 +236,8 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
     """
     if isinstance(of, (str, os.PathLike)):
         of = read(of)
+    # Of an analysis, or a layout.
+    of = held if isinstance(held := getattr(of, "model", None), Model) else of
     if isinstance(of, Model):
         if start is not None:
             raise RequestError("a model begins as it was drawn: start is for a function")
@@ -405,19 +411,25 @@ def _stroke(
     Raises:
         RequestError, QuantityError: it is not understood, not there, fixed, or nothing.
     """
-    points = Points(first.data)
-    is_offset, given = True, stroke
-    if isinstance(stroke, str) and ":" in stroke:
+    if drive is None and stroke is None:
+        return None, (), True
+    given = stroke if isinstance(stroke, (tuple, list, np.ndarray)) else [stroke]
+    is_named = (isinstance(stroke, str) and ":" in stroke) or len(given) == 4
+    is_offset = True
+    if is_named:
         if drive is not None:
             raise RequestError("the drive is named by the stroke already: leave out drive")
-        target, name, *given, is_offset = stroke_of(stroke, units)
-        drive = target, name
-    elif drive is None and stroke is None:
-        return None, (), True
+        point, name, *given, is_offset = stroke_given(stroke, units)
+        drive = point, name
+    elif len(given) not in (1, 2):
+        raise RequestError("a stroke has one end or two")
     if drive is not None and not (isinstance(drive, (tuple, list)) and len(drive) == 2):
         raise RequestError(
             f"a drive is a point and a coordinate, such as ('stage', 'rz'), not {in_short(drive)}"
         )
+    points = Points(first.data)
+    if drive is not None:
+        drive = _lasting(first, drive[0]), drive[1]
     named = Design(first, How(1, drive, (), True, False, None, 1.0)).drive
     try:
         coordinate = points.coordinate(*named)
@@ -428,16 +440,11 @@ def _stroke(
     if stroke is None:
         return drive, (), True
     unit = points.unit(coordinate)
-    ends = given if isinstance(given, (tuple, list, np.ndarray)) else [given]
-    if not 1 <= len(ends) <= 2:
-        raise RequestError("a stroke has one end or two")
-    values = []
-    for end in ends:
+    ends = []
+    for end in given:
         try:
-            # What a text with its point says is in SI already.
-            value = (
-                float(end) if isinstance(stroke, str) and ":" in stroke else units.read(end, unit)
-            )
+            # What names its point is in SI already.
+            value = float(end) if is_named else units.read(end, unit)
         except QuantityError as error:
             raise RequestError(f"the stroke: {error}") from None
         except (TypeError, ValueError, OverflowError):
@@ -446,15 +453,30 @@ def _stroke(
             raise RequestError(
                 f"a stroke is a finite number [{units.symbol(unit)}], not {in_short(end)}"
             )
-        values.append(value)
+        ends.append(value)
+    # Angles begin at nothing.
     is_offset = is_offset or unit == "rad"
-    rest = (
-        0.0 if is_offset else float(first.data.arrays.node_value[coordinate.axis, coordinate.node])
-    )
-    away = tuple(dict.fromkeys(value for value in values if value != rest))
+    place = first.data.arrays.node_value[coordinate.axis, coordinate.node]
+    rest = 0.0 if is_offset else float(place)
+    away = tuple(dict.fromkeys(end for end in ends if end != rest))
     if not away:
         raise RequestError("the stroke is nothing: it ends where it begins")
     return drive, away, is_offset
+
+
+def _lasting(first: Model, point: object) -> object:
+    """A point that stays the same while places change: by its name, or else its number.
+
+    Raises:
+        RequestError: there is no such point.
+    """
+    if point is None or isinstance(point, str):
+        return point
+    points = Points(first.data)
+    try:
+        return points.number(points.node(point))
+    except (ModelError, ElasticError, TypeError) as error:
+        raise RequestError(str(error)) from None
 
 
 def _require(design: Design, names: Iterable[str], is_at_end: bool, most: int) -> tuple[int, int]:

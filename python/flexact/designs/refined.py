@@ -161,17 +161,12 @@ class Refined(Frozen):
             + "."
         )
         if self.bounds:
-            lines.append(
-                "Limits: "
-                + ", ".join(
-                    f"{b.name} {said(b.found(self.use[b.name]), ASKED[b.name].unit, self.units)}, "
-                    f"{b.words(self.units).removeprefix(f'{b.name} ')}"
-                    if b.name in ASKED
-                    else b.name
-                    for b in self.bounds
-                )
-                + "."
-            )
+            kept = []
+            for each in self.bounds:
+                found = said(each.found(self.use[each.name]), ASKED[each.name].unit, self.units)
+                limit = each.words(self.units).removeprefix(f"{each.name} ")
+                kept.append(f"{each.name} {found} ({limit})")
+            lines.append(f"Limits: {', '.join(kept)}.")
         further = [n for n in self.use if n not in {b.name for b in self.bounds}]
         if further:
             lines.append(

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..show.picture.charts import WORDS, draw_chart, width_of
 from ..show.picture.files import still_bytes
 from ..show.picture.make import shown_figure
-from .refined import Refined
+
+if TYPE_CHECKING:
+    from .refined import Refined
 
 #: Width and height of a chart [inch]; room to the left, beside names of curves, above and below.
 _WIDTH, _HEIGHT, _DPI = 5.6, 2.4, 120

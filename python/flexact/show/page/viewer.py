@@ -43,7 +43,6 @@ from ..drawing.selection import way_of
 from ..spaces import SpaceShown, dashes, holds_shown, spaces_shown
 from .assets import (
     FEW_MODES,
-    FEW_SHAPES,
     MANY_ELEMENTS,
     MOST_ELEMENTS,
     MOST_MEMBERS,
