@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..analysis.naming import filled
+from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.records import Frozen, cached_property
@@ -29,7 +30,6 @@ from .layouts import (
     Layout,
     counted,
     flexures_of,
-    in_a_row,
     middle_of,
     model_of,
     plural,
@@ -466,7 +466,7 @@ def described(designs: Designs, width: int) -> Iterator[str]:
 def found_in_words(designs: Designs) -> str:
     """How many flexures fit the regions, and how many layouts there are."""
     every = designs.candidates.items()
-    counts = in_a_row([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
+    counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
     many = len(designs.layouts)
     of = f" of {designs.found} found" if designs.found > many else ""
     layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"

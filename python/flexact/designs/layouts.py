@@ -13,6 +13,7 @@ import numpy as np
 
 from ..advice.spaces.screws import ScrewSpace
 from ..advice.spaces.subjects import Freed, subject_named
+from ..analysis.places import listed
 from ..api import Analysis, analyse
 from ..core.arrays import FloatArray
 from ..model.model import Model
@@ -398,7 +399,7 @@ def counted(flexures: Sequence[Flexure]) -> str:
 def kinds_in_words(forms: Sequence[str]) -> str:
     """Kinds of flexures, one for each, such as "a sheet and two wires"."""
     counts = Counter(forms)
-    return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
+    return listed([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
 
 
 def _many(count: int, form: str) -> str:
@@ -409,12 +410,6 @@ def _many(count: int, form: str) -> str:
 def plural(kind: str) -> str:
     """Several flexures of a kind."""
     return kind if kind == "bellows" else f"{kind}es" if kind.endswith("ch") else f"{kind}s"
-
-
-def in_a_row(items: Sequence[str]) -> str:
-    """Items as a sentence has them: "a, b and c"."""
-    *first, last = items
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
