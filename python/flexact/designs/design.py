@@ -8,6 +8,7 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -62,6 +63,8 @@ _OF_A_KIND = 10
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
 #: layouts with bodies between are sought where none are needed.
 _SYMMETRIC, _FEW_KINDS = 2, 3
+#: How many layouts in layers, and with limbs, are looked at.
+_WITH_BODIES = 8
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -330,9 +333,11 @@ class _Search:
         problem, sizes = self.problem, self.stock.place.sizes
         if problem.limits.bodies < 1 or self.held is not None:
             return
-        for source in (layered, limbs):
+        # Layers have seldom a symmetry, limbs often.
+        for source in (limbs, layered) if asked else (layered, limbs):
             found = source(problem, self.frame, sizes, problem.limits.kinds)
-            yield "", (each for each in found if asked is None or is_symmetric(each, asked))
+            fits = (each for each in found if asked is None or is_symmetric(each, asked))
+            yield "", islice(fits, _WITH_BODIES)
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""

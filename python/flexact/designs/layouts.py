@@ -7,6 +7,7 @@ import math
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -200,7 +201,7 @@ def _body_calls(name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
         yield Call("body", (list(points),), {"name": name})
         return
     corners = points[: len(arms)]
-    for pair in zip(corners, corners[1:], strict=False):
+    for pair in pairwise(corners):
         yield Call("body", (list(pair),), {"name": name})
     for point in points[len(arms) :]:
         near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))

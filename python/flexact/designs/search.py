@@ -337,5 +337,7 @@ def _material(sets: Sequence[_Set], turn: FloatArray, digits: int = 6) -> list[t
     rows: list[tuple[object, ...]] = []
     for between, candidates in sets:
         every = materials(moved(candidates, turn), digits)
-        rows += [(between, candidates.kind, *row) for row in every.tolist()]
+        # Bodies between may change places, too; which is which is told by where flexures are.
+        bodies = tuple(name.rstrip(" 0123456789") for name in between)
+        rows += [(bodies, candidates.kind, *row) for row in every.tolist()]
     return sorted(rows)
