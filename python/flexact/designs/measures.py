@@ -289,6 +289,11 @@ class Bound(Frozen):
     value: float
     is_least: bool
 
+    @property
+    def key(self) -> str:
+        """What it is called beside others."""
+        return f"least {self.name}" if self.is_least else self.name
+
     def use(self, found: float) -> float:
         """How far it is used: at most 1 keeps it."""
         if not self.is_least:
