@@ -147,6 +147,29 @@ def test_what_is_asked_has_the_closed_forms_of_a_parallel_guide() -> None:
         assert ASKED[name].of(design) == pytest.approx(value, rel=4e-3), name
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_worst_stiffness_is_across_the_rotation_also_where_it_has_turned(angle: float) -> None:
+    # Sheets of 50 mm that cross at (0.03, 0.04): the body turns about that line.
+    model = cross_hinge(H=0.08, B=0.06, w=0.03, t=2e-4)
+    how = How(2, None, (angle,) if angle else (), True, bool(angle), "hinge body", 0.05)
+    worst, drive = Design(model, how).stiffness()
+    mechanism = flexact.elastic(model, beams=2)
+    state = mechanism.undeformed()
+    if angle:
+        (state,) = mechanism.along("hinge body", "rz", [angle])
+    scale = np.array([1, 1, 1, 0.05, 0.05, 0.05])
+    stiff = np.linalg.inv(state.compliance("hinge body") * np.outer(scale, scale))
+    # The velocity of (0.06, 0.08) is z times its distance from the axis, turned by the angle.
+    c, s = math.cos(angle), math.sin(angle)
+    free = np.array([-c * 0.04 - s * 0.03, -s * 0.04 + c * 0.03, 0, 0, 0, 0.05])
+    free /= np.linalg.norm(free)
+    assert drive == pytest.approx(free @ stiff @ free, rel=1e-6)
+    # The least across: that of a matrix in which what is along is made very stiff.
+    across = np.eye(6) - np.outer(free, free)
+    least = np.linalg.eigvalsh(across @ stiff @ across + 1e15 * np.outer(free, free))[0]
+    assert worst == pytest.approx(least, rel=1e-5)
+
+
 def exact_guide() -> flexact.Model:
     """A sheet, and two wires in a plane beside it: it moves along y, and is exact."""
     model = flexact.Model(name="four-bar guide")
