@@ -396,9 +396,13 @@ class _Search:
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
+#: Scores that a scale changes by one factor in all layouts of a problem.
+_SCALED = {"worst_stiffness", "drive_stiffness", "turns_with_errors", "thermal_drift", "room"}
+
+
 def _much_alike(one: Layout, other: Layout) -> bool:
-    """Whether all scores of two layouts are nearly the same."""
-    keys = set(one.scores) & set(other.scores)
+    """Whether two layouts are nearly the same in all that does not depend on how large they are."""
+    keys = set(one.scores) & set(other.scores) & _SCALED
     return all(
         abs(one.scores[key] - other.scores[key])
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
