@@ -22,7 +22,7 @@ from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
 from .explain import Explanation, explain, explained_json, nearby
-from .frame import Scaled, scaled
+from .frame import Scaled, rounded, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
 from .layers import layered
@@ -193,12 +193,15 @@ def sizes_of(problem: Problem) -> Sizes:
     limits, size = problem.limits, problem.size
 
     def two(pair: tuple[float, float]) -> tuple[float, float]:
-        return pair[0] / size, pair[1] / size
+        return one(pair[0]), one(pair[1])
+
+    def one(length: float) -> float:
+        return float(rounded(np.array(length / size)))
 
     return Sizes(
         *(two(limits.length), two(limits.width)),
-        *(middle_of(limits.thickness) / size, middle_of(limits.diameter) / size),
-        limits.clearance / size,
+        *(one(middle_of(limits.thickness)), one(middle_of(limits.diameter))),
+        one(limits.clearance),
         problem.material.E / problem.material.G,
     )
 
