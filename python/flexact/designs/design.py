@@ -8,10 +8,13 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
+from ..analysis.naming import filled
+from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.records import Frozen, cached_property
@@ -60,6 +63,8 @@ _OF_A_KIND = 10
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
 #: layouts with bodies between are sought where none are needed.
 _SYMMETRIC, _FEW_KINDS = 2, 3
+#: How many layouts in layers, and with limbs, are looked at.
+_WITH_BODIES = 8
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -328,9 +333,11 @@ class _Search:
         problem, sizes = self.problem, self.stock.place.sizes
         if problem.limits.bodies < 1 or self.held is not None:
             return
-        for source in (layered, limbs):
+        # Layers have seldom a symmetry, limbs often.
+        for source in (limbs, layered) if asked else (layered, limbs):
             found = source(problem, self.frame, sizes, problem.limits.kinds)
-            yield "", (each for each in found if asked is None or is_symmetric(each, asked))
+            fits = (each for each in found if asked is None or is_symmetric(each, asked))
+            yield "", islice(fits, _WITH_BODIES)
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""
@@ -347,7 +354,7 @@ class _Search:
         return Arrangement(recipe_name(found.recipe), (Part(("stage", "ground"), found),))
 
     def made(self, kind: str, arrangement: Arrangement) -> Layout | None:
-        """A layout, verified and scored; None of an image of one that is there, or of a wrong one."""
+        """A layout, verified and scored; None of an image of one that is there, or a wrong one."""
         key, alike = key_of(self.frame, arrangement)
         if key in self.keys:
             return None
@@ -370,12 +377,12 @@ class _Search:
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
         parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
         what = ", ".join(parts)
-        layout = Layout(
+        return Layout(
             *(0, what, kind, problem, flexures, bodies, model),
             *(found.over_constrained, found.internal, found.analysis.proof is not None),
-            *(found.freedom_error, order, alike, {}),
+            *(found.freedom_error, order, alike),
+            cheap_scores(model, problem, flexures, order),
         )
-        return replace(layout, scores=cheap_scores(model, problem, flexures, order))
 
     def best(self) -> tuple[Layout, ...]:
         """As many as are asked for: the best of each kind, then the next ones; in their order."""
@@ -389,9 +396,13 @@ class _Search:
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
+#: Scores that a scale changes by one factor in all layouts of a problem.
+_SCALED = {"worst_stiffness", "drive_stiffness", "turns_with_errors", "thermal_drift", "room"}
+
+
 def _much_alike(one: Layout, other: Layout) -> bool:
-    """Whether all scores of two layouts are nearly the same."""
-    keys = set(one.scores) & set(other.scores)
+    """Whether two layouts are nearly the same in all that does not depend on how large they are."""
+    keys = set(one.scores) & set(other.scores) & _SCALED
     return all(
         abs(one.scores[key] - other.scores[key])
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
@@ -444,29 +455,35 @@ def asked_group(problem: Problem, frame: Scaled) -> Group | None:
 
 def described(designs: Designs, width: int) -> Iterator[str]:
     """The lines of an answer."""
-    problem = designs.problem
-    for remark in problem.remarks:
-        yield wrapped(remark, width)
-    yield str(designs.explanation)
-    counts = " and ".join(
-        f"{count} {kind if count == 1 else plural(kind)}"
-        for kind, count in designs.candidates.items()
-    )
+    # What else the freedom takes is told by the explanation.
+    told = [filled(line, width=width) for line in designs.explanation.lines]
+    end = next((k for k, line in enumerate(told) if line.startswith("It takes")), len(told))
+    yield from told[: end + (1 if designs.possible.parallel else 2)]
     many = len(designs.layouts)
     if not many:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    if counts:
-        of = f" of {designs.found} found" if designs.found > many else ""
-        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-        yield wrapped(f"{counts} fit the regions; {layouts}, none an image of another.", width)
+    yield wrapped(found_in_words(designs), width)
     yield ""
     yield designs.table(width)
-    yield wrapped(_confirmed(designs), width)
+    yield wrapped(confirmed(designs), width)
+    for remark in designs.problem.remarks:
+        yield wrapped(f"Remark: {remark}.", width)
 
 
-def _confirmed(designs: Designs) -> str:
+def found_in_words(designs: Designs) -> str:
+    """How many flexures fit the regions, and how many layouts there are."""
+    every = designs.candidates.items()
+    counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
+    many = len(designs.layouts)
+    of = f" of {designs.found} found" if designs.found > many else ""
+    layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+    fit = f"{counts} fit the regions; " if counts else ""
+    return f"{fit}{layouts}, none an image of another."
+
+
+def confirmed(designs: Designs) -> str:
     """What the analysis says of all layouts."""
     exact = [layout for layout in designs.layouts if not layout.over_constrained]
     worst = max(layout.freedom_error for layout in designs.layouts)

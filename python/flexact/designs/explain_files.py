@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ..advice.spaces.words import Geometry, space_in_words
-from ..analysis.naming import plain
+from ..analysis.naming import Line, plain
 from ..model.data import ModelData
 from ..model.model import Model
 from ..show.picture import check_packages, has_packages, spaces_bytes
@@ -51,6 +52,20 @@ def picture_bytes(made: Explanation, path: Path) -> bytes:
 @EXPLANATIONS.register(PAGES)
 def page_bytes(made: Explanation, path: Path) -> bytes:
     """The page as the content of a file: both spaces, to be turned, and what it takes."""
+    headline, *told = made.lines
+    page: str = load("flexact.show.page").spaces_page(
+        harmless(made.title), in_one_line(headline), told, sides_of(made)
+    )
+    return as_bytes(page)
+
+
+def in_one_line(line: Line) -> str:
+    """A line as a headline has it."""
+    return f"{plain(line.head).strip()} {'; '.join(map(plain, line.items))}".strip()
+
+
+def sides_of(made: Explanation) -> list[Any]:
+    """Freedom and constraint as a page draws them, `flexact.show.page.Side`."""
     # Pages take a while to load.
     viewer, pages = load("flexact.show.page.viewer"), load("flexact.show.page")
     data, sides = body_of(made), []
@@ -58,9 +73,7 @@ def page_bytes(made: Explanation, path: Path) -> bytes:
         still = spaces_bytes(data, [each], made.title) if has_packages() else None
         shaped = viewer.Shaped(data, ())
         sides.append(pages.Side(number, each.title, f"{each.words}.", shaped, still, (each,)))
-    headline, *told = made.lines
-    headed = " ".join((plain(headline.head).strip(), "; ".join(map(plain, headline.items))))
-    return as_bytes(pages.spaces_page(harmless(made.title), headed.strip(), told, sides))
+    return sides
 
 
 def shown_of(made: Explanation) -> list[SpaceShown]:

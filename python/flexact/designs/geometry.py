@@ -103,7 +103,7 @@ def between_strips(one: FloatArray, others: FloatArray) -> FloatArray:
         found = np.minimum(found, _to_faces(first, others))
     if not thin:
         found = np.minimum(found, _to_faces(second, np.broadcast_to(mine, others.shape)))
-    return found
+    return np.asarray(found)
 
 
 def _to_faces(edges: FloatArray, strips: FloatArray) -> FloatArray:

@@ -246,7 +246,7 @@ class Sector(NamedTuple):
 
     def is_around(self, strips: FloatArray) -> BoolArray:
         """(n,) which strips, (n, m, 3, 3), are in the sector."""
-        corners = edges_of(strips)[..., 0, :].reshape(len(strips), -1, 3)
+        corners = edges_of(strips)[..., 0, :].reshape(len(strips), 4 * strips.shape[1], 3)
         return np.asarray(((corners @ self.sides.T) <= -self.gap).all(axis=(1, 2)))
 
     def stock(self, stock: Stock) -> Stock:

@@ -10,6 +10,7 @@ lines there. A method that puts quadratic models through some points then needs 
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -87,13 +88,9 @@ class Parameter(Frozen):
         return (inside - self.low) / (self.high - self.low)
 
 
-class Measured(NamedTuple):
-    """What was found of one design."""
-
-    objective: float
-    """What is to be better."""
-    use: Mapping[str, float]
-    """How far each limit is used: at most 1 keeps it. Always the same names."""
+#: What was found of a design: what is to be better, and how far each limit is used, by name. At
+#: most 1 keeps a limit; the names are always the same.
+Measured = tuple[float, Mapping[str, float]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,8 +180,8 @@ class _Search:
         self.shares: list[FloatArray] = []
         #: Of which start things are looked at now, how many there are, and where its money ends.
         self.start, self.starts, self.end = 0, 1, budget
-        self.scale = 1.0
-        self.limits = 0
+        #: Of the first design with a state: the size of what is to be better, how many limits.
+        self.scale, self.limits, self.has_state = 1.0, 0, False
 
     def at(self, shares: FloatArray) -> Evaluation:
         """The design at a place of the box; each is measured once.
@@ -209,9 +206,8 @@ class _Search:
         except FlexactError as error:
             objective, use, why = math.nan, {}, str(error).split("\n")[0]
         made = Evaluation(self.start, values, math.nan if why else float(objective), dict(use), why)
-        if not why and not self.limits:
-            self.limits = len(use)
-            self.scale = abs(objective) or 1.0
+        if not why and not self.has_state:
+            self.scale, self.limits, self.has_state = abs(objective) or 1.0, len(use), True
         self.evaluations.append(made)
         self.shares.append(inside)
         self.known[key] = made
@@ -356,11 +352,12 @@ def _locally(ledger: _Search, how: str, seed: int) -> None:
     first = np.array(
         [0.5 if p.start is None else p.share(p.start) for p in ledger.parameters], float
     )
-    looks = min(_LOOKS * (ledger.starts - 1), int(_LOOKING * ledger.budget))
-    # That at the beginning tells how many limits there are.
     ledger.start = 1
     ledger.spend(1, lambda: ledger.at(first))
     ledger.start = 0
+    looks = int(_LOOKING * ledger.budget)
+    if ledger.has_state:
+        looks = min(looks, _LOOKS * (ledger.starts - 1))
     for place in points(looks, first.size, seed):
         ledger.spend(1, lambda place=place: ledger.at(place))  # type: ignore[misc]
     seen = sorted(range(len(ledger.shares)), key=lambda k: ledger.merit(ledger.evaluations[k]))
@@ -373,6 +370,7 @@ def _locally(ledger: _Search, how: str, seed: int) -> None:
         far = [x for x in order if all(np.linalg.norm(x - y) > reach for y in chosen)]
         chosen.append((far or order)[0])
         order = [x for x in order if not any(x is y for y in chosen)]
+    ledger.starts = max(len(chosen), 1)
     for k, place in enumerate(chosen):
         ledger.start = k + 1
         ledger.spend(
@@ -398,7 +396,7 @@ def _refined(ledger: _Search, how: str) -> None:
 
 def _run(ledger: _Search, how: str, place: FloatArray, wide: float, fine: float) -> None:
     """One run of a method from a place."""
-    from scipy.optimize import NonlinearConstraint, minimize
+    from scipy.optimize import NonlinearConstraint
 
     count, box = place.size, [(0.0, 1.0)] * place.size
 
@@ -418,7 +416,7 @@ def _run(ledger: _Search, how: str, place: FloatArray, wide: float, fine: float)
 
         options: dict[str, Any] = {"initial_simplex": corners, "xatol": 10.0 * fine}
         options |= {"fatol": fine, "adaptive": count > 4, "maxfev": ledger.budget}
-        minimize(penalised, place, method=how, bounds=box, options=options)
+        _minimize(penalised, place, method=how, bounds=box, options=options)
         return
     options = {COBYQA: {"initial_tr_radius": wide, "final_tr_radius": fine, "maxfev": 10**6}}.get(
         how, {"rhobeg": wide, "tol": fine, "maxiter": 10**6}
@@ -428,7 +426,15 @@ def _run(ledger: _Search, how: str, place: FloatArray, wide: float, fine: float)
         kept = [NonlinearConstraint(beyond, -np.inf, -_INSIDE)]
     elif ledger.limits:
         kept = [{"type": "ineq", "fun": lambda x: -beyond(x) - _INSIDE}]
-    minimize(cost, place, method=how, bounds=box, constraints=kept, options=options)
+    _minimize(cost, place, method=how, bounds=box, constraints=kept, options=options)
+
+
+def _minimize(cost: Callable[[FloatArray], float], place: FloatArray, **given: Any) -> None:
+    """A run of `scipy.optimize.minimize`; one that fails in its own arithmetic ends there."""
+    from scipy.optimize import minimize
+
+    with contextlib.suppress(ArithmeticError, np.linalg.LinAlgError):
+        minimize(cost, place, **given)
 
 
 def _globally(ledger: _Search, seed: int) -> None:

@@ -16,6 +16,8 @@ from ..model.model import Model
 from ..model.sections import Material
 from ..util.records import Frozen, cached_property
 
+#: Suffixes of files that hold a problem.
+SUFFIXES = (".toml", ".json", ".yaml", ".yml")
 #: Kinds of flexures that a designer may ask for, in the order in which layouts use them.
 KINDS = ("wire", "sheet", "waisted sheet", "folded sheet", "notch", "bellows")
 

@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from ..analysis.places import listed
-from ..api import analyse
+from ..api import Analysis, analyse
 from ..core.elements import Class, Member, member_table
 from ..core.progress import Progress
-from ..costs.request import RequestError, stroke_of
+from ..costs.request import RequestError, stroke_given
 from ..deck.rendering import ModelError
 from ..elasticity.elastic import State
 from ..elasticity.errors import ElasticError
@@ -35,6 +35,7 @@ from ..util.loading import load
 from ..util.quantities import Quantity, QuantityError, quantity
 from ..util.text import in_short
 from ..util.units import METRES, Units
+from .layouts import Layout
 from .measures import ASKED, Bound, Design, How, said
 from .optimum import Measured, Outcome, Parameter, SearchError, method_of, search
 from .refined import Refined
@@ -53,13 +54,13 @@ Goal = str | Callable[[State], float]
 
 
 def refine(
-    of: Model | Build,
+    of: Model | Analysis | Layout | str | os.PathLike[str] | Build,
     vary: Iterable[str] | Mapping[str, object],
     *,
     maximise: Goal | None = None,
     minimise: Goal | None = None,
     at: str = REST,
-    stroke: str | Quantity | Sequence[Quantity] | None = None,
+    stroke: Quantity | Sequence[Any] | None = None,
     drive: tuple[object, str] | None = None,
     stress: Quantity | None = None,
     force: Quantity | None = None,
@@ -93,7 +94,8 @@ def refine(
     Ctrl-C ends the search, and gives the best so far. The same seed looks at the same designs.
 
     Args:
-        of: A model, or a function that makes one of the parameters, `build(H=..., t=...)`.
+        of: A model, a layout, an analysis, the path of a deck, or a function that makes a model of
+            the parameters, `build(H=..., t=...)`.
         vary: What is varied, and between which bounds: of a model texts (`designs.varied`), of a
             function two numbers by name, as it takes them.
         maximise: What is to be large: "first frequency", "first parasitic frequency" (the drive
@@ -103,11 +105,12 @@ def refine(
         minimise: What is to be small, likewise.
         at: "rest", or "end of stroke", where that is measured.
         stroke: How far the drive goes from rest [m, rad], or to two ends, as a number or text such
-            as "3 mm"; or with its point as for `flexact.cost`, "stage:rz=0..0.5rad".
+            as "3 mm"; or with its point as for `flexact.cost`, "stage:rz=0..0.5rad", or
+            ("stage", "rz", 0, 0.5).
         drive: Point and coordinate; by default the only declared one.
         stress: The largest normal stress at the ends of the stroke [Pa], as `State.peak_stress`.
-        force: Of the drive there, at most [N].
-        moment: Likewise of a rotary drive [N m].
+        force: Of the drive there, at most [N]; of a drive that turns its moment [N m].
+        moment: Likewise, of a drive that turns alone.
         buckling: By how much the stress there may grow at least until it buckles; with it the
             states on the way are looked at. True: by nothing. A design that has buckled at an end
             has no state in any case.
@@ -164,7 +167,11 @@ def refine(
         wrong.append(f"progress is something to call, not {in_short(progress)}")
     tried(method_of, method)
     bounds: list[Bound] = []
-    for name, value in {"stress": stress, "drive force": force, "drive moment": moment}.items():
+    asked = None if first is None else tried(_stroke, stroke, drive, first, units)
+    # "force" is the moment of a drive that turns, as everywhere.
+    is_turn = asked is not None and bool(asked[1]) and asked[3] == "rad"
+    acts = "drive moment" if is_turn else "drive force"
+    for name, value in (("stress", stress), (acts, force), ("drive moment", moment)):
         if value is not None:
             bounds.append(tried(_bound, name, value, units))
     if buckling is not None and buckling is not False:
@@ -174,10 +181,10 @@ def refine(
     further = [limits] if isinstance(limits, str) else limits
     bounds += [tried(_limit, each, units) for each in further]
     bounds = [each for each in bounds if each is not None]
-    names = [each.name for each in bounds]
-    if twice := [name for name in dict.fromkeys(names) if names.count(name) > 1]:
+    keys = [each.key for each in bounds]
+    if twice := [key for key in dict.fromkeys(keys) if keys.count(key) > 1]:
         wrong.append(f"{listed(twice)} is limited twice")
-    asked = None if first is None else tried(_stroke, stroke, drive, first, units)
+    names = [each.name for each in bounds]
     names += [goal] if isinstance(goal, str) else []
     if asked is not None and not asked[1]:
         without = [name for name in dict.fromkeys(names) if "stroke" in ASKED[name].needs]
@@ -188,6 +195,7 @@ def refine(
                 'stroke="stage:y=+-3mm"'
             )
     size_of = tried(_read_length, length, first, units)
+    point = None if first is None else tried(_lasting, first, point)
     if wrong or source is None or first is None or asked is None or goal is None:
         raise RequestError(*dict.fromkeys(wrong))
     if evaluations < len(source[0]) + 2:
@@ -232,6 +240,8 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
     """
     if isinstance(of, (str, os.PathLike)):
         of = read(of)
+    # Of an analysis, or a layout.
+    of = held if isinstance(held := getattr(of, "model", None), Model) else of
     if isinstance(of, Model):
         if start is not None:
             raise RequestError("a model begins as it was drawn: start is for a function")
@@ -248,32 +258,30 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
             "the parameters of a function are given by name with two bounds, such as "
             'vary={"t": (0.2e-3, 1e-3)}'
         )
+    if start is not None and not isinstance(start, Mapping):
+        raise RequestError(f"start has a number by name, it is not {in_short(start)}")
+    begin = {} if start is None else start
     wrong, parameters = [], []
     for name, given in vary.items():
-        pair = tuple(given) if isinstance(given, (tuple, list, np.ndarray)) else ()
-        numbers = [
-            each
-            for each in pair
-            if isinstance(each, (int, float, np.number)) and math.isfinite(each)
-        ]
-        if not isinstance(name, str) or len(numbers) != 2 or len(pair) != 2:
+        pair = list(given) if isinstance(given, (tuple, list, np.ndarray)) else []
+        numbers = [float(each) for each in pair if _is_number(each)]
+        if not isinstance(name, str) or len(pair) != 2 or len(numbers) != 2:
             wrong.append(f"{in_short(name)} has two numbers as bounds, not {in_short(given)}")
-        elif not numbers[0] < numbers[1]:
-            how = "the same" if numbers[0] == numbers[1] else "the wrong way round"
+            continue
+        low, high = numbers
+        if not low < high:
+            how = "the same" if low == high else "the wrong way round"
             wrong.append(f"the bounds of {in_short(name)} are {how}")
+        elif name in begin and not (_is_number(begin[name]) and low <= begin[name] <= high):
+            told = f"{low:g} and {high:g}, not {in_short(begin[name])}"
+            wrong.append(f"the start of {in_short(name)} is between its bounds {told}")
         else:
-            low, high = map(float, numbers)
-            begin = None if start is None else start.get(name)
-            parameters.append(
-                Parameter(name, low, high, "", None if begin is None else float(begin))
-            )
+            parameters.append(Parameter(name, low, high, "", begin.get(name)))
     if not vary:
         wrong.append('nothing is varied: say what, such as vary={"t": (0.2e-3, 1e-3)}')
-    wrong += [
-        f"start has {in_short(name)}, which is not varied"
-        for name in start or ()
-        if name not in vary
-    ]
+    for name in begin:
+        if name not in vary:
+            wrong.append(f"start has {in_short(name)}, which is not varied")
     try:
         inspect.signature(build).bind(**{str(name): None for name in vary})
     except TypeError as error:
@@ -296,6 +304,11 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
         return made
 
     return tuple(parameters), model_of, _begun(parameters)
+
+
+def _is_number(given: object) -> bool:
+    is_one = isinstance(given, (int, float, np.number)) and not isinstance(given, bool)
+    return is_one and math.isfinite(given)  # type: ignore[arg-type]
 
 
 def _begun(parameters: Iterable[Parameter]) -> dict[str, float]:
@@ -399,25 +412,31 @@ def _sizes(size: Any, units: Units) -> list[Bound]:
 
 def _stroke(
     stroke: Any, drive: tuple[object, str] | None, first: Model, units: Units
-) -> tuple[tuple[object, str] | None, tuple[float, ...], bool]:
-    """The drive, the ends of its stroke in SI, and whether these count from rest.
+) -> tuple[tuple[object, str] | None, tuple[float, ...], bool, str]:
+    """The drive, the ends of its stroke in SI, whether these count from rest, and their unit.
 
     Raises:
         RequestError, QuantityError: it is not understood, not there, fixed, or nothing.
     """
-    points = Points(first.data)
-    is_offset, given = True, stroke
-    if isinstance(stroke, str) and ":" in stroke:
+    if drive is None and stroke is None:
+        return None, (), True, ""
+    given = stroke if isinstance(stroke, (tuple, list, np.ndarray)) else [stroke]
+    is_named = (isinstance(stroke, str) and ":" in stroke) or len(given) == 4
+    is_offset = True
+    if is_named:
         if drive is not None:
             raise RequestError("the drive is named by the stroke already: leave out drive")
-        target, name, *given, is_offset = stroke_of(stroke, units)
-        drive = target, name
-    elif drive is None and stroke is None:
-        return None, (), True
+        point, name, *given, is_offset = stroke_given(stroke, units)
+        drive = point, name
+    elif len(given) not in (1, 2):
+        raise RequestError("a stroke has one end or two")
     if drive is not None and not (isinstance(drive, (tuple, list)) and len(drive) == 2):
         raise RequestError(
             f"a drive is a point and a coordinate, such as ('stage', 'rz'), not {in_short(drive)}"
         )
+    points = Points(first.data)
+    if drive is not None:
+        drive = _lasting(first, drive[0]), drive[1]
     named = Design(first, How(1, drive, (), True, False, None, 1.0)).drive
     try:
         coordinate = points.coordinate(*named)
@@ -426,18 +445,13 @@ def _stroke(
     if first.data.arrays.coordinate_class[coordinate.axis, coordinate.node] == Class.FIXED:
         raise RequestError(f"{points.words(coordinate)} is fixed and cannot drive")
     if stroke is None:
-        return drive, (), True
+        return drive, (), True, points.unit(coordinate)
     unit = points.unit(coordinate)
-    ends = given if isinstance(given, (tuple, list, np.ndarray)) else [given]
-    if not 1 <= len(ends) <= 2:
-        raise RequestError("a stroke has one end or two")
-    values = []
-    for end in ends:
+    ends = []
+    for end in given:
         try:
-            # What a text with its point says is in SI already.
-            value = (
-                float(end) if isinstance(stroke, str) and ":" in stroke else units.read(end, unit)
-            )
+            # What names its point is in SI already.
+            value = float(end) if is_named else units.read(end, unit)
         except QuantityError as error:
             raise RequestError(f"the stroke: {error}") from None
         except (TypeError, ValueError, OverflowError):
@@ -446,15 +460,30 @@ def _stroke(
             raise RequestError(
                 f"a stroke is a finite number [{units.symbol(unit)}], not {in_short(end)}"
             )
-        values.append(value)
+        ends.append(value)
+    # Angles begin at nothing.
     is_offset = is_offset or unit == "rad"
-    rest = (
-        0.0 if is_offset else float(first.data.arrays.node_value[coordinate.axis, coordinate.node])
-    )
-    away = tuple(dict.fromkeys(value for value in values if value != rest))
+    place = first.data.arrays.node_value[coordinate.axis, coordinate.node]
+    rest = 0.0 if is_offset else float(place)
+    away = tuple(dict.fromkeys(end for end in ends if end != rest))
     if not away:
         raise RequestError("the stroke is nothing: it ends where it begins")
-    return drive, away, is_offset
+    return drive, away, is_offset, unit
+
+
+def _lasting(first: Model, point: object) -> object:
+    """A point that stays the same while places change: by its name, or else its number.
+
+    Raises:
+        RequestError: there is no such point.
+    """
+    if point is None or isinstance(point, str):
+        return point
+    points = Points(first.data)
+    try:
+        return points.number(points.node(point))
+    except (ModelError, ElasticError, TypeError) as error:
+        raise RequestError(str(error)) from None
 
 
 def _require(design: Design, names: Iterable[str], is_at_end: bool, most: int) -> tuple[int, int]:
@@ -568,8 +597,8 @@ def refined(
         if (result.over_constrained, result.under_constrained) != over:
             raise ElasticError("it is constrained otherwise than at the beginning")
         design.require_stable()
-        use = {b.name: b.use(ASKED[b.name].of(design)) for b in bounds}
-        return Measured(of(design), {**use, **further})
+        use = {b.key: b.use(ASKED[b.name].of(design)) for b in bounds}
+        return of(design), {**use, **further}
 
     unit_ = "" if known is None else known.unit
     units = begun.model.data.units
@@ -600,7 +629,7 @@ def refined(
             design = Design(model, how._replace(beams="auto"))
             finer = {name: of(design), **{b.name: ASKED[b.name].of(design) for b in bounds}}
             finer = {each: value for each, value in finer.items() if math.isfinite(value)}
-        except FlexactError:
+        except (FlexactError, KeyboardInterrupt):
             finer = {}
     return Refined(
         model=model,

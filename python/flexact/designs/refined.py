@@ -25,7 +25,7 @@ from ..show.writers import STILLS, Writers, as_bytes
 from ..util.loading import load
 from ..util.outputs import OutputError
 from ..util.records import Frozen
-from ..util.text import USUAL, number_in_words, table
+from ..util.text import USUAL, number_in_words, table, wrapped
 from ..util.units import Units
 from .measures import ASKED, Bound, said
 from .optimum import Evaluation, Parameter, most_frequent
@@ -111,7 +111,7 @@ class Refined(Frozen):
         return min(kept, key=lambda each: sense * each.objective, default=None)
 
     def table(self) -> str:
-        """A row a start: where it begins and ends, after how many designs."""
+        """A row a start: where it begins and ends, after how many designs, with its values."""
         heads = ["start", "designs", "no state", "from", "to"]
         rows = [[*heads, *(each.name for each in self.parameters)]]
         for start in range(self.starts + 1):
@@ -119,13 +119,15 @@ class Refined(Frozen):
             if not path:
                 continue
             best = self.best_of(start)
-            first = path[0].objective
+            first = "none" if path[0].failure else "beyond limits"
+            if path[0].is_feasible:
+                first = said(path[0].objective, self.unit, self.units)
             rows.append(
                 [
                     str(start) if start else "looking around",
                     str(len(path)),
                     str(sum(bool(each.failure) for each in path)),
-                    "none" if math.isnan(first) else said(first, self.unit, self.units),
+                    first if start else "",
                     "none" if best is None else said(best.objective, self.unit, self.units),
                     *(
                         "" if best is None else said(best.values[p.name], p.unit, self.units)
@@ -133,7 +135,9 @@ class Refined(Frozen):
                     ),
                 ]
             )
-        return table(rows, USUAL)
+        told = table(rows, USUAL)
+        # Without the values where there is no room for them beside each other.
+        return told if told.count("\n") < len(rows) else table([row[:5] for row in rows], USUAL)
 
     def describe(self) -> str:
         """What was found, what holds it there, how it was searched, and what is proven."""
@@ -143,7 +147,7 @@ class Refined(Frozen):
             from_ = (
                 ""
                 if math.isnan(self.before)
-                else f"; it was {said(self.before, self.unit, self.units)}"
+                else f"; it began at {said(self.before, self.unit, self.units)}"
             )
             first = f"{name} {self.at}: {told}{from_}."
         else:
@@ -159,18 +163,13 @@ class Refined(Frozen):
             + "."
         )
         if self.bounds:
-            lines.append(
-                "Limits: "
-                + ", ".join(
-                    f"{b.name} {said(b.found(self.use[b.name]), ASKED[b.name].unit, self.units)}, "
-                    f"{b.words(self.units).removeprefix(f'{b.name} ')}"
-                    if b.name in ASKED
-                    else b.name
-                    for b in self.bounds
-                )
-                + "."
-            )
-        further = [n for n in self.use if n not in {b.name for b in self.bounds}]
+            kept = []
+            for each in self.bounds:
+                found = said(each.found(self.use[each.key]), ASKED[each.name].unit, self.units)
+                limit = each.words(self.units).removeprefix(f"{each.name} ")
+                kept.append(f"{each.name} {found} ({limit})")
+            lines.append(f"Limits: {', '.join(kept)}.")
+        further = [n for n in self.use if n not in {b.key for b in self.bounds}]
         if further:
             lines.append(
                 "Further: " + ", ".join(f"{n} {self.use[n]:.3g} of it" for n in further) + "."
@@ -184,7 +183,7 @@ class Refined(Frozen):
             )
             lines.append(f"With 8 and 16 beams a sheet, extrapolated: {told}.")
         lines.append(self._constrained())
-        return "\n".join(lines)
+        return "\n".join(wrapped(line, USUAL) for line in lines)
 
     def _unit(self, name: str) -> str:
         return self.unit if name == self.objective else ASKED[name].unit
@@ -194,7 +193,7 @@ class Refined(Frozen):
         words = f"Searched by {self.method}: {count} designs"
         if failing:
             why = most_frequent([each.failure for each in self.evaluations if each.failure])
-            words += f", {failing} of them without a state ({why})"
+            words += f", {failing} of them without a state ({why.split(';')[0]})"
         ends = [best.objective for k in range(1, self.starts + 1) if (best := self.best_of(k))]
         many = number_in_words(self.starts)
         if self.is_interrupted:

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..show.picture.charts import draw_chart
+from ..show.picture.charts import WORDS, draw_chart, width_of
 from ..show.picture.files import still_bytes
 from ..show.picture.make import shown_figure
-from .refined import Refined
 
-#: Width of the picture and height of a chart [inch]; room to the left, right, above and below.
-_WIDTH, _HEIGHT, _DPI = 9.0, 2.4, 120
-_LEFT, _RIGHT, _ABOVE, _BELOW = 0.75, 2.9, 0.45, 0.55
+if TYPE_CHECKING:
+    from .refined import Refined
+
+#: Width and height of a chart [inch]; room to the left, beside names of curves, above and below.
+_WIDTH, _HEIGHT, _DPI = 5.6, 2.4, 120
+_LEFT, _BESIDE, _ABOVE, _BELOW = 0.75, 0.4, 0.45, 0.55
 
 
 def figure_of(refined: Refined) -> Any:
@@ -22,14 +24,16 @@ def figure_of(refined: Refined) -> Any:
         FlexactError: matplotlib is missing.
     """
     charts = refined.charts
-    row = _ABOVE + _HEIGHT + _BELOW
+    measure = shown_figure(dpi=_DPI)
+    names = [curve.label for chart in charts for curve in chart.curves]
+    right = _BESIDE + max(width_of(measure, name, WORDS, "bold") for name in names)
+    row, width = _ABOVE + _HEIGHT + _BELOW, _LEFT + _WIDTH + right
     whole = row * len(charts)
-    figure = shown_figure(figsize=(_WIDTH, whole), dpi=_DPI)
+    figure = shown_figure(figsize=(width, whole), dpi=_DPI)
     for k, chart in enumerate(charts):
-        bottom = whole - (k + 1) * row + _BELOW
-        place = (_LEFT, bottom, _WIDTH - _LEFT - _RIGHT, _HEIGHT)
-        size = (_WIDTH, whole, _WIDTH, whole)
-        draw_chart(figure.add_axes(tuple(a / b for a, b in zip(place, size, strict=True))), chart)
+        bottom = (whole - (k + 1) * row + _BELOW) / whole
+        place = (_LEFT / width, bottom, _WIDTH / width, _HEIGHT / whole)
+        draw_chart(figure.add_axes(place), chart)
     return figure
 
 

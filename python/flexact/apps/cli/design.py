@@ -13,7 +13,7 @@ from ...designs.design import layouts_of
 from ...designs.explain import explain
 from ...designs.explain_files import EXPLANATIONS
 from ...designs.files import DESIGNS, LAYOUTS, write_decks
-from ...designs.problem import Problem
+from ...designs.problem import SUFFIXES, Problem
 from ...designs.reading import problem_of_deck, problem_of_file
 from ...model.reading import read
 from ...show.writers import write
@@ -26,8 +26,6 @@ from .parser import Verb, argument
 from .targets import number
 from .terminal import Bar, ExitCode, columns_of, complain, give, say, text_width
 
-#: Suffixes of files that hold a problem; every other file is a deck.
-PROBLEMS = (".toml", ".json", ".yaml", ".yml")
 #: Options that are for decks.
 _OF_DECKS = ("body", "wanted", "ground")
 #: Options that take the place of what a problem says.
@@ -65,6 +63,11 @@ def design_layouts(chosen: argparse.Namespace) -> ExitCode:
     if not designs.layouts:
         if not chosen.json:
             say(f"{designs.describe(text_width())}\n")
+        # A page or an answer says why there is none.
+        if target is not None and chosen.apply is None and not _is_folder(target):
+            with unwinding():
+                write(target, DESIGNS.contents(designs, target))
+            _written(target, chosen)
         return ExitCode.DECK_ERROR
     if (target is None or chosen.apply is None) and not chosen.json:
         say(f"{designs.describe(text_width())}\n")
@@ -89,7 +92,7 @@ def _plan(chosen: argparse.Namespace, given: DeckFile) -> None:
     Raises:
         BatchError: options do not go together, or the file cannot be written.
     """
-    is_problem = Path(chosen.problem).suffix.lower() in PROBLEMS
+    is_problem = Path(chosen.problem).suffix.lower() in SUFFIXES
     for name in _OF_DECKS if is_problem else ():
         if getattr(chosen, name):
             raise BatchError(f"--{name} is for a deck; a problem says it itself")
@@ -130,7 +133,7 @@ def _problem(chosen: argparse.Namespace) -> Problem:
         ProblemsError: something of it is wrong; all of it is said.
     """
     instead = {name: getattr(chosen, name) for name in _INSTEAD if getattr(chosen, name)}
-    if Path(chosen.problem).suffix.lower() in PROBLEMS:
+    if Path(chosen.problem).suffix.lower() in SUFFIXES:
         return problem_of_file(chosen.problem, instead)
     model = read(chosen.problem)
     of_deck: dict[str, Any] = {"ground": chosen.ground} if chosen.ground else {}
@@ -184,7 +187,8 @@ VERB = Verb(
             "--apply",
             type=number,
             metavar="K",
-            help="write layout K to the file of -o: a deck (.dat), or a script (.py)",
+            help="write layout K to the file of -o: a deck (.dat), a script (.py), its page "
+            "(.html), solids (.step, .3mf, .stl, .glb), or a picture",
         ),
         argument("--body", metavar="NAME", help="of a deck, the body that is to move"),
         argument(
