@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..advice.spaces.screws import ScrewSpace
+from ..advice.spaces.screws import ScrewSpace, canonical
 from ..core.arrays import FloatArray
 from ..util.text import number_in_words
 from .candidates import Place, Sizes, boxes_of
@@ -69,7 +69,9 @@ class Stocks:
             numbers += [np.concatenate((box.low, box.high)) for box in boxes]
         key = np.concatenate(numbers).tobytes()
         if key not in self._known:
-            place = Place(freedom, here, there, (*self.frame.keep_out, *solid), self.sizes)
+            # Rows that do not depend on the sense in which a motion was written.
+            rows = rounded(canonical(freedom))
+            place = Place(rows, here, there, (*self.frame.keep_out, *solid), self.sizes)
             self._known[key] = Stock(place)
             self.spent += 1
         return self._known[key]
