@@ -223,10 +223,17 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
         show: Told of each layout as soon as it is verified and scored.
     """
     begun = time.perf_counter()
+    found = possible(problem.freedom)
+    if found.off:
+        # What is all but special is taken for that, and told.
+        twists = found.freedom.basis
+        wanted = zip(problem.wanted, twists, strict=True)
+        special = tuple(replace(motion, twist=twist) for motion, twist in wanted)
+        problem = replace(problem, wanted=special)
     frame = scaled(problem)
     search = _Search(problem, frame, show)
     search.run()
-    found, layouts = possible(problem.freedom), search.best()
+    layouts = search.best()
     why = None if layouts else reason_of(problem, found, has_layout)
     return Designs(
         *(problem, found, layouts, search.stock.counts),
