@@ -40,6 +40,10 @@ Whether it is exactly constrained
 What to do about it
     Advice, Step: what is wrong and why; one way to mend it
 
+From a wanted freedom to a mechanism
+    design, Designs, Layout: layouts of flexures that leave a body one freedom and no other
+    box: where flexures may end
+
 With stiffness and mass
     elastic, Elastic: a model with its stiffness and mass
     State, Estimate: compliance, frequencies, stresses at a load or stroke; a value, how exact
@@ -102,6 +106,9 @@ if _typing.TYPE_CHECKING:
     from .costs.shape import Shape, shape
     from .deck.diagnostics import Diagnostic, Place, Severity
     from .deck.rendering import DeckError, ModelError
+    from .designs.design import Designs, design
+    from .designs.layouts import Layout
+    from .designs.reading import box
     from .designs.refine import refine
     from .designs.refined import Refined
     from .elasticity import (
@@ -190,6 +197,9 @@ _HOMES = {
         "DeckError",
         "ModelError",
     ),
+    "designs.design": ("Designs", "design"),
+    "designs.layouts": ("Layout",),
+    "designs.reading": ("box",),
     "designs.refine": ("refine",),
     "designs.refined": ("Refined",),
     "elasticity": (
@@ -270,6 +280,7 @@ __all__ = [
     "Crossing",
     "Crossings",
     "DeckError",
+    "Designs",
     "Diagnostic",
     "Elastic",
     "ElasticError",
@@ -280,6 +291,7 @@ __all__ = [
     "FoldedSheet",
     "Gap",
     "Jacobian",
+    "Layout",
     "Limits",
     "Margin",
     "Material",
@@ -314,8 +326,10 @@ __all__ = [
     "Wire",
     "__version__",
     "analyse",
+    "box",
     "cost",
     "deformations",
+    "design",
     "elastic",
     "grid",
     "jacobian",

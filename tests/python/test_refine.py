@@ -15,8 +15,8 @@ import pytest
 import flexact
 from flexact.costs.request import RequestError
 from flexact.designs.measures import ASKED, Design, How, box_of
+from flexact.designs.optimum import METHODS, Measured, Parameter, SearchError, search
 from flexact.designs.refine import refined as refined_by
-from flexact.designs.search import METHODS, Measured, Parameter, SearchError, search
 from flexact.designs.varied import Variation, bounds_of
 from flexact.elasticity.errors import ElasticError
 from flexact.util.units import METRES, MILLIMETRES

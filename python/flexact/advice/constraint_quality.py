@@ -266,7 +266,7 @@ def number_of(hold: Hold) -> str:
 
 def hold_in_words(result: Result, hold: Hold) -> str:
     """What a flexure holds, a sentence."""
-    held = "; ".join(map(plain, space_in_words(Geometry(result), hold.space)))
+    held = "; ".join(map(plain, space_in_words(Geometry.of_mechanism(result), hold.space)))
     few = hold.space.dimension
     count = f"{few} independent force{'s' * (few > 1)} or moments: " if few > 1 else ""
     verb = "hold" if len(hold.parts) > 1 else "holds"

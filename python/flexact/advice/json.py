@@ -47,13 +47,14 @@ def of_spaces(result: Result, spaces: Spaces, wanted: Sequence[str]) -> Entries:
     return {
         "body": spaces.subject.name,
         "wanted": list(wanted),
-        "freedom": _space(spaces.freedom),
-        "constraint": _space(spaces.constraint),
+        "freedom": of_space(spaces.freedom),
+        "constraint": of_space(spaces.constraint),
         "statements": [" ".join(filled(line).split()) for line in spaces_lines(result, spaces)],
     }
 
 
-def _space(space: ScrewSpace) -> Entries:
+def of_space(space: ScrewSpace) -> Entries:
+    """A space: its basis and its families."""
     return {
         "dimension": space.dimension,
         "about": space.about.tolist(),

@@ -227,6 +227,33 @@ def _undeclared(data: ModelData, places: Sequence[_Place]) -> ModelData:
     )
 
 
+def together(moved: Sequence[tuple[Freedom, float]]) -> FreeMotion | None:
+    """The motion in which degrees of freedom of one analysis move at once.
+
+    Args:
+        moved: Each with its velocity; at least one.
+
+    Returns:
+        None where one of them cannot move.
+
+    Raises:
+        AnalysisError: a motion cannot be found.
+    """
+    motions = [(freedom.motion, velocity) for freedom, velocity in moved]
+    found = [(each.analysed, velocity) for each, velocity in motions if each is not None]
+    if len(found) < len(motions):
+        return None
+    outcome = moved[0][0].analysis
+    places = [(freedom.is_coordinate, *freedom.place) for freedom, _ in moved]
+    displacement, rotation = (
+        np.sum([velocity * getattr(each, name) for each, velocity in found], axis=0)
+        for name in ("displacement", "rotation")
+    )
+    return FreeMotion(
+        outcome, Velocities(_undeclared(outcome.data, places), displacement, rotation)
+    )
+
+
 def freedoms_of(outcome: Decomposition) -> tuple[Freedom, ...]:
     """The declared degrees of freedom, coordinates first."""
     arrays = outcome.data.arrays

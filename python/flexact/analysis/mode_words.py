@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..model.parts.parts import Joint, Part, PartKind
+from ..util.units import Units
 from .body_motions import BodyMotion
 from .decomposition import Decomposition
 from .limits import SAME_PLACE, TOLD
@@ -120,18 +121,24 @@ def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray)
 
     Across the plane of a planar model it is a point.
     """
+    given, least = outcome.given, SAME_PLACE * outcome.characteristic_length
+    return bare_line_words(point, direction, given.units, least, planar=given.planar)
+
+
+def bare_line_words(
+    point: FloatArray, direction: FloatArray, units: Units, least: float, *, planar: bool = False
+) -> str:
+    """The same without a mechanism; numbers below the least [m] are zero."""
     axis = direction_words(direction)
-    least = SAME_PLACE * outcome.characteristic_length
-    units = outcome.given.units
     unit = units.symbol("m")
     numbers = [
         "0" if abs(value) < least else f"{units.shown(value, 'm'):.4g}" for value in point.tolist()
     ]
-    if outcome.given.planar and axis == "z":
+    if planar and axis == "z":
         return f"the point ({', '.join(numbers[:2])}) {unit}"
     if axis in ("x", "y", "z"):
         numbers["xyz".index(axis)] = "*"
-    shown = numbers[:2] if outcome.given.planar else numbers
+    shown = numbers[:2] if planar else numbers
     return f"the line through ({', '.join(shown)}) {unit} along {axis}"
 
 

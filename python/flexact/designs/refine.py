@@ -37,8 +37,8 @@ from ..util.text import in_short
 from ..util.units import METRES, Units
 from .layouts import Layout
 from .measures import ASKED, Bound, Design, How, said
+from .optimum import Measured, Outcome, Parameter, SearchError, method_of, search
 from .refined import Refined
-from .search import Measured, Outcome, Parameter, SearchError, method_of, search
 from .varied import Variation, first_words
 
 REST, END = "rest", "end of stroke"

@@ -28,7 +28,7 @@ from ..util.records import Frozen
 from ..util.text import USUAL, number_in_words, table, wrapped
 from ..util.units import Units
 from .measures import ASKED, Bound, said
-from .search import Evaluation, Parameter, most_frequent
+from .optimum import Evaluation, Parameter, most_frequent
 
 #: A limit that is used by more than this is active, and so is a bound that is as near as that.
 _ACTIVE, _AT_BOUND = 0.995, 1.0e-3
@@ -56,7 +56,7 @@ class Refined(Frozen):
         finer: What is to be better and what is limited, by name, of 8 and 16 beams a sheet,
             extrapolated; empty where that has no state.
         evaluations: All designs that were looked at, in their order.
-        method: Of `flexact.designs.search.METHODS`.
+        method: Of `flexact.designs.optimum.METHODS`.
         starts: From how many places it was searched.
         seed: Of the places.
         is_interrupted: Whether Ctrl-C ended it.

@@ -41,7 +41,7 @@ from ..util.records import Frozen
 from ..util.rotations import matrix_of
 from ..util.text import in_short
 from ..util.units import Units
-from .search import Parameter
+from .optimum import Parameter
 
 _SIZES = ("thickness", "width", "diameter")
 _PLACES = ("x", "y", "z", "shift x", "shift y", "shift z")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Literal
 
 import numpy as np
@@ -132,7 +133,13 @@ def _uniform_rows(data: ModelData, chain: Chain) -> Iterator[list[int]]:
 
 def bending_pairs(kinds: IntArray) -> tuple[tuple[int, int, BoolArray], ...]:
     """Deformations p and q, from 0, that bend about one axis, and (elements,) where they do."""
-    roles = role_table()[kinds].T
+    return tuple((p, q, bends[kinds]) for p, q, bends in _bending_kinds())
+
+
+@cache
+def _bending_kinds() -> tuple[tuple[int, int, BoolArray], ...]:
+    """The same by kind of element."""
+    roles = role_table().T
     return tuple(
         (p, q, np.asarray(np.isin(roles[p], list(AT_P)) & np.isin(roles[q], list(AT_Q))))
         for p, q in ((2, 3), (4, 5), (1, 2))

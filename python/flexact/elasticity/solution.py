@@ -379,11 +379,19 @@ class Solution:
         """What the core is asked about."""
         return self.solver.model(self.held), self.solver.arrays, self.raw, self.way.gravity
 
-    def respond(self, force: FloatArray, shift: FloatArray | None = None) -> RawLinear:
-        """Increments under loads (3, nodes, k) and moves of what is held likewise."""
-        misfit = np.zeros((6, self.solver.elements, force.shape[2]), order="F")
+    def respond(
+        self,
+        force: FloatArray,
+        shift: FloatArray | None = None,
+        misfit: FloatArray | None = None,
+    ) -> RawLinear:
+        """Increments under loads (3, nodes, k), moves of what is held likewise, and misfits.
+
+        These are (6, pieces, k), deformations without stress.
+        """
+        fits = np.zeros((6, self.solver.elements, force.shape[2]), order="F")
         at_rest = np.zeros_like(force) if shift is None else shift
-        return elastic.linear(*self._asked, force, misfit, at_rest)
+        return elastic.linear(*self._asked, force, fits if misfit is None else misfit, at_rest)
 
     def under(self, stress: FloatArray) -> Solution:
         """The same place under a stress (6, pieces)."""

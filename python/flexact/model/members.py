@@ -225,6 +225,7 @@ def add_contour_notch(
     name: str,
     independent: bool,
     contour: NotchContour,
+    warping: bool,
 ) -> CutNotch:
     """A hinge between two halves that do not turn, with the six compliances of a contour.
 
@@ -267,6 +268,7 @@ def add_contour_notch(
     near = add_point(draft, (x, y_, z, 0.0))
     half = length / 2.0
     *shifts, torsion, tilt, bend = contour.compliance.tolist()
+    torsion = contour.held_torsion if warping else torsion
     ei = [
         max(length / (_BENDING * turned), _SHEARING * half**3 / shift)
         for turned, shift in ((tilt, shifts[2]), (bend, shifts[1]))

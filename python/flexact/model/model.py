@@ -22,7 +22,7 @@ from ..util.quantities import Quantity
 from ..util.records import read_only
 from ..util.text import in_short
 from ..util.units import METRES, Units, units_of
-from . import assemblies, copies, edits, joints, members
+from . import assemblies, bellows, copies, edits, joints, members
 from .arguments import (
     Direction,
     PartLike,
@@ -394,6 +394,7 @@ class Model:
         radius: Quantity | None = None,
         length: Quantity | None = None,
         material: MaterialLike | None = None,
+        warping: bool = False,
     ) -> Notch:
         """A notch at p: all is held but the bending about its axis.
 
@@ -420,6 +421,8 @@ class Model:
             radius: Of a circular contour, or of the fillets [m].
             length: Of any other than a circular contour [m].
             material: Steel by default, see `wire`.
+            warping: Whether its ends cannot warp, which makes a broad notch much stiffer in
+                torsion, see `NotchContour.held_torsion`.
 
         Returns:
             The notch, with its points p and q; with a contour it has `pieces`.
@@ -435,7 +438,7 @@ class Model:
                 members.require_no_contour(sizes, material)
                 return members.add_hinge(draft, "notch", p, axis, q, name, independent, stiffness)
             made = members.contour_of(draft, contour, sizes, material, stiffness)
-            return members.add_contour_notch(draft, p, axis, q, name, independent, made)
+            return members.add_contour_notch(draft, p, axis, q, name, independent, made, warping)
 
     def wire(
         self,
@@ -908,6 +911,41 @@ class Model:
             name: What it is called: its parts are "name notch 1", ..., "name bar".
         """
         return joints.add_strut(self._change(), p, q, ends, name)
+
+    def bellows(
+        self,
+        p: Point,
+        q: Point,
+        y: Direction | None = None,
+        name: str = "",
+        *,
+        diameter: Quantity,
+        thickness: Quantity | None = None,
+        depth: Quantity | None = None,
+        pitch: Quantity | None = None,
+        material: MaterialLike = "steel",
+    ) -> Element:
+        """A metal bellows: its twist is held, everything else is released.
+
+        It is a beam with the stiffness along, in bending and in twist, and the mass, of its
+        convolutions, by the formulas of `flexact.model.bellows`; it is drawn as its outer cylinder.
+
+        Args:
+            p: One end: a point, its name, or its place (x, y, z) [m].
+            q: The other end.
+            y: Initial direction of the local y axis.
+            name: What it is called.
+            diameter: The outer one [m].
+            thickness: Of the wall [m]; by default a thirtieth of the depth.
+            depth: Of the convolutions [m]; by default 0.15 of the diameter.
+            pitch: From one convolution to the next [m]; by default as much as they are deep.
+            material: Steel by default, see `wire`.
+
+        Raises:
+            ModelError: something of it is wrong; its text begins with the name of the bellows.
+        """
+        sizes = {"diameter": diameter, "thickness": thickness, "depth": depth, "pitch": pitch}
+        return bellows.add_bellows(self._change(), p, q, y, name, sizes, material)
 
     def bipod(
         self,

@@ -14,7 +14,7 @@ from operator import add
 import numpy as np
 
 from ..advice.constraint_quality import Hold, hold_in_words, holds_in_words, holds_of, number_of
-from ..advice.spaces.screws import Family
+from ..advice.spaces.screws import Family, ScrewSpace
 from ..advice.spaces.spaces import Spaces, body_words, dashed_in_words, spaces_lines
 from ..analysis.naming import plain
 from ..analysis.result import Result
@@ -361,6 +361,14 @@ class SpaceShown:
     words: str
     wires: FloatArray
     labels: tuple[tuple[FloatArray, str], ...] = ()
+
+
+def space_shown(space: ScrewSpace, title: str, words: str, size: float) -> SpaceShown:
+    """A space without a mechanism, in a drawing of a size [m]."""
+    shape = shape_of_space(
+        space.families, space.about, size, is_freedom=not space.of_wrenches, planar=space.planar
+    )
+    return SpaceShown(title, shape, words, _NO_WIRES)
 
 
 def spaces_shown(result: Result, spaces: Spaces, size: float, planar: bool) -> Iterator[SpaceShown]:

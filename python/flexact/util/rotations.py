@@ -18,6 +18,14 @@ def unit(vectors: FloatArray) -> FloatArray:
     return np.asarray(vectors / np.where(size > 0.0, size, 1.0))
 
 
+def cross(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(..., 3) vector products; of a few vectors numpy's own takes ten times as long."""
+    return np.asarray(one[..., _ON] * other[..., _BACK] - one[..., _BACK] * other[..., _ON])
+
+
+_ON, _BACK = [1, 2, 0], [2, 0, 1]
+
+
 def frames_along(ex: FloatArray) -> FloatArray:
     """(k, 3, 3) frames with unit vectors ex (k, 3); ey towards the axis least along each."""
     axis = np.eye(3)[np.argmin(np.abs(ex), axis=1)]

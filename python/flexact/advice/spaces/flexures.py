@@ -45,14 +45,13 @@ class Added(Step):
 
 def added_in_words(result: Result, change: Change) -> Pieces:
     """The wires or the sheet of a change: where they end on the body, along what they run."""
-    geometry = Geometry(result)
+    geometry = Geometry.of_mechanism(result)
     added: list[AddedWire | AddedSheet] = [*change.wires, *change.sheets]
-    return row_of([wire_in_words(geometry, each) for each in added])
+    return row_of([wire_in_words(result, geometry, each) for each in added])
 
 
-def wire_in_words(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
+def wire_in_words(result: Result, geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
     """Such as "a wire from the stage, where sheet 1 ends, along y"."""
-    result = geometry.outcome
     parts = result.parts
     node = parts.data.node_index[wire.position]
     end, ground = np.array(wire.end), np.array(wire.ground)

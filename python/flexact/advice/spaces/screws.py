@@ -34,8 +34,9 @@ from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray, floats
 from ...util.records import Frozen, cached_property
 
-#: Directions off by so little [rad], or lines by this part of the characteristic length, are one.
-SAME = 1.0e-4
+#: Directions off by so little [rad], or lines by this part of the characteristic length, are one:
+#: in a design as it is drawn, and in a space that is given exactly.
+SAME, EXACT = 1.0e-4, 1.0e-9
 
 
 class FamilyKind(str, Enum):
@@ -181,17 +182,20 @@ def _unit(vector: FloatArray) -> FloatArray:
 _SAMPLES = 12
 
 
-def regulus_of(rows: FloatArray, values: FloatArray, vectors: FloatArray) -> Family:
+def regulus_of(
+    rows: FloatArray, values: FloatArray, vectors: FloatArray, same: float = SAME
+) -> Family:
     """The regulus of a space of three dimensions.
 
     Args:
         rows: (3, 6) that span it.
         values: (3,) eigenvalues of q on it, of both signs.
         vectors: (3, 3) their eigenvectors.
+        same: What is smaller is zero.
     """
-    points, directions = _samples(rows, values, vectors)
+    points, directions = _samples(rows, values, vectors, same)
     _, sizes, right = np.linalg.svd(rows[:, :3])
-    if sizes[-1] > SAME:
+    if sizes[-1] > same:
         point, axis = _middle(rows)
         return Family(
             FamilyKind.REGULUS, point, direction=axis, points=points, directions=directions
@@ -207,7 +211,7 @@ def regulus_of(rows: FloatArray, values: FloatArray, vectors: FloatArray) -> Fam
 
 
 def _samples(
-    rows: FloatArray, values: FloatArray, vectors: FloatArray
+    rows: FloatArray, values: FloatArray, vectors: FloatArray, same: float
 ) -> tuple[FloatArray, FloatArray]:
     """Points and directions of lines all round."""
     scaled = (vectors / np.sqrt(np.abs(values))).T @ rows
@@ -216,7 +220,7 @@ def _samples(
     points, directions = [], []
     for angle in 2.0 * np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES:
         screw = np.cos(angle) * one + np.sin(angle) * other + scaled[lone]
-        if np.linalg.norm(screw[:3]) > SAME * np.linalg.norm(screw):
+        if np.linalg.norm(screw[:3]) > same * np.linalg.norm(screw):
             point, direction, _ = line_of(screw)
             points.append(point)
             directions.append(direction)
@@ -239,36 +243,46 @@ def _middle(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
     return point, sense_of(axis) * axis
 
 
-def principal_screws(lined: FloatArray, spanned: FloatArray, count: int) -> list[Family]:
+def principal_screws(
+    lined: FloatArray, spanned: FloatArray, count: int, same: float = SAME
+) -> list[Family]:
     """Those of a space that its lines and directions do not span.
 
     Args:
         lined: (n, 6) independent rows, without directions, perpendicular to these.
         spanned: (m, 6) rows that its lines and directions span.
         count: Its dimension.
+        same: What is smaller is zero.
     """
-    if _rank(spanned) == count:
+    if _rank(spanned, same) == count:
         return []
-    # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
-    back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
-    form = lined[:, :3] @ lined[:, 3:].T
-    pitches, vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)
     made = []
-    for row in _told(pitches, vectors.T @ back @ lined):
+    for row in principal_rows(lined, same):
         more = np.concatenate((spanned, row[None]))
-        if _rank(more) > _rank(spanned):
+        if _rank(more, same) > _rank(spanned, same):
             spanned = more
             point, direction, pitch = line_of(row)
-            kind = FamilyKind.SCREW if abs(pitch) > SAME else FamilyKind.LINE
+            kind = FamilyKind.SCREW if abs(pitch) > same else FamilyKind.LINE
             made.append(Family(kind, point, direction, pitch=pitch * (kind is FamilyKind.SCREW)))
     return made
 
 
-def _told(pitches: FloatArray, rows: FloatArray) -> Iterator[FloatArray]:
+def principal_rows(lined: FloatArray, same: float = SAME) -> FloatArray:
+    """(n, 6) the principal screws of rows as of `principal_screws`, with unit axes."""
+    if not len(lined):
+        return lined
+    # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
+    back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
+    form = lined[:, :3] @ lined[:, 3:].T
+    pitches, vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)
+    return np.array(list(_told(pitches, vectors.T @ back @ lined, same)))
+
+
+def _told(pitches: FloatArray, rows: FloatArray, same: float) -> Iterator[FloatArray]:
     """Screws of unit axes at right angles; of those with one pitch the nearest to x, y and z."""
     first = 0
     while first < pitches.size:
-        group = rows[np.abs(pitches - pitches[first]) <= SAME]
+        group = rows[np.abs(pitches - pitches[first]) <= same]
         first += len(group)
         if len(group) == 1:
             yield group[0]
@@ -282,29 +296,32 @@ def _told(pitches: FloatArray, rows: FloatArray) -> Iterator[FloatArray]:
                 yield taken[-1] @ group
 
 
-def _rank(rows: FloatArray) -> int:
+def _rank(rows: FloatArray, same: float) -> int:
     """How many of some rows are independent."""
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
-    return int(np.linalg.matrix_rank(rows / sizes, SAME)) if len(rows) else 0
+    return int(np.linalg.matrix_rank(rows / sizes, same)) if len(rows) else 0
 
 
-def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Family, ...]:
+def families_of(
+    rows: FloatArray, about: FloatArray, length: float, same: float = SAME
+) -> tuple[Family, ...]:
     """The families in the space of some rows, lines first.
 
     Args:
         rows: (k, 6) orthonormal, the first three components times the length.
         about: (3,) the point of the moments [m].
         length: [m].
+        same: What is smaller is zero.
     """
     if not len(rows):
         return ()
-    free, lined = parted(rows)
+    free, lined = parted(rows, same)
     found, spanned = [], [np.zeros((0, 6)), free]
-    for family, span in _lines(np.concatenate((lined, free))):
+    for family, span in _lines(np.concatenate((lined, free)), same):
         found.append(family)
         spanned.append(span)
     found += [directions_of(free)] if len(free) else []
-    found += principal_screws(lined, np.concatenate(spanned), len(rows))
+    found += principal_screws(lined, np.concatenate(spanned), len(rows), same)
     return tuple(sorted((_placed(family, about, length) for family in found), key=_order))
 
 
@@ -318,10 +335,10 @@ def _order(family: Family) -> tuple[int, float, tuple[float, ...]]:
     )
 
 
-def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
+def parted(rows: FloatArray, same: float = SAME) -> tuple[FloatArray, FloatArray]:
     """The directions without a line in a space, and the rest of it, both orthonormal rows."""
     left, sizes, _ = np.linalg.svd(rows[:, :3])
-    count = int(np.sum(sizes > SAME))
+    count = int(np.sum(sizes > same))
     made = left.T @ rows
     made[count:, :3] = 0.0
     free = made[count:]
@@ -333,44 +350,44 @@ def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
     return free, lined - (lined @ free.T) @ free
 
 
-def _lines(rows: FloatArray) -> Iterator[tuple[Family, FloatArray]]:
-    """Each family of lines, and rows that span it."""
+def _lines(rows: FloatArray, same: float) -> Iterator[tuple[Family, FloatArray]]:
+    """Each family of lines, about the middle in parts of the length, and rows that span it."""
     form = rows[:, :3] @ rows[:, 3:].T
     # Of q on the space, in its rows.
     values, vectors = np.linalg.eigh((form + form.T) / 2.0)
-    plus, minus = values > SAME, values < -SAME
+    plus, minus = values > same, values < -same
     rest = vectors[:, ~(plus | minus)].T @ rows
     p, n = int(plus.sum()), int(minus.sum())
     if p == 0 or n == 0:
-        yield from _flat(rest)
+        yield from _flat(rest, same)
     elif p == n == 1:
         up = vectors[:, plus][:, 0] @ rows / np.sqrt(values[plus][0])
         down = vectors[:, minus][:, 0] @ rows / np.sqrt(-values[minus][0])
         for factor in (up + down, up - down):
-            yield from _flat(np.concatenate((factor[None], rest)))
+            yield from _flat(np.concatenate((factor[None], rest)), same)
     elif len(rows) == 3:
-        yield regulus_of(rows, values, vectors), rows
+        yield regulus_of(rows, values, vectors, same), rows
     else:
-        yield _of_reciprocal(rows), rows
+        yield _of_reciprocal(rows, same), rows
 
 
-def _flat(rows: FloatArray) -> Iterator[tuple[Family, FloatArray]]:
+def _flat(rows: FloatArray, same: float) -> Iterator[tuple[Family, FloatArray]]:
     if not len(rows):
         return
-    free, lined = parted(np.linalg.qr(rows.T)[0].T)
+    free, lined = parted(np.linalg.qr(rows.T)[0].T, same)
     if len(lined):
         yield flat_family(free, lined), rows
 
 
-def _of_reciprocal(rows: FloatArray) -> Family:
+def _of_reciprocal(rows: FloatArray, same: float) -> Family:
     """The lines in four or more dimensions, by the one or two that all of them meet."""
     if len(rows) == 6:
         return Family(FamilyKind.EVERY)
     right = np.linalg.svd(np.roll(rows, 3, axis=1))[2]
-    free, lined = parted(right[len(rows) :])
-    met = [family for family, _ in _lines(np.concatenate((lined, free)))]
+    free, lined = parted(right[len(rows) :], same)
+    met = [family for family, _ in _lines(np.concatenate((lined, free)), same)]
     if len(rows) == 5:
-        return _complex(free, lined)
+        return _complex(free, lined, same)
     lines = [family for family in met if family.kind is FamilyKind.LINE]
     points = np.array([line.point for line in lines]).reshape(-1, 3)
     directions = np.array([line.direction for line in lines]).reshape(-1, 3)
@@ -383,10 +400,10 @@ def _of_reciprocal(rows: FloatArray) -> Family:
             points=points,
             directions=directions,
         )
-    return _congruence(right[len(rows) :])
+    return _congruence(right[len(rows) :], same)
 
 
-def _congruence(met: FloatArray) -> Family:
+def _congruence(met: FloatArray, same: float) -> Family:
     """Lines reciprocal to two screws, through points of a circle about the middle."""
     across = np.linalg.svd(met[:, :3])[2]
     points, directions = [], []
@@ -396,7 +413,7 @@ def _congruence(met: FloatArray) -> Family:
         one, other = np.cross(met[:, :3], point) + met[:, 3:]
         way = np.cross(one, other)
         size = float(np.linalg.norm(way))
-        if size > SAME:
+        if size > same:
             points.append(point)
             directions.append(way / size)
     return Family(
@@ -406,12 +423,12 @@ def _congruence(met: FloatArray) -> Family:
     )
 
 
-def _complex(free: FloatArray, lined: FloatArray) -> Family:
+def _complex(free: FloatArray, lined: FloatArray, same: float) -> Family:
     """The lines reciprocal to one screw."""
     if len(free):
         return Family(FamilyKind.ACROSS, direction=free[0, 3:])
     point, direction, pitch = line_of(lined[0])
-    kind = FamilyKind.COMPLEX if abs(pitch) > SAME else FamilyKind.MEETING
+    kind = FamilyKind.COMPLEX if abs(pitch) > same else FamilyKind.MEETING
     return Family(kind, point, direction, pitch=pitch * (kind is FamilyKind.COMPLEX))
 
 
@@ -454,6 +471,8 @@ class ScrewSpace(Frozen):
         of_wrenches: Whether its members are wrenches, not twists.
         planar: Whether it is that of a planar model, with rotations about z and forces in the
             plane alone.
+        tolerance: What is smaller, of its scaled rows, is zero: `SAME`, or `EXACT` of a space that
+            is given and not measured.
     """
 
     basis: FloatArray
@@ -461,6 +480,7 @@ class ScrewSpace(Frozen):
     length: float
     of_wrenches: bool = False
     planar: bool = False
+    tolerance: float = SAME
 
     @property
     def dimension(self) -> int:
@@ -480,12 +500,22 @@ class ScrewSpace(Frozen):
     def of_scaled(self, rows: FloatArray, of_wrenches: bool | None = None) -> ScrewSpace:
         """The space of other scaled rows, about the same point; of twists and wrenches alike."""
         wrenches = self.of_wrenches if of_wrenches is None else of_wrenches
-        return ScrewSpace(rows / self.factors, self.about, self.length, wrenches, self.planar)
+        return ScrewSpace(
+            *(rows / self.factors, self.about, self.length, wrenches, self.planar, self.tolerance)
+        )
 
     @cached_property
     def families(self) -> tuple[Family, ...]:
         """The lines, directions and screws in it (`flexact.advice.spaces.screws`)."""
-        return families_of(self.scaled, self.about, self.length)
+        return families_of(self.scaled, self.about, self.length, self.tolerance)
+
+    @cached_property
+    def principal(self) -> tuple[Family, ...]:
+        """The principal screws, lines among them, then what directions there are."""
+        free, lined = parted(self.scaled, self.tolerance)
+        found = principal_screws(lined, np.zeros((0, 6)), self.dimension, self.tolerance)
+        found += [directions_of(row[None]) for row in canonical(free)]
+        return tuple(_placed(family, self.about, self.length) for family in found)
 
     @property
     def lines(self) -> tuple[Family, ...]:
@@ -533,14 +563,21 @@ class ScrewSpace(Frozen):
     @cached_property
     def directions(self) -> FloatArray:
         """(t, 6) orthonormal rows of its directions: translations, or couples."""
-        return parted(self.scaled)[0] if self.dimension else np.zeros((0, 6))
+        return parted(self.scaled, self.tolerance)[0] if self.dimension else np.zeros((0, 6))
 
     @cached_property
     def span_of_lines(self) -> FloatArray:
         """(n, 6) scaled rows that span its lines, pure rotations or forces."""
         rows = self.scaled
-        spans = [span for _, span in _lines(np.concatenate(parted(rows)))] if len(rows) else []
-        return np.concatenate((rows[:0], *spans))
+        return np.concatenate((rows[:0], *self.spans))
+
+    @cached_property
+    def spans(self) -> tuple[FloatArray, ...]:
+        """(n, 6) scaled rows each: what each family of lines spans."""
+        rows, same = self.scaled, self.tolerance
+        if not len(rows):
+            return ()
+        return tuple(span for _, span in _lines(np.concatenate(parted(rows, same)), same))
 
     @cached_property
     def reciprocal(self) -> ScrewSpace:

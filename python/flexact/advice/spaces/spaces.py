@@ -22,7 +22,7 @@ from ..step import Step
 from .flexures import added_in_words, sheets_for, wire_in_words, wires_for
 from .screws import ScrewSpace
 from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
-from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read, wanted_of
+from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read_all, wanted_of
 from .words import Geometry, space_in_words
 
 
@@ -87,8 +87,9 @@ def spaces_of(
         raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
     if isinstance(wanted, str):
         raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
-    written = [read(each, planar=result.given.planar) for each in wanted]
-    names = [each.body for each in written if each.body is not None]
+    told = [one for each in wanted for one in read_all(each, planar=result.given.planar)]
+    names = [each.body for each in told if each.body is not None]
+    written = [each for each in told if each.kind is not ScrewKind.NONE]
     freed = Freed(result)
     subject = _subject(freed, body if body is not None else next(iter(names), None))
     if subject is None:
@@ -104,9 +105,9 @@ def spaces_of(
     freedom = freed.space(subject)
     is_tried = wires and result.is_told_by_parts
     meant = tuple(wanted_of(result, freedom, each) for each in written)
-    meant = meant or declared_of(result, subject, freedom)
+    meant = meant if told else declared_of(result, subject, freedom)
     aim = Aim.of(freedom, [each.twist for each in meant if each.is_free])
-    besides = not_wanted(result, subject, aim) if written else Change()
+    besides = not_wanted(result, subject, aim) if told else Change()
     site = Site(freed.result, subject)
     return Spaces(
         *(subject, freedom, freedom.reciprocal, meant, len(aim.unwanted), aim.stoppable),
@@ -159,7 +160,7 @@ def spaces_lines(result: Result, spaces: Spaces | None, *, added: bool = True) -
 
 
 def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
-    geometry, body = Geometry(result), body_words(result, spaces)
+    geometry, body = Geometry.of_mechanism(result), body_words(result, spaces)
     start = f"{body[:1].upper()}{body[1:]}"
     free, held = spaces.freedom.dimension, spaces.constraint.dimension
     if free:
@@ -229,7 +230,7 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
 
 def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
     """Wires and sheets that stop what is unwanted."""
-    geometry, count = Geometry(result), spaces.unwanted
+    geometry, count = Geometry.of_mechanism(result), spaces.unwanted
     what = " and nothing that is wanted" if any(each.is_free for each in spaces.wanted) else ""
     single = [each for each in spaces.steps if len(each.change.wires) == 1]
     if single:
@@ -242,7 +243,7 @@ def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
         many = len(step.change.wires)
         if many > 1:
             which = "all" if many == count else in_words(many)
-            items = tuple(wire_in_words(geometry, wire) for wire in step.change.wires)
+            items = tuple(wire_in_words(result, geometry, wire) for wire in step.change.wires)
             yield Line((f"To stop {which} of them, add all of: ",), items)
     sheets = [each for each in spaces.steps if each.change.sheets]
     if sheets:
@@ -259,7 +260,7 @@ def _wanted(geometry: Geometry, wanted: Wanted) -> str:
     line = geometry.line(wanted.point, wanted.direction)
     if wanted.kind is ScrewKind.ROTATION:
         return f"rotation about {line}"
-    return f"a screw about {line}, pitch {geometry.outcome.given.units.said(wanted.pitch, 'm/rad')}"
+    return f"a screw about {line}, pitch {geometry.units.said(wanted.pitch, 'm/rad')}"
 
 
 def dashed_in_words(wires: int) -> str:

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...analysis.decomposition import Decomposition
-from ...analysis.mode_words import line_words
+from ...analysis.limits import SAME_PLACE
+from ...analysis.mode_words import bare_line_words
 from ...analysis.naming import Pieces
 from ...analysis.places import axis_words, listed, part_words, place_words, with_article
 from ...core.arrays import FloatArray
@@ -41,17 +44,37 @@ _IN_PLANE = {
 
 
 class Geometry:
-    """Lines, planes and points of a mechanism in words: by names where something lies there."""
+    """Lines, planes and points in words: by names where something of a mechanism lies there.
 
-    def __init__(self, outcome: Decomposition) -> None:
-        """Of the mechanism as it was given."""
-        self.outcome = outcome
-        self._values = outcome.given.arrays.node_value[:3].T
-        self._near = SAME * outcome.characteristic_length
+    Attributes:
+        units: Of lengths.
+        length: The characteristic length [m].
+        planar: Whether rotations are about points of a plane.
+        outcome: The mechanism as it was given; None where there is none yet.
+    """
+
+    def __init__(
+        self,
+        units: Units,
+        length: float,
+        *,
+        planar: bool = False,
+        outcome: Decomposition | None = None,
+    ) -> None:
+        """Of a mechanism, or of none."""
+        self.units, self.length, self.planar, self.outcome = units, length, planar, outcome
+        self._near = SAME * length
+
+    @classmethod
+    def of_mechanism(cls, outcome: Decomposition) -> Geometry:
+        """That of a mechanism."""
+        given = outcome.given
+        length = outcome.characteristic_length
+        return cls(given.units, length, planar=given.planar, outcome=outcome)
 
     def of(self, family: Family) -> str:
         """What belongs to a family, such as "all lines through A in the plane z = 0.04 m"."""
-        made = self._in_plane(family) if self.outcome.given.planar else ""
+        made = self._in_plane(family) if self.planar else ""
         return made or self._in_space(family)
 
     def _in_space(self, family: Family) -> str:
@@ -74,7 +97,7 @@ class Geometry:
             return f"all lines that meet {listed(sorted(lines))}"
         line = lines[0] if lines else ""
         return _FAMILIES[kind].format(
-            line=line, along=along, normal=normal, pitch=self._units.said(family.pitch, "m")
+            line=line, along=along, normal=normal, pitch=self.units.said(family.pitch, "m")
         )
 
     def _in_plane(self, family: Family) -> str:
@@ -94,7 +117,10 @@ class Geometry:
 
         Without those inside divided sheets, and those that go by a part that ends on a body.
         """
+        if self.outcome is None:
+            return ()
         parts, kinds = self.outcome.parts, self.outcome.given.arrays.node_kind
+        values = self.outcome.given.arrays.node_value[:3].T
         inner = self.outcome.carriers.inner
         nodes = [k for k in np.flatnonzero(kinds <= NodeKind.POSITION).tolist() if k not in inner]
         names = ((k, parts.name_of_point(k)) for k in nodes)
@@ -102,48 +128,48 @@ class Geometry:
             (name, k) for k, name in names if name and with_article(name) == place_words(parts, k)
         ]
         able.sort(key=lambda each: natural(each[0]))
-        return tuple((with_article(name), self._values[k]) for name, k in able)
+        return tuple((with_article(name), values[k]) for name, k in able)
 
     def point(self, place: FloatArray) -> str:
         """A point by its name, or by its coordinates [m]."""
         for name, there in self._named:
             if np.linalg.norm(place - there) <= self._near:
                 return name
-        count = 2 if self.outcome.given.planar else 3
+        count = 2 if self.planar else 3
         numbers = ", ".join(map(self._number, place[:count].tolist()))
-        return f"({numbers}) {self._units.symbol('m')}"
-
-    @property
-    def _units(self) -> Units:
-        return self.outcome.given.units
+        return f"({numbers}) {self.units.symbol('m')}"
 
     def _number(self, value: float) -> str:
-        return "0" if abs(value) < self._near else f"{self._units.shown(value, 'm'):.4g}"
+        return "0" if abs(value) < self._near else f"{self.units.shown(value, 'm'):.4g}"
 
     def line(self, point: FloatArray, direction: FloatArray) -> str:
         """A line by the wire, bar or hinge on it, by a point that has a name, or by numbers."""
-        for part in self._named_parts(PartKind.WIRE, PartKind.BAR, PartKind.HINGE):
-            ends = self._values[list(part.ends)]
+        for part, frame, ends in self._parts(PartKind.WIRE, PartKind.BAR, PartKind.HINGE):
             if not len(ends):
                 continue
             if part.kind is PartKind.HINGE:
-                axis = self.outcome.given.frames.frame[part.elements[0]][:, 0]
+                axis = frame[:, 0]
                 if abs(axis @ direction) > 1.0 - SAME and self._is_on(ends[0], point, direction):
                     return f"the axis of {part_words(part)}"
             elif all(self._is_on(end, point, direction) for end in ends):
                 return f"the line of {part_words(part)}"
-        planar = self.outcome.given.planar
         for name, there in self._named:
             if self._is_on(there, point, direction):
-                if planar and abs(direction[2]) > 0.5:
+                if self.planar and abs(direction[2]) > 0.5:
                     return name
                 return f"the line through {name} along {axis_words(direction)}"
-        return line_words(self.outcome, point, direction)
+        least = SAME_PLACE * self.length
+        return bare_line_words(point, direction, self.units, least, planar=self.planar)
 
-    def _named_parts(self, *kinds: PartKind) -> list[Part]:
-        """Parts of some kinds, by name."""
+    def _parts(self, *kinds: PartKind) -> Iterator[tuple[Part, FloatArray, FloatArray]]:
+        """Parts of some kinds by name, the frame of the first element and the ends of each."""
+        if self.outcome is None:
+            return
+        given = self.outcome.given
         able = [part for part in self.outcome.parts.all if part.kind in kinds]
-        return sorted(able, key=lambda part: natural(part.name))
+        for part in sorted(able, key=lambda part: natural(part.name)):
+            ends = given.arrays.node_value[:3].T[list(part.ends)]
+            yield part, given.frames.frame[part.elements[0]], ends
 
     def _is_on(self, place: FloatArray, point: FloatArray, direction: FloatArray) -> bool:
         return bool(np.linalg.norm(np.cross(place - point, direction)) <= self._near)
@@ -151,19 +177,18 @@ class Geometry:
     def plane(self, family: Family) -> str:
         """The plane of a family, by the sheet in it, by an axis across it, or by numbers."""
         point, normal = family.point, family.normal
-        for part in self._named_parts(PartKind.SHEET):
-            wide = int(self.outcome.parts.wide[part.elements[0]])
+        for part, frame, ends in self._parts(PartKind.SHEET):
+            wide = int(self.outcome.parts.wide[part.elements[0]]) if self.outcome is not None else 0
             if not wide:
                 continue
-            frame = self.outcome.given.frames.frame[part.elements[0]]
             own = np.cross(frame[:, 0], frame[:, wide])
-            off = (self._values[list(part.ends)] - point) @ normal
+            off = (ends - point) @ normal
             if abs(own @ normal) > 1.0 - SAME and np.abs(off).max() <= self._near:
                 return f"the plane of {part_words(part)}"
         across = axis_words(normal)
         if across in ("x", "y", "z"):
             number = self._number(float(point["xyz".index(across)]))
-            return f"the plane {across} = {number} {self._units.symbol('m')}"
+            return f"the plane {across} = {number} {self.units.symbol('m')}"
         return f"the plane through {self.point(point)} perpendicular to {across}"
 
 
@@ -181,7 +206,7 @@ def _family(geometry: Geometry, family: Family, space: ScrewSpace) -> str:
     if family.is_of_directions:
         return f"moments about {words}" if space.of_wrenches else f"translation along {words}"
     if family.kind is FamilyKind.SCREW:
-        units = geometry.outcome.given.units
+        units = geometry.units
         if space.of_wrenches:
             pitch = units.said(family.pitch, "m")
             return f"a force along {words} with a moment about it, pitch {pitch}"

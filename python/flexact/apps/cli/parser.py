@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 VERBS = {
     "analyse": "verdict, counts, motions and self-stresses of decks",
     "advise": "what is wrong with decks and why, and steps that mend it",
+    "design": "layouts of flexures for a wanted freedom, exactly constrained and proven so",
     "cost": "what over-constraint costs: tolerances of clamps, and what each release keeps",
     "table": "stiffness and compliance at a point, along a stroke, and when it is warm",
     "transfer": "what a controller sees: poles, zeros and the response from forces to motion",

@@ -20,6 +20,7 @@ from ...analysis.verdict_words import margin_in_short, verdict_in_short, verdict
 from ...costs.quick_cost import quick_curve
 from ...deck.diagnostics import Diagnostic, Source
 from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
+from ...designs.problem import SUFFIXES
 from ...show.page.assets import text
 from ...show.page.content import content_of
 from ...show.page.scenery import Scenery
@@ -30,6 +31,13 @@ from .editable_model import StepEdit
 
 #: What a script ends with; anything else is a deck.
 SCRIPT = ".py"
+
+
+def is_problem(path: str) -> bool:
+    """Whether a file is watched as a design problem."""
+    return path.lower().endswith(SUFFIXES)
+
+
 #: How many motions, and how many self-stresses, are compared.
 MOST_COMPARED = 12
 #: How many parts of each are compared.
@@ -90,11 +98,6 @@ def _motion(motion: Motion) -> str:
 def _stress(stress: SelfStress) -> str:
     parts = conflict_in_words(stress), *stress_in_parts(stress, _PARTS)[:_PARTS]
     return "; ".join(map(plain, parts))
-
-
-#: What comes before an answer: what a script has printed, and the summary of a result whose scene
-#: is still being made.
-Before = str | ResultSummary
 
 
 @dataclass(frozen=True)
@@ -177,6 +180,27 @@ def shown_of(
 
 
 @dataclass(frozen=True)
+class Laid:
+    """Layouts of a design problem as the page shows them.
+
+    Attributes:
+        title: Of the page, as text.
+        body: What stands within its body.
+        words: What was found, in short.
+        problems: Remarks on the problem, as the terminal has them.
+        files: What it was made of, besides the file that is watched.
+        is_whole: Whether that is all; else more is being sought.
+    """
+
+    title: str
+    body: str
+    words: str
+    problems: str
+    files: tuple[str, ...]
+    is_whole: bool
+
+
+@dataclass(frozen=True)
 class Broken:
     """Why there is no result.
 
@@ -193,7 +217,17 @@ class Broken:
     files: tuple[str, ...]
 
 
-Answer = Shown | Broken
+Answer = Shown | Laid | Broken
+#: What comes before an answer: what a script has printed, the summary of a result whose scene is
+#: still being made, and layouts while more are sought.
+Before = str | ResultSummary | Laid
+
+
+def is_before(heard: Before | Answer) -> bool:
+    """Whether an answer is still to come."""
+    return isinstance(heard, (str, ResultSummary)) or (
+        isinstance(heard, Laid) and not heard.is_whole
+    )
 
 
 def errors_part(error: Exception, path: str) -> str:
@@ -313,13 +347,16 @@ class Scene:
 class Stage:
     """The present scene, which threads may ask for and wait for."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, *, of_layouts: bool = False) -> None:
         """Nothing is shown yet.
 
         Args:
             name: The file, as a person knows it.
+            of_layouts: Whether it is a design problem, whose layouts are shown.
         """
-        self._name = name
+        self._name, self.of_layouts = name, of_layouts
+        self._is_good = False
+        self._laid = ""
         self._summary: ResultSummary | None = None
         self._changed = threading.Condition()
         #: What is shown.
@@ -335,12 +372,24 @@ class Stage:
             scene = replace(
                 before,
                 title=f"{self._name}: {words}",
-                body=before.body if self._summary is not None else answer.body,
+                body=before.body if self._is_good else answer.body,
                 broken=answer.errors,
                 saved=saved,
                 changed_words="",
             )
+        elif isinstance(answer, Laid):
+            words, last = answer.words, self._laid
+            changed = f"{last} {_ARROW} {words}" if last and last != words else words
+            scene = Scene(0, answer.title, answer.body, changed_words=changed, saved=saved)
+            self._is_good = True
+            if not answer.is_whole:
+                # It goes on.
+                scene = replace(scene, changed_words=words, work=before.work, began=before.began)
+                self._show(replace(scene, revision=before.revision + 1))
+                return words
+            self._laid = words
         else:
+            self._is_good = True
             words = answer.summary.verdict
             changed = (
                 changed_words(self._summary, answer.summary) if self._summary is not None else ""

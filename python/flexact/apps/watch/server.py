@@ -25,22 +25,24 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from ...show.page.assets import SCRIPTS, filled, text
+from ...show.page.assets import LAYOUT_SCRIPTS, LAYOUT_STYLES, SCRIPTS, filled, text
 from ...util.errors import BatchError, reason_of
 from ...util.outputs import new_file, temporary_name
 from .scene import Scene, Stage
 
 #: The viewer without what starts a page at once, and what starts this one.
 _SCRIPTS = (*(name for name in SCRIPTS if name != "start.js"), "switches.js", "live.js")
+_OF_LAYOUTS = (*LAYOUT_SCRIPTS, "live.js")
 
 
-def live_page(scene: Scene, start: str, key: str) -> str:
+def live_page(scene: Scene, start: str, key: str, *, of_layouts: bool = False) -> str:
     """The whole page.
 
     Args:
         scene: What it shows.
         start: The start of the server that it comes from.
         key: What it finds out by whether a server is one of this user and file; see `Secrets`.
+        of_layouts: Whether it shows layouts of a design problem.
     """
     body = (
         f'<div class="live" data-revision="{scene.revision if scene.saved else 0}" '
@@ -55,9 +57,10 @@ def live_page(scene: Scene, start: str, key: str) -> str:
         f'<template class="live-broken">{scene.broken}</template>'
         f'<div class="live-scene">{scene.body}</div>'
     )
-    return filled(
-        scene.title, body, _SCRIPTS, ("style.css", "live.css", "switches.css"), connects=True
-    )
+    scripts, styles = _SCRIPTS, ("style.css", "live.css", "switches.css")
+    if of_layouts:
+        scripts, styles = _OF_LAYOUTS, (*LAYOUT_STYLES, "live.css")
+    return filled(scene.title, body, scripts, styles, connects=True)
 
 
 ADDRESS = "127.0.0.1"
@@ -340,7 +343,9 @@ class Handler(BaseHTTPRequestHandler):
         rest = self._admitted(writes=False)
         if rest == "":
             known = self.server.secrets
-            page = live_page(self.server.stage.scene, known.start, known.page_key(known.start))
+            stage = self.server.stage
+            key = known.page_key(known.start)
+            page = live_page(stage.scene, known.start, key, of_layouts=stage.of_layouts)
             self._answer(page.encode("utf-8", "backslashreplace"), "text/html")
         elif rest is not None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")

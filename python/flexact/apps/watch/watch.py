@@ -15,7 +15,7 @@ from ...show.window import opens
 from ...util.errors import BatchError
 from .cad import is_step
 from .edit_session import Session
-from .scene import SCRIPT, Answer, Before, Broken, Stage, errors_part
+from .scene import SCRIPT, Answer, Before, Broken, Laid, Stage, errors_part, is_problem
 from .server import Server
 from .worker_pool import Crew, Worker, WorkerError
 
@@ -128,7 +128,8 @@ class Watch:
         """Start the server; nothing is analysed yet.
 
         Args:
-            path: The deck, the script (.py), or the STEP file (.step, .stp).
+            path: The deck, the script (.py), the STEP file (.step, .stp), or the design problem
+                (.toml, .json).
             renewed: Called with what a save has changed, and the answer.
             printed: Called with what a script prints.
             port: The port; by default a free one.
@@ -141,12 +142,14 @@ class Watch:
         self.path, self._decision = path, decision
         is_script = path.lower().endswith(SCRIPT)
         doing = "running" if is_script else "being read" if is_step(path) else "being analysed"
+        of_layouts = is_problem(path)
+        doing = "being read, and layouts are sought" if of_layouts else doing
         self._work = f"{self.name} is {doing}"
         self._renewed, self._printed = renewed, printed
-        self.stage = Stage(self.name)
+        self.stage = Stage(self.name, of_layouts=of_layouts)
         self.session = Session(Path(path), self.stage)
         self.server = Server(path, self.stage, self.session.post, port)
-        self.crew = Crew(fresh=is_script)
+        self.crew = Crew(fresh=is_script, ready=of_layouts)
         self._saved = Saved(path)
         self._lock = threading.Lock()
         self._number = 0
@@ -182,6 +185,8 @@ class Watch:
         except WorkerError as error:
             worker = error
         threading.Thread(target=self._answer, args=(worker, number), daemon=True).start()
+        # Where the one before was stopped there is none for the next save.
+        threading.Thread(target=self.crew.prepare, daemon=True).start()
 
     def close(self) -> None:
         """Stop everything, and let the pages know."""
@@ -206,7 +211,8 @@ class Watch:
                     return
                 self._saved.also(answer.files)
                 try:
-                    words = self.session.renewed(answer)
+                    is_laid = isinstance(answer, Laid)
+                    words = (self.stage.put if is_laid else self.session.renewed)(answer)
                 except Exception as error:
                     # One that cannot be shown shall not end the watch.
                     answer = _unshown(f"unforeseen {type(error).__name__}: {error}", self.path)
@@ -223,6 +229,8 @@ class Watch:
                 return
             if isinstance(heard, str):
                 self._printed(heard)
+            elif isinstance(heard, Laid):
+                self.stage.put(heard)
             else:
                 self.session.judged(heard)
 

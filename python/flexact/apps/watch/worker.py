@@ -16,6 +16,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from types import ModuleType, TracebackType
 from typing import Any, BinaryIO
@@ -28,11 +29,22 @@ from ...model.model import Model
 from ...model.reading import file_bytes, read_file
 from ...show.page.content import broken_content
 from ...show.window import take_with
+from ...util.loading import load
 from ...util.machine import prepare_libraries
 from ...util.partial import why
 from ..convert.cad.kept_choices import choices_beside
 from .cad import is_step, read_cad
-from .scene import SCRIPT, Answer, Broken, ResultSummary, errors_part, shown_of, summary_of
+from .scene import (
+    SCRIPT,
+    Answer,
+    Before,
+    Broken,
+    Laid,
+    errors_part,
+    is_problem,
+    shown_of,
+    summary_of,
+)
 from .worker_pool import receive, send
 
 #: How many callers of the line that failed are named.
@@ -253,14 +265,15 @@ def _source(path: str) -> Source | None:
 
 def answer_of(
     path: str,
-    judged: Callable[[ResultSummary], None],
+    judged: Callable[[Before], None],
     decision: tuple[Any, ...] = ("auto", None),
 ) -> Answer:
     """What a deck or a script gives; what is wrong with it is an answer too.
 
     Args:
         path: Where it is; a script ends with .py, a STEP file with .step or .stp.
-        judged: Called with the summary, which is there before the scene.
+        judged: Called with the summary, which is there before the scene, and of a problem with
+            layouts while more are sought.
         decision: Arguments of `flexact.analysis.decomposition.asked_for`.
     """
     script = Script(path) if path.lower().endswith(SCRIPT) else None
@@ -270,6 +283,9 @@ def answer_of(
     files: tuple[str, ...] = (str(choices_beside(Path(path))),) if is_step(path) else ()
     result: Result
     try:
+        if is_problem(path):
+            made: Laid = problems_watched().answer_of(path, judged)
+            return made
         if is_step(path):
             mechanism, scenery, cad = read_cad(path)
             result = result_of(mechanism.model.data, asked_for(*decision), mechanism.assembly.name)
@@ -295,6 +311,12 @@ def answer_of(
         files = files if script is None else script.files()
         body = broken_content(error, path).body
         return Broken(errors_part(error, path), body, words, files)
+
+
+@cache
+def problems_watched() -> Any:
+    """What answers design problems, with what it has drawn before; few watch one."""
+    return load("flexact.apps.watch.design").Watched()
 
 
 def main() -> None:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from ...util.errors import FlexactError, reason_of
-from .scene import Answer, Before, ResultSummary
+from .scene import Answer, Before, is_before
 
 _LENGTH = struct.Struct("!Q")
 #: Longer is no value of ours.
@@ -110,7 +110,7 @@ class Worker:
             send(self._jobs, question)
         except OSError:
             raise self._death() from None
-        while isinstance(heard := self._hear(), (str, ResultSummary)):
+        while is_before(heard := self._hear()):
             meanwhile(heard)
         self.is_busy = False
         made: Answer = heard
@@ -175,13 +175,14 @@ def _how(code: int) -> str:
 class Crew:
     """The worker whose answer is shown, and a fresh one for the next script."""
 
-    def __init__(self, *, fresh: bool) -> None:
+    def __init__(self, *, fresh: bool, ready: bool = False) -> None:
         """Start the first worker.
 
         Args:
             fresh: Whether each job takes a process that has done nothing before.
+            ready: Whether another one is to be ready where one at work may be stopped.
         """
-        self._fresh = fresh
+        self._fresh, self._ready = fresh, fresh or ready
         self._lock = threading.Lock()
         self._at_work: Worker | None = None
         self._spare: Worker | None = None
@@ -210,7 +211,7 @@ class Crew:
     def prepare(self) -> None:
         """Have a fresh worker ready, where one will be wanted."""
         with self._lock:
-            if self._fresh and self._spare is None and not self._closed:
+            if self._ready and self._spare is None and not self._closed:
                 # Else it is tried again when it is wanted.
                 with contextlib.suppress(WorkerError):
                     self._spare = Worker()

@@ -54,7 +54,7 @@
       if (this.mounted || this.waking) return;
       this.waking = true;
       try {
-        this.body = this.body || await unpacked(this.querySelector("script.flexact-data"));
+        this.body = this.body || await PageData.unpacked(this.querySelector("script.flexact-data"));
       } finally {
         this.waking = false;
       }
@@ -67,7 +67,7 @@
       this.mounted = Main.mount(this.shadowRoot);
       alive.add(this);
       if (this.view) this.restore();
-      this.mounted.viewers.forEach(listenToWheel);
+      this.mounted.viewers.forEach(Main.scrollPast);
       if (!this.mounted.viewers.length) this.stand();
     }
 
@@ -134,18 +134,6 @@
     }
   }, true);
 
-  /** The wheel scrolls the notebook, until somebody has clicked on the drawing. */
-  function listenToWheel({ stage: { canvas, controls } }) {
-    controls.enableZoom = false;
-    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
-    canvas.addEventListener("focus", () => { controls.enableZoom = true; });
-    canvas.addEventListener("blur", () => { controls.enableZoom = false; });
-    // Two fingers zoom at once.
-    canvas.addEventListener("pointerdown", ({ pointerType }) => {
-      if (pointerType === "touch") controls.enableZoom = true;
-    }, true);
-  }
-
   const nearness = new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) {
       target.near = isIntersecting;
@@ -153,13 +141,6 @@
       else target.sleep();
     }
   }, { rootMargin: MARGIN });
-
-  /** Text that was compressed and written in letters. */
-  async function unpacked({ textContent }) {
-    const bytes = Uint8Array.from(atob(textContent.trim()), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Response(stream).text();
-  }
 
   /** As JupyterLab, VS Code and exported pages tell it; else as the ground is. */
   function themeAround(element) {

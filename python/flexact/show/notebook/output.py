@@ -6,9 +6,7 @@ The viewer is one script for all results of a notebook, and defines their elemen
 
 from __future__ import annotations
 
-import base64
 import contextlib
-import gzip
 import hashlib
 import json
 import re
@@ -36,7 +34,7 @@ from ...model.parts.parts import PartKind, Parts
 from ...util.errors import require_kind
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
-from ..page.assets import SCRIPTS, asset, image, text
+from ..page.assets import SCRIPTS, asset, image, packed, text
 from ..page.content import content_of, kind_of
 from ..picture import has_packages, model_bytes, still_of
 from ..picture.files import fewer_colours
@@ -81,15 +79,9 @@ def script() -> str:
         "made.textContent = await new Response(open).text();"
         "document.head.append(made);"
         "made.remove();"
-        f'}})("{packed(whole)}");'
+        f'}})("{packed(as_bytes(whole))}");'
     )
     return f"<script>{start}</script>"
-
-
-def packed(text: str) -> str:
-    """Text compressed, in letters; the same each time."""
-    content = as_bytes(text)
-    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
 @cache
@@ -226,7 +218,8 @@ def html_of(analysis: Result) -> str:
     body = content_of(analysis, is_short=True).body
     return (
         f"<{tag()}>{_light(analysis)}"
-        f'<script type="application/octet-stream" class="flexact-data">{packed(body)}</script>'
+        '<script type="application/octet-stream" class="flexact-data">'
+        f"{packed(as_bytes(body))}</script>"
         f"</{tag()}>{script() if is_wanted() else ''}"
     )
 

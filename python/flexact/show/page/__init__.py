@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A result as one HTML file that opens offline."""
 
-from .compare import Side, before_and_after, designs_page
+from .compare import Side, before_and_after, designs_page, spaces_page
 from .content import Content, broken_content, broken_page, content_of, page, reason_in_words
 from .index import (
     Entry,
@@ -34,6 +34,7 @@ __all__ = [
     "index_pieces",
     "page",
     "reason_in_words",
+    "spaces_page",
     "unread_entry",
     "with_way_back",
 ]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
 import json
 import re
@@ -125,6 +126,11 @@ TERMS: dict[str, str] = {
 }
 
 
+def packed(content: bytes) -> str:
+    """Bytes compressed, in letters; the same each time."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
+
+
 def text(words: str) -> str:
     """Text as HTML that shows it as it is."""
     return escape(harmless(words))
@@ -228,6 +234,12 @@ SCRIPTS = (
     "main.js",
     "start.js",
 )
+#: Of pages of layouts, whose cards share a viewer, without what starts them; and their styles.
+LAYOUT_SCRIPTS = (
+    *(name for name in SCRIPTS if name != "start.js"),
+    *("finder.js", "plot.js", "layouts.js"),
+)
+LAYOUT_STYLES = ("style.css", "index.css", "charts.css", "layouts.css")
 #: Of pages without a drawing.
 PLAIN_SCRIPTS = ("theme.js", "printing.js", "terms.js", "plain.js")
 

@@ -13,6 +13,7 @@ from ...util.errors import require_kind
 from ...util.text import file_name
 from ..charts import Key
 from ..drawing import drawing_of
+from ..spaces import SpaceShown
 from .assets import (
     PLAIN_SCRIPTS,
     SCRIPTS,
@@ -95,6 +96,7 @@ class Side(NamedTuple):
         words: What is to be known of it, a sentence.
         shaped: Its shapes.
         still: A picture as PNG, for browsers without scripts or WebGL.
+        spaces: Drawn with it.
     """
 
     series: int
@@ -102,6 +104,7 @@ class Side(NamedTuple):
     words: str
     shaped: Shaped
     still: bytes | None
+    spaces: tuple[SpaceShown, ...] = ()
 
 
 def designs_page(
@@ -124,10 +127,6 @@ def designs_page(
         sides: One or two designs that are drawn.
         notes: Sentences below.
     """
-    facts = " ".join(
-        f'<span class="{"name" if k == 0 and name else "fact"}">{text(each)}</span>'
-        for k, each in enumerate(about)
-    )
     rows = (
         row(
             f'<span class="s{each.series} swatch" aria-hidden="true"></span>'
@@ -142,9 +141,7 @@ def designs_page(
     )
     groups = (f'<div class="charts">{"".join(each)}</div>' for each in charts if each)
     body = (
-        '<header class="verdict top"><h1 class="headline">'
-        f"<span>{text(headline)}</span></h1>"
-        f'<p class="about">{facts}</p>{SWITCH}</header>',
+        top(headline, about, is_named=bool(name)),
         f'<main class="{"pair" if sides else "plain"} designs">',
         section("designs", "The designs", table(("design", *key.heads), rows, kind="designs")),
         section("charts", "What each bears and keeps", "".join(groups)),
@@ -159,11 +156,52 @@ def designs_page(
     return filled(title, "\n".join(body), scripts, styles, series_css())
 
 
+def top(headline: str, about: Sequence[str], *, is_named: bool = True) -> str:
+    """The head of a page: the sentence that counts, and facts, the first a name if there is one."""
+    facts = " ".join(
+        f'<span class="{"name" if k == 0 and is_named else "fact"}">{text(each)}</span>'
+        for k, each in enumerate(about)
+    )
+    return (
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(headline)}</span></h1>"
+        f'<p class="about">{facts}</p>{SWITCH}</header>'
+    )
+
+
+def spaces_page(name: str, headline: str, told: Iterable[Line], sides: Sequence[Side]) -> str:
+    """A freedom without a mechanism as a page; arguments as those of `spaces_body`."""
+    body = spaces_body(name, headline, told, sides)
+    return filled(name, body, SCRIPTS, ("style.css", "charts.css"))
+
+
+def spaces_body(name: str, headline: str, told: Iterable[Line], sides: Sequence[Side]) -> str:
+    """What stands in the body of such a page: its spaces, side by side, and words.
+
+    Args:
+        name: What it is called.
+        headline: The sentence that counts.
+        told: Further ones.
+        sides: Its freedom and its constraint.
+    """
+    body = (
+        top(headline, (name,)),
+        '<main class="pair designs">',
+        _drawn(sides),
+        section("notes", "What it takes", paragraphs(told)),
+        "</main>",
+    )
+    return "\n".join(body)
+
+
 def _drawn(sides: Sequence[Side]) -> str:
     if not sides:
         return ""
     frames = frames_of(*(drawing_of(each.shaped.data) for each in sides))
-    every = [shapes_data(each.shaped, frame) for each, frame in zip(sides, frames, strict=True)]
+    every = [
+        shapes_data(each.shaped, frame, each.spaces)
+        for each, frame in zip(sides, frames, strict=True)
+    ]
     marks = [f"design-{k}-" for k in range(len(sides))]
     halves = (
         f'<div class="viewer half"><header class="verdict s{side.series} design">'

@@ -472,6 +472,7 @@ def content_of(
     *,
     has_origin: bool = True,
     is_short: bool = False,
+    room: int = MOST_SHAPES,
     missing: Sequence[str] = (),
     before: tuple[Result, str] | None = None,
     misaligned: dict[str, Any] | None = None,
@@ -485,6 +486,7 @@ def content_of(
         spaces: The freedom space and the constraint space of a body, to be switched on.
         has_origin: Whether it is told of what it was made, and how it is made again.
         is_short: Whether tables and deck are folded away, as among other things.
+        room: Bytes that a movement takes, if it can.
         missing: Sentences on what is left out already.
         before: The result of the mechanism before a step of the advice was done, which is drawn
             beside it, and the step in words.
@@ -506,9 +508,9 @@ def content_of(
         solids = () if scenery is None else scenery.meshes
         around = [mesh.triangles.reshape(-1, 3) for mesh in solids]
         frames = frames_of(*(drawing_of(each.given) for each in shown), around=around)
-        room = FEW_SHAPES if is_short else MOST_SHAPES
         every = zip(shown, frames, (spaces, None), strict=False)
-        datas = [viewer_data(each, frame, space, room) for each, frame, space in every]
+        most = FEW_SHAPES if is_short else room
+        datas = [viewer_data(each, frame, space, most) for each, frame, space in every]
         for each, frame, data in zip(shown, frames, datas, strict=True):
             if scenery is not None:
                 place_scenery(data, each.parts, frame, scenery)

@@ -155,11 +155,12 @@ const Controls = (() => {
 
     listenToView() {
       const { viewers } = this;
-      const [{ stage }] = viewers; // the others are seen from the same side
+      // The others are seen from the same side; of cards there may be none for a while.
+      const first = (act) => viewers.slice(0, 1).forEach(({ stage }) => act(stage));
       for (const button of this.root.querySelectorAll("button[data-view]")) {
-        button.addEventListener("click", () => stage.look(button.dataset.view));
+        button.addEventListener("click", () => first((stage) => stage.look(button.dataset.view)));
       }
-      this.fit.addEventListener("click", () => stage.fit());
+      this.fit.addEventListener("click", () => first((stage) => stage.fit()));
       this.centre.addEventListener("click", () => this.bringHeld());
       for (const input of this.layers) {
         input.addEventListener("change", () => {

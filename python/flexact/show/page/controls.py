@@ -25,6 +25,7 @@ _LAYERS = (
     ("nodes", "names of nodes", False),
 )
 _MOVEMENTS = (
+    ("wanted", "Moves"),
     *(("motion", "Motions"), ("freedom", "Declared degrees of freedom")),
     *(("vibrating", "Vibrates"), ("buckled", "Buckles")),
 )
@@ -166,24 +167,28 @@ def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
     return f"<fieldset><legend>Also drawn</legend>{made}</fieldset>"
 
 
-def finder(kinds: Iterable[tuple[str, str]], orders: Iterable[tuple[str, str]]) -> str:
+def finder(
+    kinds: Iterable[tuple[str, str]],
+    orders: Iterable[tuple[str, str]],
+    what: str = "decks",
+    further: str = "",
+) -> str:
     """The choices, hidden until there is a script.
 
     Args:
         kinds: Classes of cards, each with what it is called, and how many there are.
-        orders: What cards are sorted by, the name of the datum with what it is called.
+        orders: What cards are sorted by, the name of the datum with what it is called; larger
+            ones come later, or first where a minus is before the name.
+        what: What the cards are.
+        further: HTML of further choices.
     """
-    chips = "".join(
-        f'<label class="chip {escape(kind)}"><input type="checkbox" name="kind" '
-        f'value="{escape(kind)}"><span>{text(words)}</span></label>'
-        for kind, words in kinds
-    )
     options = "".join(
         f'<option value="{escape(name)}">{text(words)}</option>' for name, words in orders
     )
+    one = what.removesuffix("s")
     return (
-        '<section class="finder" role="search" aria-label="Find decks" hidden>'
-        f'<fieldset><legend class="unseen">Show only</legend>{chips}</fieldset>'
+        f'<section class="finder" role="search" aria-label="Find {what}" data-what="{one}" hidden>'
+        f"{facet('kind', 'Show only', kinds)}{further}"
         '<div class="group"><label class="find">Find <input type="search" id="find" '
         'autocomplete="off" spellcheck="false" placeholder="name or words"></label>'
         f'<label>Sort by <select id="sort">{options}</select></label>'
@@ -191,3 +196,13 @@ def finder(kinds: Iterable[tuple[str, str]], orders: Iterable[tuple[str, str]]) 
         '<button type="button" id="all">Show all</button></div>'
         '<p id="found" class="note" role="status"></p></section>'
     )
+
+
+def facet(name: str, legend: str, kinds: Iterable[tuple[str, str]]) -> str:
+    """Boxes of one datum of cards: none is as all; each value with what it is called."""
+    chips = "".join(
+        f'<label class="chip {escape(kind)}"><input type="checkbox" name="{name}" '
+        f'value="{escape(kind)}"><span>{text(words)}</span></label>'
+        for kind, words in kinds
+    )
+    return f'<fieldset><legend class="unseen">{legend}</legend>{chips}</fieldset>'

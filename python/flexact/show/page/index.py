@@ -188,7 +188,7 @@ def _name(name: str, page: str) -> str:
     return f'<p class="name">{told}</p>'
 
 
-def _data_of(data: dict[str, Any]) -> str:
+def data_of(data: dict[str, Any]) -> str:
     """What a card is chosen and sorted by: larger numbers come later."""
     return "".join(f' data-{name}="{text(str(value))}"' for name, value in data.items())
 
@@ -226,7 +226,7 @@ def _card(number: int, entry: Entry) -> str:
         _error(entry),
     )
     return (
-        f'<li class="card {kind}"{_data_of(data)}>{picture}'
+        f'<li class="card {kind}"{data_of(data)}>{picture}'
         f'<div class="said">{"".join(parts)}</div></li>\n'
     )
 
@@ -394,7 +394,7 @@ def _pair_card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> s
     else:
         changes = changes_part(pair.change, below_verdicts=True)
     return (
-        f'<li class="card pair {pair.kind}"{_data_of(data)}>{pictures}<div class="said">'
+        f'<li class="card pair {pair.kind}"{data_of(data)}>{pictures}<div class="said">'
         f"{_name(pair.name, pair.page)}{verdicts}{changes}</div></li>\n"
     )
 

@@ -47,7 +47,8 @@ const Live = (() => {
     }
 
     mount() {
-      this.mounted = Main.mount(this.scene);
+      const { mount } = typeof Layouts === "object" ? Layouts : Main;
+      this.mounted = mount(this.scene, this.mounted);
       window.drawings = this.mounted.viewers;
       window.flexact = this.mounted.viewers[0] || null;
       this.root.dispatchEvent(new CustomEvent("flexact-renewed", { detail: this.mounted }));
@@ -155,6 +156,11 @@ const Live = (() => {
       return button;
     }
 
+    /** Whether there is a scene that is kept while the file has errors. */
+    get hasScene() {
+      return this.mounted.shows || this.mounted.viewers.length > 0;
+    }
+
     /** Whether the server is not known to be there, so that nothing is to be sent to its port. */
     get isLost() {
       return this.bar.classList.contains("lost");
@@ -165,7 +171,7 @@ const Live = (() => {
       const fresh = this.revision !== 0;
       this.revision = state.revision;
       document.title = state.title;
-      if (!state.broken || !this.mounted.viewers.length) this.renew(state.body);
+      if (!state.broken || !this.hasScene) this.renew(state.body);
       this.tell(state);
       this.root.dispatchEvent(new CustomEvent("flexact-told", { detail: state }));
       if (!fresh) return;
@@ -190,7 +196,7 @@ const Live = (() => {
 
     tell({ changed_words: changed, which, saved, broken }) {
       const errors = this.part("live-errors");
-      const isKept = broken && this.mounted.viewers.length > 0;
+      const isKept = broken && this.hasScene;
       this.bar.classList.toggle("errs", Boolean(broken));
       this.bar.classList.toggle("alone", Boolean(broken) && !isKept);
       errors.hidden = !isKept;

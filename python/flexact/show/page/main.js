@@ -15,8 +15,7 @@ const Main = (() => {
   function mount(root) {
     const ending = new AbortController();
     const found = Array.from(root.querySelectorAll(".viewer"))
-      .map((each) => ({ root: each, data: PageData.read(each) }))
-      .map(({ root: each, data }) => ({ root: each, data, context: contextOf(each, data) }));
+      .map(opened);
     const viewers = found.every(({ context }) => context) ? found.map(make) : [];
     const toolbar = viewers.length ? show(root, viewers, ending.signal) : null;
     Theme.listen(root, () => viewers.forEach((viewer) => viewer.dress()), ending.signal);
@@ -27,6 +26,12 @@ const Main = (() => {
       for (const { stage } of viewers) stage.dispose();
     };
     return { viewers, dispose, ...Views.of(root, viewers, toolbar) };
+  }
+
+  /** A drawing that is about to start: its data, and its context, if there can be one. */
+  function opened(root) {
+    const data = PageData.read(root);
+    return { root, data, context: contextOf(root, data) };
   }
 
   function contextOf(root, data) {
@@ -92,6 +97,18 @@ const Main = (() => {
     viewer.pointing.doubled = (found) => found && viewer.visit(viewer.targetOf(found));
   }
 
+  /** The wheel scrolls past a drawing, until somebody has clicked on the drawing. */
+  function scrollPast({ stage: { canvas, controls } }) {
+    controls.enableZoom = false;
+    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+    canvas.addEventListener("focus", () => { controls.enableZoom = true; });
+    canvas.addEventListener("blur", () => { controls.enableZoom = false; });
+    // Two fingers zoom at once.
+    canvas.addEventListener("pointerdown", ({ pointerType }) => {
+      if (pointerType === "touch") controls.enableZoom = true;
+    }, true);
+  }
+
   /** Words beside the pointer. */
   function tell(viewer, found) {
     const tip = viewer.part("tip");
@@ -113,5 +130,5 @@ const Main = (() => {
     return made;
   }
 
-  return { mount };
+  return { mount, opened, make, link, scrollPast };
 })();

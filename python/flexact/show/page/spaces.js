@@ -81,8 +81,8 @@ const Spaces = (() => {
       return this.groups.filter(({ visible }) => visible).flatMap(({ ways }) => ways);
     }
 
-    show(which) {
-      this.groups.forEach((group, k) => { group.visible = k === which; });
+    show(...which) {
+      this.groups.forEach((group, k) => { group.visible = which.includes(k); });
     }
 
     /** On a dark page the colours are lighter. */

@@ -17,6 +17,7 @@ const Stage = (() => {
     constructor(canvas, context, { planar, iso }) {
       Object.assign(this, { canvas, planar, iso });
       this.peers = []; // stages that are seen from the same side
+      this.apart = false; // of cards each has its own middle and size
       this.frames = 0; // drawn so far
       this.fitted = false; // and not been turned, moved or zoomed since
       this.swing = (look) => look(); // calls `look` in every pose that is to have room
@@ -65,7 +66,7 @@ const Stage = (() => {
       }
       controls.addEventListener("change", () => {
         this.fitted = false;
-        this.lead();
+        if (!this.follows) this.lead();
         this.request();
       });
       this.controls = controls;
@@ -146,7 +147,7 @@ const Stage = (() => {
     }
 
     /** Centre what is drawn and fill the canvas with it, in every pose that it takes. */
-    fit() {
+    fit(leads = true) {
       this.camera.updateMatrixWorld();
       const axes = [0, 1, 2].map((k) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
       const [low, high] = this.reach(axes);
@@ -159,9 +160,11 @@ const Stage = (() => {
       this.camera.updateProjectionMatrix();
       const middle = axes.reduce((sum, axis, k) =>
         sum.addScaledVector(axis, (low[k] + high[k]) / 2), new Vector3());
+      this.follows = !leads;
       this.centre(...middle);
+      this.follows = false;
       this.fitted = true;
-      this.lead();
+      if (leads) this.lead();
     }
 
     /** Have the others seen from where this one is seen. */
@@ -171,6 +174,14 @@ const Stage = (() => {
 
     adopt({ camera, controls, fitted }) {
       const { position, quaternion, zoom } = camera;
+      if (this.apart) {
+        const way = position.clone().sub(controls.target);
+        this.camera.position.copy(this.controls.target).add(way);
+        this.camera.quaternion.copy(quaternion);
+        if (fitted) this.fit(false);
+        this.request();
+        return;
+      }
       this.camera.position.copy(position);
       this.camera.quaternion.copy(quaternion);
       this.camera.zoom = zoom;
@@ -188,7 +199,7 @@ const Stage = (() => {
         low[k] = Math.min(low[k], value);
         high[k] = Math.max(high[k], value);
       });
-      for (const { swing, scene } of [this, ...this.peers]) swing(() => eachPlace(scene, take));
+      for (const { swing, scene } of this.apart ? [this] : [this, ...this.peers]) swing(() => eachPlace(scene, take));
       return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
     }
 

@@ -328,6 +328,9 @@ def _placed(points: list[FloatArray], frame: Frame) -> FloatArray:
 
 #: Pieces of a bent member, which mostly is a part of a divided sheet.
 _PIECES = 4
+#: The same in a small drawing, and bytes that a movement takes there, if it can; up to so many
+#: lines are thick in it.
+_SOME_PIECES, _SMALL, _FEW_LINES = 8, 10_000, 12
 
 
 class Shape(NamedTuple):
@@ -356,8 +359,8 @@ class Shaped(NamedTuple):
     shapes: Sequence[Shape]
 
 
-def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
-    """What a viewer draws of shapes; as many of them as fit.
+def shapes_data(shaped: Shaped, frame: Frame, spaces: Sequence[SpaceShown] = ()) -> dict[str, Any]:
+    """What a viewer draws of shapes; as many of them as fit; and of spaces, the first at once.
 
     At first it is how it buckles, else the second that vibrates, as the first is meant: the lowest
     parasitic one where a drive is free.
@@ -370,9 +373,9 @@ def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
         "segments": tracks.segments,
         "movements": _fitting(_swings(shaped, tracks)),
         "stresses": [],
-        "spaces": [],
+        "spaces": [_space(each, frame, f"{each.words}.") for each in spaces],
         "held": [],
-        "first": [("movement", str(first))] if kinds else [],
+        "first": [("movement", str(first))] if kinds else [("space", "0")] * bool(spaces),
     }
 
 
@@ -390,6 +393,30 @@ def _swings(shaped: Shaped, tracks: Tracks) -> Iterator[tuple[dict[str, Any], in
         data, added = tracks.movement(movement)
         told = {"kind": each.kind, "label": each.label, "title": title, "note": note}
         yield {**told, **data}, added
+
+
+def motions_data(
+    parts: Parts, frame: Frame, motions: Sequence[tuple[str, Moving]], spaces: Sequence[SpaceShown]
+) -> dict[str, Any]:
+    """What a small viewer draws: motions, each with what it is called, and spaces; no stresses."""
+    tracks = Tracks(frame, _SOME_PIECES, _SMALL)
+    played = [
+        {"kind": "wanted", "label": label, "title": label, "note": "", **tracks.movement(made)[0]}
+        for label, made in ((label, move(frame.drawing, motion)) for label, motion in motions)
+    ]
+    return {
+        **static_data(parts, frame, tracks.segments),
+        "reference": tracks.data(),
+        "segments": tracks.segments,
+        "movements": played,
+        "stresses": [],
+        "spaces": [
+            {**_space(each, frame, f"{each.words}."), "bold": len(each.shape.lines) <= _FEW_LINES}
+            for each in spaces
+        ],
+        "held": [],
+        "first": [("movement", "0")] * bool(played),
+    }
 
 
 def viewer_data(

@@ -14,6 +14,7 @@ from .make import (
     model_bytes,
     picture_bytes,
     shape_bytes,
+    spaces_bytes,
     still_of,
 )
 
@@ -27,5 +28,6 @@ __all__ = [
     "model_bytes",
     "picture_bytes",
     "shape_bytes",
+    "spaces_bytes",
     "still_of",
 ]

@@ -6,7 +6,7 @@ from __future__ import annotations
 import logging
 import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from numbers import Real
@@ -26,6 +26,7 @@ from ...util.partial import attempted
 from ...util.text import harmless, in_short
 from ..drawing import Drawing, drawing_of, swing
 from ..drawing.view import View, view_of
+from ..spaces import SpaceShown
 from ..writers import MOVING, PICTURES, VIDEOS
 from .canvas import Box
 from .figure import compose
@@ -331,6 +332,40 @@ def shape_bytes(
 
     told = (f"{name}: {words}", "") if kind in MOVING else (name, words)
     return _bytes(data, subjects, None, kind, told, view, size, plain)
+
+
+def spaces_bytes(
+    data: ModelData,
+    shown: Sequence[SpaceShown],
+    title: str,
+    suffix: str = ".png",
+    *,
+    view: str | None = None,
+    size: tuple[int, int] | None = None,
+    plain: bool = False,
+) -> bytes:
+    """A picture of spaces, side by side, as the content of a file.
+
+    Args:
+        data: The model with which they are drawn, such as a body alone.
+        shown: The spaces.
+        title: Of the file.
+        suffix: `.png`, `.svg` or `.pdf`.
+        view: As of `draw`.
+        size: Width and height [px].
+        plain: Whether titles and captions are left out.
+
+    Raises:
+        PictureError: There is no such kind of picture, or a package is missing.
+        BatchError: There is no such view.
+    """
+    kind = check_suffix(suffix)
+    if kind in MOVING:
+        raise PictureError("freedom and constraint spaces do not move: they are a PNG or an SVG")
+    check_packages(kind)
+    subjects = [Subject(harmless(each.title), space=each) for each in shown]
+    told = (harmless(title), "")
+    return _bytes(data, lambda _: subjects, None, kind, told, view, size, plain)
 
 
 #: Frames of a cycle, and of a full turn; how long each stands [ms].
