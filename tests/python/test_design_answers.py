@@ -41,7 +41,7 @@ def wrong(problem: Json, folder: Path, *options: str) -> list[str]:
     return found
 
 
-@pytest.mark.dear(8)
+@pytest.mark.dear(4)
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_the_answer_to_a_problem_holds(name: str, tmp_path: Path) -> None:
     assert wrong(PROBLEMS[name], tmp_path) == []
@@ -55,7 +55,7 @@ WAYS = {
 }
 
 
-@pytest.mark.dear(2)
+@pytest.mark.dear(1)
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", ["hinge", "screw", "three_skew_rotations", "guide_folded"])
 def test_a_moved_problem_has_the_same_layouts(name: str, way: str, tmp_path: Path) -> None:
@@ -68,7 +68,7 @@ def test_a_moved_problem_has_the_same_layouts(name: str, way: str, tmp_path: Pat
 RANDOM = list(random_freedoms.problems(2 * len(random_freedoms.FREEDOMS)))
 
 
-@pytest.mark.dear(4)
+@pytest.mark.dear(3)
 @pytest.mark.parametrize("problem", RANDOM, ids=lambda problem: str(problem["id"]))
 def test_the_answer_to_a_random_freedom_holds(problem: Json, tmp_path: Path) -> None:
     """In free space every freedom has a layout, and one in parallel turns little with errors."""

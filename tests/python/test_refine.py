@@ -16,6 +16,7 @@ import flexact
 from flexact.costs.request import RequestError
 from flexact.designs.measures import ASKED, Design, How, box_of
 from flexact.designs.optimum import METHODS, Measured, Parameter, SearchError, search
+from flexact.designs.refine import refined as refined_by
 from flexact.designs.varied import Variation, bounds_of
 from flexact.elasticity.errors import ElasticError
 from flexact.util.units import METRES, MILLIMETRES
@@ -146,6 +147,29 @@ def test_what_is_asked_has_the_closed_forms_of_a_parallel_guide() -> None:
         assert ASKED[name].of(design) == pytest.approx(value, rel=4e-3), name
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_worst_stiffness_is_across_the_rotation_also_where_it_has_turned(angle: float) -> None:
+    # Sheets of 50 mm that cross at (0.03, 0.04): the body turns about that line.
+    model = cross_hinge(H=0.08, B=0.06, w=0.03, t=2e-4)
+    how = How(2, None, (angle,) if angle else (), True, bool(angle), "hinge body", 0.05)
+    worst, drive = Design(model, how).stiffness()
+    mechanism = flexact.elastic(model, beams=2)
+    state = mechanism.undeformed()
+    if angle:
+        (state,) = mechanism.along("hinge body", "rz", [angle])
+    scale = np.array([1, 1, 1, 0.05, 0.05, 0.05])
+    stiff = np.linalg.inv(state.compliance("hinge body") * np.outer(scale, scale))
+    # The velocity of (0.06, 0.08) is z times its distance from the axis, turned by the angle.
+    c, s = math.cos(angle), math.sin(angle)
+    free = np.array([-c * 0.04 - s * 0.03, -s * 0.04 + c * 0.03, 0, 0, 0, 0.05])
+    free /= np.linalg.norm(free)
+    assert drive == pytest.approx(free @ stiff @ free, rel=1e-6)
+    # The least across: that of a matrix in which what is along is made very stiff.
+    across = np.eye(6) - np.outer(free, free)
+    least = np.linalg.eigvalsh(across @ stiff @ across + 1e15 * np.outer(free, free))[0]
+    assert worst == pytest.approx(least, rel=1e-5)
+
+
 def exact_guide() -> flexact.Model:
     """A sheet, and two wires in a plane beside it: it moves along y, and is exact."""
     model = flexact.Model(name="four-bar guide")
@@ -221,7 +245,7 @@ def test_sheet_that_is_pressed_is_as_thin_as_buckling_permits() -> None:
         evaluations=60,
     )
     assert found.values["t"] == pytest.approx(math.sqrt(2 * pressed * 3 * LONG) / math.pi, rel=1e-2)
-    assert found.active == ("buckling",)
+    assert found.active == ("least buckling",)
     # Thinner than 1/sqrt(2) of that it has buckled, and has no state.
     assert any("it buckles before the end" in each.failure for each in found.evaluations)
 
@@ -331,7 +355,7 @@ def test_room_has_the_widths_in_it() -> None:
 def box(values: Mapping[str, float]) -> Measured:
     """The largest box of a surface: of 6 m2 the cube of 1 m3."""
     a, b, c = values.values()
-    return Measured(a * b * c, {"surface": 2 * (a * b + b * c + c * a) / 6.0})
+    return a * b * c, {"surface": 2 * (a * b + b * c + c * a) / 6.0}
 
 
 SIDES = [Parameter(name, 0.1, 10.0, "m") for name in "abc"]
@@ -344,6 +368,19 @@ def test_every_method_finds_the_cube(method: str) -> None:
     assert len(found.evaluations) <= 600
     rough = method in ("Nelder-Mead",)
     assert found.best.objective == pytest.approx(1.0, rel=5e-3 if rough else 2e-4)
+
+
+@pytest.mark.parametrize("method", ["auto", "differential evolution"])
+def test_lowest_of_the_six_hollows_of_the_camel(method: str) -> None:
+    # Dixon and Szego 1978: -1.0316 at (0.0898, -0.7126) and its image.
+    def camel(values: Mapping[str, float]) -> Measured:
+        x, y = values.values()
+        return (4 - 2.1 * x**2 + x**4 / 3) * x**2 + x * y + (4 * y**2 - 4) * y**2, {}
+
+    sides = [Parameter("x", -3.0, 3.0), Parameter("y", -2.0, 2.0, start=1.9)]
+    found = search(sides, camel, maximise=False, method=method)
+    assert found.best is not None
+    assert found.best.objective == pytest.approx(-1.0316285, abs=1e-5)
 
 
 @pytest.mark.parametrize("fails", [lambda v: v["a"] > 1.5, lambda v: v["a"] < 0.8])
@@ -518,6 +555,43 @@ def test_over_constrained_designs_are_refused_unless_that_is_asked() -> None:
         flexact.refine(cross_hinge, BOX, **{**STROKE, "over_constrained": False})
 
 
+def test_force_of_a_drive_that_turns_is_its_moment() -> None:
+    small: dict[str, Any] = {**STROKE, "moment": None, "starts": 1, "evaluations": 6}
+    found = flexact.refine(cross_hinge, BOX, **small, force="2.5 Nm")
+    assert [each.name for each in found.bounds] == ["stress", "drive moment"]
+    with pytest.raises(RequestError, match=r"the limit of drive moment: .*, which is a force"):
+        flexact.refine(cross_hinge, BOX, **small, force="2.5 N")
+
+
+def test_quantity_between_two_limits() -> None:
+    found = flexact.refine(
+        guide(),
+        ["thickness of sheet *: 0.1..1 mm"],
+        maximise="stiffness x",
+        limits=["first frequency <= 30 Hz", "first frequency >= 20 Hz"],
+        starts=1,
+        evaluations=30,
+    )
+    assert found.use["first frequency"] == pytest.approx(1.0, abs=1e-4)
+    assert found.use["least first frequency"] == pytest.approx(2 / 3, abs=1e-4)
+    told = " ".join(found.describe().split())
+    assert "30 Hz (at most 30 Hz), first frequency 30 Hz (at least 20 Hz)" in told
+
+
+def test_limits_of_the_values_alone_are_kept() -> None:
+    variation = Variation(guide(), ["t = thickness of sheet *: 0.1..1 mm"])
+    found = refined_by(
+        *(variation.parameters, variation.model, "drive stiffness", True, ()),
+        How(1, None, (), True, False, None, 0.02),
+        also=lambda values: {"sheets on stock": values["t"] / 0.7e-3},
+        starts=1,
+        evaluations=30,
+    )
+    assert found.values["t"] == pytest.approx(0.7e-3, rel=1e-4)
+    assert found.active == ("sheets on stock",)
+    assert "sheets on stock" in found.describe()
+
+
 def test_designs_that_are_constrained_otherwise_have_no_state() -> None:
     # With an angle of nothing both sheets hold the same.
     def build(a: float) -> flexact.Model:
@@ -568,10 +642,12 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"stroke": "stage:z=+-1mm"}, "no coordinate 'z'"),
     ({"drive": ("sheet 1", "y"), "stroke": 1e-4}, "sheet 1"),
     ({"moment": 1.0, "stroke": 1e-4}, "it has a force, which force= limits"),
+    ({"force": "1 Nm", "stroke": 1e-4}, "the limit of drive force: .*, which is a moment"),
     ({"buckling": "much", "stroke": 1e-4}, "the limit of buckling"),
     ({"size": (1, 2)}, "three sides"),
     ({"limits": ["first frequency above 3"]}, "a limit is written"),
     ({"limits": ["frist frequency >= 3"]}, "did you mean 'first frequency'"),
+    ({"limits": ["stress <= 3 MPa"], "stress": 3e6, "stroke": 1e-4}, "stress is limited twice"),
     ({"limits": ["room >= much"]}, "the limit of room is a number"),
     ({"point": "nowhere", "maximise": "worst stiffness"}, "nowhere"),
     ({"starts": 0}, "starts is a whole number from 1"),
@@ -620,6 +696,14 @@ def test_all_that_is_wrong_is_told_at_once() -> None:
 def test_nonsense_about_functions(vary: Any, told: str) -> None:
     with pytest.raises(RequestError, match=told):
         flexact.refine(lambda t: guide(t=t), vary, maximise="drive stiffness")
+
+
+@pytest.mark.parametrize("start", [{"t": 1.0}, {"t": "thin"}, {"q": 1e-3}, 3])
+def test_starts_are_between_the_bounds(start: Any) -> None:
+    with pytest.raises(RequestError, match="start"):
+        flexact.refine(
+            lambda t: guide(t=t), {"t": (1e-4, 1e-3)}, maximise="drive stiffness", start=start
+        )
 
 
 def test_what_is_no_model() -> None:

@@ -8,11 +8,13 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
 from ..analysis.naming import filled
+from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.records import Frozen, cached_property
@@ -20,7 +22,7 @@ from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
 from .explain import Explanation, explain, explained_json, nearby
-from .frame import Scaled, scaled
+from .frame import Scaled, rounded, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
 from .layers import layered
@@ -29,7 +31,6 @@ from .layouts import (
     Layout,
     counted,
     flexures_of,
-    in_a_row,
     middle_of,
     model_of,
     plural,
@@ -62,6 +63,8 @@ _OF_A_KIND = 10
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
 #: layouts with bodies between are sought where none are needed.
 _SYMMETRIC, _FEW_KINDS = 2, 3
+#: How many layouts in layers, and with limbs, are looked at.
+_WITH_BODIES = 8
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -190,12 +193,15 @@ def sizes_of(problem: Problem) -> Sizes:
     limits, size = problem.limits, problem.size
 
     def two(pair: tuple[float, float]) -> tuple[float, float]:
-        return pair[0] / size, pair[1] / size
+        return one(pair[0]), one(pair[1])
+
+    def one(length: float) -> float:
+        return float(rounded(np.array(length / size)))
 
     return Sizes(
         *(two(limits.length), two(limits.width)),
-        *(middle_of(limits.thickness) / size, middle_of(limits.diameter) / size),
-        limits.clearance / size,
+        *(one(middle_of(limits.thickness)), one(middle_of(limits.diameter))),
+        one(limits.clearance),
         problem.material.E / problem.material.G,
     )
 
@@ -330,9 +336,11 @@ class _Search:
         problem, sizes = self.problem, self.stock.place.sizes
         if problem.limits.bodies < 1 or self.held is not None:
             return
-        for source in (layered, limbs):
+        # Layers have seldom a symmetry, limbs often.
+        for source in (limbs, layered) if asked else (layered, limbs):
             found = source(problem, self.frame, sizes, problem.limits.kinds)
-            yield "", (each for each in found if asked is None or is_symmetric(each, asked))
+            fits = (each for each in found if asked is None or is_symmetric(each, asked))
+            yield "", islice(fits, _WITH_BODIES)
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""
@@ -391,9 +399,13 @@ class _Search:
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
+#: Scores that a scale changes by one factor in all layouts of a problem.
+_SCALED = {"worst_stiffness", "drive_stiffness", "turns_with_errors", "thermal_drift", "room"}
+
+
 def _much_alike(one: Layout, other: Layout) -> bool:
-    """Whether all scores of two layouts are nearly the same."""
-    keys = set(one.scores) & set(other.scores)
+    """Whether two layouts are nearly the same in all that does not depend on how large they are."""
+    keys = set(one.scores) & set(other.scores) & _SCALED
     return all(
         abs(one.scores[key] - other.scores[key])
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
@@ -466,7 +478,7 @@ def described(designs: Designs, width: int) -> Iterator[str]:
 def found_in_words(designs: Designs) -> str:
     """How many flexures fit the regions, and how many layouts there are."""
     every = designs.candidates.items()
-    counts = in_a_row([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
+    counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
     many = len(designs.layouts)
     of = f" of {designs.found} found" if designs.found > many else ""
     layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"

@@ -20,7 +20,7 @@ from ..core.arrays import FloatArray
 from ..util.text import number_in_words
 from .candidates import Place, Sizes, boxes_of
 from .choice import clear_of
-from .frame import Scaled, turned_screws
+from .frame import Scaled, rounded, turned_screws
 from .layouts import kinds_in_words
 from .possible import layers_of
 from .problem import Box, Problem
@@ -110,7 +110,8 @@ def layered(
         kinds: Of the flexures.
     """
     factors = np.repeat((problem.size, 1.0), 3)
-    typed = [turned_screws(frame.turn, motion.twist * factors) for motion in problem.wanted]
+    wanted = [motion.twist * factors / problem.size for motion in problem.wanted]
+    typed = [rounded(turned_screws(frame.turn, twist)) for twist in wanted]
     stocks = Stocks(frame, sizes)
     over = problem.limits.over_constraint
     seen: set[frozenset[bytes]] = set()

@@ -7,12 +7,14 @@ import math
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from ..advice.spaces.screws import ScrewSpace
 from ..advice.spaces.subjects import Freed, subject_named
+from ..analysis.places import listed
 from ..api import Analysis, analyse
 from ..core.arrays import FloatArray
 from ..model.model import Model
@@ -199,7 +201,7 @@ def _body_calls(name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]
         yield Call("body", (list(points),), {"name": name})
         return
     corners = points[: len(arms)]
-    for pair in zip(corners, corners[1:], strict=False):
+    for pair in pairwise(corners):
         yield Call("body", (list(pair),), {"name": name})
     for point in points[len(arms) :]:
         near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))
@@ -398,7 +400,7 @@ def counted(flexures: Sequence[Flexure]) -> str:
 def kinds_in_words(forms: Sequence[str]) -> str:
     """Kinds of flexures, one for each, such as "a sheet and two wires"."""
     counts = Counter(forms)
-    return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
+    return listed([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
 
 
 def _many(count: int, form: str) -> str:
@@ -409,12 +411,6 @@ def _many(count: int, form: str) -> str:
 def plural(kind: str) -> str:
     """Several flexures of a kind."""
     return kind if kind == "bellows" else f"{kind}es" if kind.endswith("ch") else f"{kind}s"
-
-
-def in_a_row(items: Sequence[str]) -> str:
-    """Items as a sentence has them: "a, b and c"."""
-    *first, last = items
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:

@@ -26,11 +26,12 @@ from ..elasticity.stresses import Sections
 from ..model.model import Model
 from ..show.charts import typed
 from ..util.records import Frozen, cached_property
-from ..util.rotations import matrix_of_euler
+from ..util.rotations import matrix_of, matrix_of_euler
 from ..util.units import Units
 
 #: Places before each end of a stroke at which a design must not have buckled, where that is asked.
 _BETWEEN = 4
+_COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 #: A stiffness that is larger than the softest one times this is rigid.
 _RIGID = 1.0e14
 #: Motions with singular values below this part of the largest are none.
@@ -193,13 +194,9 @@ class Design:
         scaled = state.compliance(self.point) * np.outer(size, size)
         values, vectors = np.linalg.eigh(scaled)
         stiff = (vectors / np.maximum(values, values[-1] / _RIGID)) @ vectors.T
-        freedom = self._freedom(names, point.position) * size
-        if len(point.nodes) == 2 and state.drive is not None and not state.model.data.planar:
-            euler = state.finest.raw.configuration[:4, point.nodes[1]]
-            turned = np.kron(np.eye(2), matrix_of_euler(euler))
-            freedom = freedom @ turned.T
+        freedom = self._freedom(state, names) * size
         _, singular, rows = np.linalg.svd(freedom)
-        rank = int((singular > 1.0e-9 * singular.max(initial=1.0e-300)).sum())
+        rank = int((singular > _NONE * singular.max(initial=1.0e-300)).sum())
         along, across = rows[:rank], rows[rank:]
         if not rank or not len(across):
             return float(np.linalg.eigvalsh(stiff)[0]) if not rank else math.inf, math.nan
@@ -208,17 +205,21 @@ class Design:
             float(np.linalg.eigvalsh(along @ stiff @ along.T)[-1]),
         )
 
-    def _freedom(self, names: Sequence[str], node: int) -> FloatArray:
-        """(d, coordinates) how the point moves where declared coordinates do."""
+    def _freedom(self, state: State, names: Sequence[str]) -> FloatArray:
+        """(d, coordinates) how the point moves where declared coordinates do, turned with it."""
+        position, orientation = state.model.points.of(self.point)
+        turned = np.eye(3)
+        if orientation >= 0 and state.model.data.planar:
+            turned = matrix_of(np.array([0.0, 0.0, state.finest.raw.configuration[0, orientation]]))
+        elif orientation >= 0:
+            turned = matrix_of_euler(state.finest.raw.configuration[:, orientation])
         rows = []
-        number = int(self.locked.data.arrays.node_number[node])
         for freedom in self.locked.result.freedoms:
-            if freedom.motion is None:
-                continue
-            displacement, rotation = freedom.motion.at(number)
-            turn = np.zeros(3) if rotation is None else rotation
-            both = dict(zip(("x", "y", "z", "rx", "ry", "rz"), (*displacement, *turn), strict=True))
-            rows.append([both[name] for name in names])
+            motion = freedom.motion
+            if motion is not None:
+                turn = motion.rotation[orientation] if orientation >= 0 else np.zeros(3)
+                both = np.concatenate([turned @ motion.displacement[position], turned @ turn])
+                rows.append(both[[_COORDINATES.index(name) for name in names]])
         return np.array(rows).reshape(-1, len(names))
 
 
@@ -245,7 +246,7 @@ ASKED: dict[str, Asked] = {
             lambda d, name=name: d.along(name),  # type: ignore[misc]
             ("point",),
         )
-        for name in ("x", "y", "z", "rx", "ry", "rz")
+        for name in _COORDINATES
     },
     "stress": Asked("Pa", Design.largest_stress, ("stroke", "section")),
     "drive force": Asked("N", Design.largest_force, ("stroke", "force")),
@@ -288,6 +289,11 @@ class Bound(Frozen):
     name: str
     value: float
     is_least: bool
+
+    @property
+    def key(self) -> str:
+        """What it is called beside others."""
+        return f"least {self.name}" if self.is_least else self.name
 
     def use(self, found: float) -> float:
         """How far it is used: at most 1 keeps it."""

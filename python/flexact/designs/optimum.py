@@ -88,13 +88,9 @@ class Parameter(Frozen):
         return (inside - self.low) / (self.high - self.low)
 
 
-class Measured(NamedTuple):
-    """What was found of one design."""
-
-    objective: float
-    """What is to be better."""
-    use: Mapping[str, float]
-    """How far each limit is used: at most 1 keeps it. Always the same names."""
+#: What was found of a design: what is to be better, and how far each limit is used, by name. At
+#: most 1 keeps a limit; the names are always the same.
+Measured = tuple[float, Mapping[str, float]]
 
 
 @dataclass(frozen=True, eq=False)

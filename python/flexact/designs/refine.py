@@ -94,8 +94,8 @@ def refine(
     Ctrl-C ends the search, and gives the best so far. The same seed looks at the same designs.
 
     Args:
-        of: A model, a layout, an analysis, the path of a deck, or a function that makes a model of the
-            parameters, `build(H=..., t=...)`.
+        of: A model, a layout, an analysis, the path of a deck, or a function that makes a model of
+            the parameters, `build(H=..., t=...)`.
         vary: What is varied, and between which bounds: of a model texts (`designs.varied`), of a
             function two numbers by name, as it takes them.
         maximise: What is to be large: "first frequency", "first parasitic frequency" (the drive
@@ -109,8 +109,8 @@ def refine(
             ("stage", "rz", 0, 0.5).
         drive: Point and coordinate; by default the only declared one.
         stress: The largest normal stress at the ends of the stroke [Pa], as `State.peak_stress`.
-        force: Of the drive there, at most [N].
-        moment: Likewise of a rotary drive [N m].
+        force: Of the drive there, at most [N]; of a drive that turns its moment [N m].
+        moment: Likewise, of a drive that turns alone.
         buckling: By how much the stress there may grow at least until it buckles; with it the
             states on the way are looked at. True: by nothing. A design that has buckled at an end
             has no state in any case.
@@ -167,7 +167,11 @@ def refine(
         wrong.append(f"progress is something to call, not {in_short(progress)}")
     tried(method_of, method)
     bounds: list[Bound] = []
-    for name, value in {"stress": stress, "drive force": force, "drive moment": moment}.items():
+    asked = None if first is None else tried(_stroke, stroke, drive, first, units)
+    # "force" is the moment of a drive that turns, as everywhere.
+    is_turn = asked is not None and bool(asked[1]) and asked[3] == "rad"
+    acts = "drive moment" if is_turn else "drive force"
+    for name, value in (("stress", stress), (acts, force), ("drive moment", moment)):
         if value is not None:
             bounds.append(tried(_bound, name, value, units))
     if buckling is not None and buckling is not False:
@@ -177,10 +181,10 @@ def refine(
     further = [limits] if isinstance(limits, str) else limits
     bounds += [tried(_limit, each, units) for each in further]
     bounds = [each for each in bounds if each is not None]
-    names = [each.name for each in bounds]
-    if twice := [name for name in dict.fromkeys(names) if names.count(name) > 1]:
+    keys = [each.key for each in bounds]
+    if twice := [key for key in dict.fromkeys(keys) if keys.count(key) > 1]:
         wrong.append(f"{listed(twice)} is limited twice")
-    asked = None if first is None else tried(_stroke, stroke, drive, first, units)
+    names = [each.name for each in bounds]
     names += [goal] if isinstance(goal, str) else []
     if asked is not None and not asked[1]:
         without = [name for name in dict.fromkeys(names) if "stroke" in ASKED[name].needs]
@@ -254,32 +258,30 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
             "the parameters of a function are given by name with two bounds, such as "
             'vary={"t": (0.2e-3, 1e-3)}'
         )
+    if start is not None and not isinstance(start, Mapping):
+        raise RequestError(f"start has a number by name, it is not {in_short(start)}")
+    begin = {} if start is None else start
     wrong, parameters = [], []
     for name, given in vary.items():
-        pair = tuple(given) if isinstance(given, (tuple, list, np.ndarray)) else ()
-        numbers = [
-            each
-            for each in pair
-            if isinstance(each, (int, float, np.number)) and math.isfinite(each)
-        ]
-        if not isinstance(name, str) or len(numbers) != 2 or len(pair) != 2:
+        pair = list(given) if isinstance(given, (tuple, list, np.ndarray)) else []
+        numbers = [float(each) for each in pair if _is_number(each)]
+        if not isinstance(name, str) or len(pair) != 2 or len(numbers) != 2:
             wrong.append(f"{in_short(name)} has two numbers as bounds, not {in_short(given)}")
-        elif not numbers[0] < numbers[1]:
-            how = "the same" if numbers[0] == numbers[1] else "the wrong way round"
+            continue
+        low, high = numbers
+        if not low < high:
+            how = "the same" if low == high else "the wrong way round"
             wrong.append(f"the bounds of {in_short(name)} are {how}")
+        elif name in begin and not (_is_number(begin[name]) and low <= begin[name] <= high):
+            told = f"{low:g} and {high:g}, not {in_short(begin[name])}"
+            wrong.append(f"the start of {in_short(name)} is between its bounds {told}")
         else:
-            low, high = map(float, numbers)
-            begin = None if start is None else start.get(name)
-            parameters.append(
-                Parameter(name, low, high, "", None if begin is None else float(begin))
-            )
+            parameters.append(Parameter(name, low, high, "", begin.get(name)))
     if not vary:
         wrong.append('nothing is varied: say what, such as vary={"t": (0.2e-3, 1e-3)}')
-    wrong += [
-        f"start has {in_short(name)}, which is not varied"
-        for name in start or ()
-        if name not in vary
-    ]
+    for name in begin:
+        if name not in vary:
+            wrong.append(f"start has {in_short(name)}, which is not varied")
     try:
         inspect.signature(build).bind(**{str(name): None for name in vary})
     except TypeError as error:
@@ -302,6 +304,11 @@ def _source(of: object, vary: Any, start: Mapping[str, float] | None) -> _Source
         return made
 
     return tuple(parameters), model_of, _begun(parameters)
+
+
+def _is_number(given: object) -> bool:
+    is_one = isinstance(given, (int, float, np.number)) and not isinstance(given, bool)
+    return is_one and math.isfinite(given)  # type: ignore[arg-type]
 
 
 def _begun(parameters: Iterable[Parameter]) -> dict[str, float]:
@@ -405,14 +412,14 @@ def _sizes(size: Any, units: Units) -> list[Bound]:
 
 def _stroke(
     stroke: Any, drive: tuple[object, str] | None, first: Model, units: Units
-) -> tuple[tuple[object, str] | None, tuple[float, ...], bool]:
-    """The drive, the ends of its stroke in SI, and whether these count from rest.
+) -> tuple[tuple[object, str] | None, tuple[float, ...], bool, str]:
+    """The drive, the ends of its stroke in SI, whether these count from rest, and their unit.
 
     Raises:
         RequestError, QuantityError: it is not understood, not there, fixed, or nothing.
     """
     if drive is None and stroke is None:
-        return None, (), True
+        return None, (), True, ""
     given = stroke if isinstance(stroke, (tuple, list, np.ndarray)) else [stroke]
     is_named = (isinstance(stroke, str) and ":" in stroke) or len(given) == 4
     is_offset = True
@@ -438,7 +445,7 @@ def _stroke(
     if first.data.arrays.coordinate_class[coordinate.axis, coordinate.node] == Class.FIXED:
         raise RequestError(f"{points.words(coordinate)} is fixed and cannot drive")
     if stroke is None:
-        return drive, (), True
+        return drive, (), True, points.unit(coordinate)
     unit = points.unit(coordinate)
     ends = []
     for end in given:
@@ -461,7 +468,7 @@ def _stroke(
     away = tuple(dict.fromkeys(end for end in ends if end != rest))
     if not away:
         raise RequestError("the stroke is nothing: it ends where it begins")
-    return drive, away, is_offset
+    return drive, away, is_offset, unit
 
 
 def _lasting(first: Model, point: object) -> object:
@@ -590,8 +597,8 @@ def refined(
         if (result.over_constrained, result.under_constrained) != over:
             raise ElasticError("it is constrained otherwise than at the beginning")
         design.require_stable()
-        use = {b.name: b.use(ASKED[b.name].of(design)) for b in bounds}
-        return Measured(of(design), {**use, **further})
+        use = {b.key: b.use(ASKED[b.name].of(design)) for b in bounds}
+        return of(design), {**use, **further}
 
     unit_ = "" if known is None else known.unit
     units = begun.model.data.units

@@ -135,7 +135,9 @@ class Refined(Frozen):
                     ),
                 ]
             )
-        return table(rows, USUAL)
+        told = table(rows, USUAL)
+        # Without the values where there is no room for them beside each other.
+        return told if told.count("\n") < len(rows) else table([row[:5] for row in rows], USUAL)
 
     def describe(self) -> str:
         """What was found, what holds it there, how it was searched, and what is proven."""
@@ -145,7 +147,7 @@ class Refined(Frozen):
             from_ = (
                 ""
                 if math.isnan(self.before)
-                else f"; it was {said(self.before, self.unit, self.units)}"
+                else f"; it began at {said(self.before, self.unit, self.units)}"
             )
             first = f"{name} {self.at}: {told}{from_}."
         else:
@@ -163,11 +165,11 @@ class Refined(Frozen):
         if self.bounds:
             kept = []
             for each in self.bounds:
-                found = said(each.found(self.use[each.name]), ASKED[each.name].unit, self.units)
+                found = said(each.found(self.use[each.key]), ASKED[each.name].unit, self.units)
                 limit = each.words(self.units).removeprefix(f"{each.name} ")
                 kept.append(f"{each.name} {found} ({limit})")
             lines.append(f"Limits: {', '.join(kept)}.")
-        further = [n for n in self.use if n not in {b.name for b in self.bounds}]
+        further = [n for n in self.use if n not in {b.key for b in self.bounds}]
         if further:
             lines.append(
                 "Further: " + ", ".join(f"{n} {self.use[n]:.3g} of it" for n in further) + "."
@@ -191,7 +193,7 @@ class Refined(Frozen):
         words = f"Searched by {self.method}: {count} designs"
         if failing:
             why = most_frequent([each.failure for each in self.evaluations if each.failure])
-            words += f", {failing} of them without a state ({why})"
+            words += f", {failing} of them without a state ({why.split(';')[0]})"
         ends = [best.objective for k in range(1, self.starts + 1) if (best := self.best_of(k))]
         many = number_in_words(self.starts)
         if self.is_interrupted:

@@ -253,7 +253,10 @@ class Variation:
         if what in _SIZES:
             elements = list(flexures[name].elements)
             if not self.walls.is_known[elements].all():
-                raise RequestError(f"no section of {name} is known: give it one, and a material")
+                raise RequestError(
+                    f"no section of {name} is known: give it one and a material, in a deck "
+                    "CROSSTYPE and CROSSDIM of BEAMPROPS"
+                )
             is_round = self.data.appearance.cross_section[elements[0]] == CrossSection.CIRC
             if what == "diameter" and not is_round:
                 raise RequestError(f"{name} has no diameter: its section is a rectangle")
