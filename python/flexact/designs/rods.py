@@ -11,7 +11,8 @@ All of the first three are notches to users.
 Their sizes follow from the limits of a problem. A notch is as thin as a sheet, as broad as a sheet,
 and circular, its radius ten times the thickness, if rods are long enough for that. A neck is as
 thick as a wire, and six times as long. The outer diameter of a bellows is the mean breadth of a
-sheet, or the least where that leaves no room; its convolutions have the proportions of `flexact.model.bellows`.
+sheet, or the least where that leaves no room; its convolutions have the proportions of
+`flexact.model.bellows`.
 
 What flexures hold is as stiff as all their pieces in a row, with what they release left to turn.
 """
