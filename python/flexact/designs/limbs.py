@@ -47,8 +47,8 @@ from .layers import (
 from .layouts import kinds_in_words
 from .possible import orthonormal, possible
 from .problem import Box, Problem
-from .rooms import Boxes, asides, hull_of
-from .search import Arrangement, Found, Part, Stock, recipes
+from .rooms import Boxes, are_apart, asides, hull_of
+from .search import Arrangement, Found, Part, Stock, recipes, symmetric_sets
 
 #: How far the forces of a limb's wires must pass by its hinge, and how much of the wrench that a
 #: limb holds must be in no other part of W that is held.
@@ -113,7 +113,11 @@ def _moved(found: Found, turn: FloatArray) -> Found:
 
 
 def limbs(
-    problem: Problem, frame: Scaled, sizes: Sizes, kinds: Sequence[str]
+    problem: Problem,
+    frame: Scaled,
+    sizes: Sizes,
+    kinds: Sequence[str],
+    asked: Group | None = None,
 ) -> Iterator[Arrangement]:
     """Layouts of limbs, and of plain wires for the forces of W, one of each kind before others.
 
@@ -122,13 +126,14 @@ def limbs(
         frame: The same in its own frame.
         sizes: What flexures may measure.
         kinds: Of the flexures; none without wires.
+        asked: Under which the layout is to be its own image; None where it need not be.
     """
     found = possible(frame.space)
     _, couples, pitched = found.limbs
     count = couples + pitched
     if "wire" not in kinds or not 0 < count <= problem.limits.bodies:
         return
-    search = _Search(frame, sizes, kinds, found.constraint.scaled, found.forces.scaled)
+    search = _Search(frame, sizes, kinds, found.forces.scaled, asked)
     wrenches = wrenches_of(found.constraint.scaled, found.forces.scaled, bool(pitched))
     is_first = True
     for is_hanging, limit in ((False, _SPENT), (True, 2 * _SPENT)):
@@ -287,8 +292,8 @@ class _Search:
         frame: The problem in its own frame.
         sizes: What flexures may measure.
         kinds: Of flexures.
-        constraint: (k, 6) orthonormal rows of W.
-        held: (f, 6) orthonormal rows of what wires hold of it.
+        held: (f, 6) orthonormal rows of what wires hold of W.
+        asked: Under which a layout is to be its own image; None where it need not be.
     """
 
     def __init__(
@@ -296,12 +301,12 @@ class _Search:
         frame: Scaled,
         sizes: Sizes,
         kinds: Sequence[str],
-        constraint: FloatArray,
         held: FloatArray,
+        asked: Group | None,
     ) -> None:
         """Nothing is sought yet."""
         self.frame, self.sizes, self.kinds = frame, sizes, kinds
-        self.constraint, self.held = constraint, held
+        self.held, self.asked = held, asked
         self.stage, self.ground = boxes_of(frame.stage), boxes_of(frame.ground)
         self.stocks = Stocks(frame, sizes)
 
@@ -310,7 +315,7 @@ class _Search:
     ) -> Iterator[Arrangement]:
         """Layouts whose bodies are in boxes that are given, or beside the stage."""
         if count > 1 and not self.frame.intermediate:
-            for group in _turns(self.frame.freedom, count):
+            for group in _turns(self.frame.freedom, count, self.asked):
                 for (boxes,) in self.places(1):
                     if self.stocks.spent > _TURNED:
                         break
@@ -413,7 +418,7 @@ class _Search:
     ) -> Iterator[Arrangement]:
         """Layouts of limbs that are images of each other."""
         sector = Sector.around(hull_of(boxes), group, count, (self.stage, self.ground), self.sizes)
-        if sector is None:
+        if sector is None or not self.is_clear_turned(hull_of(boxes), sector.turns):
             return
         tried = 0
         for wrench in wrenches:
@@ -432,6 +437,13 @@ class _Search:
                     yield layout
                     return
 
+    def is_clear_turned(self, box: Box, turns: FloatArray) -> bool:
+        """Whether images of a body stay out of what is to be kept out of."""
+        corners = points_of((box,), 2)
+        images = (corners @ turn.T for turn in turns)
+        hulls = tuple(Box(image.min(axis=0), image.max(axis=0)) for image in images)
+        return are_apart(hulls, self.frame.keep_out, self.sizes.clearance)
+
     def completed(
         self, together: Sequence[Limb], solid: Sequence[Box], group: Group | None
     ) -> Arrangement | None:
@@ -449,7 +461,11 @@ class _Search:
             plain = None
             for recipe in recipes(len(self.held), self.kinds):
                 if all(len(stock.candidates(kind)) for kind in set(recipe)):
-                    plain = next(iter(self.stocks.sets_beside(stock, recipe, avoided)), None)
+                    made = []
+                    if group is not None:
+                        made = symmetric_sets(stock.beside(avoided), group, recipe)
+                    made = made or self.stocks.sets_beside(stock, recipe, avoided)
+                    plain = made[0] if made else None
                 if plain is not None:
                     break
             if plain is None:
@@ -472,13 +488,16 @@ def _complement(rows: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.svd(rows)[2][len(rows) :])
 
 
-def _turns(freedom: FloatArray, count: int) -> Iterator[Group]:
+def _turns(freedom: FloatArray, count: int, asked: Group | None) -> Iterator[Group]:
     """Groups of turns that keep a freedom, of which so many images are taken."""
-    for order in (3,) if count == 3 else (4, 3):
-        for axis in np.eye(3)[::-1]:
-            group = group_of(order, axis)
-            if keeps(freedom, group.turns):
-                yield group
+    if asked is not None:
+        made = [asked] if asked.order == count else []
+    else:
+        orders = (3,) if count == 3 else (4, 3)
+        made = [group_of(order, axis) for order in orders for axis in np.eye(3)[::-1]]
+    for group in made:
+        if keeps(freedom, group.turns):
+            yield group
 
 
 # One limb -------------------------------------------------------------------------------
