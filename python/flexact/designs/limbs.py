@@ -133,7 +133,7 @@ def limbs(
     count = couples + pitched
     if "wire" not in kinds or not 0 < count <= problem.limits.bodies:
         return
-    search = _Search(frame, sizes, kinds, found.forces.scaled, asked)
+    search = _Search(frame, sizes, kinds, found.forces.scaled, count, asked)
     wrenches = wrenches_of(found.constraint.scaled, found.forces.scaled, bool(pitched))
     is_first = True
     for is_hanging, limit in ((False, _SPENT), (True, 2 * _SPENT)):
@@ -293,6 +293,7 @@ class _Search:
         sizes: What flexures may measure.
         kinds: Of flexures.
         held: (f, 6) orthonormal rows of what wires hold of W.
+        count: How many limbs.
         asked: Under which a layout is to be its own image; None where it need not be.
     """
 
@@ -302,11 +303,14 @@ class _Search:
         sizes: Sizes,
         kinds: Sequence[str],
         held: FloatArray,
+        count: int,
         asked: Group | None,
     ) -> None:
         """Nothing is sought yet."""
         self.frame, self.sizes, self.kinds = frame, sizes, kinds
         self.held, self.asked = held, asked
+        # A single limb is to be its own image, several may be images of each other.
+        self.own = asked if count == 1 else None
         self.stage, self.ground = boxes_of(frame.stage), boxes_of(frame.ground)
         self.stocks = Stocks(frame, sizes)
 
@@ -348,7 +352,7 @@ class _Search:
                 return None
             chosen.append(limb)
         solid = [box for boxes in places for box in boxes]
-        return self.completed(chosen, solid, None)
+        return self.completed(chosen, solid, self.own)
 
     def next_limb(
         self,
@@ -388,7 +392,7 @@ class _Search:
             *(np.zeros((0, 6)), *of_pair, (*self.frame.keep_out, *solid, *beside), self.sizes)
         )
         through = points_of(boxes, _FINE)
-        for pair in itertools.islice(pairs(place, wrench, sector), _PAIRS):
+        for pair in itertools.islice(pairs(place, wrench, sector, self.own), _PAIRS):
             if not is_clear(pair, avoided, self.sizes.clearance):
                 continue
             candidates, first = pair.chosen.members[0]
@@ -396,6 +400,8 @@ class _Search:
             for axis in itertools.islice(
                 hinges(through, wrench, candidates.rows[first, 0]), _HINGES
             ):
+                if self.own is not None and not keeps(axis[None], self.own.turns):
+                    continue
                 stock = self.stocks.between(axis[None], *of_hinge, [*solid, *beyond])
                 if sector is not None:
                     stock = sector.stock(stock)
@@ -408,7 +414,10 @@ class _Search:
         made = recipes(len(stock.constraint), self.kinds)
         for recipe in sorted(made, key=lambda each: ("sheet" not in each, len(each))):
             if all(len(stock.candidates(kind)) for kind in set(recipe)):
-                found = self.stocks.sets_beside(stock, recipe, avoided, _STARTS)
+                if self.own is not None:
+                    found = symmetric_sets(stock.beside(avoided), self.own, recipe)
+                else:
+                    found = self.stocks.sets_beside(stock, recipe, avoided, _STARTS)
                 if found:
                     return found[0]
         return None
@@ -503,13 +512,19 @@ def _turns(freedom: FloatArray, count: int, asked: Group | None) -> Iterator[Gro
 # One limb -------------------------------------------------------------------------------
 
 
-def pairs(place: Place, wrench: FloatArray, sector: Sector | None = None) -> Iterator[Found]:
+def pairs(
+    place: Place,
+    wrench: FloatArray,
+    sector: Sector | None = None,
+    group: Group | None = None,
+) -> Iterator[Found]:
     """Two wires of which one combination is a wrench, the stiffest first, in unlike directions.
 
     Args:
         place: Between which regions.
         wrench: (6,) of unit length.
         sector: In which they have to be, if they are to have images.
+        group: Under which they have to be their own images, if any.
     """
     is_couple = np.linalg.norm(wrench[:3]) <= TINY
     ends = _parallel(place, wrench[3:]) if is_couple else _skew(place, wrench)
@@ -532,6 +547,12 @@ def pairs(place: Place, wrench: FloatArray, sector: Sector | None = None) -> Ite
             side = 0 if place.here is sector.stage else 1
             clear &= sector.has(ends[:, k, side], np.zeros_like(ends[:, k, side]), side)
             clear &= sector.is_around(strips[:, None])
+    for turn in group.turns[1:] if group is not None else ():
+        image = ends @ turn.T
+        each = [
+            np.abs(image - other).max(axis=(1, 2, 3)) <= TINY for other in (ends, ends[:, ::-1])
+        ]
+        clear &= each[0] | each[1]
     order = [n for n in np.argsort(-np.round(stiffness / area, 6), kind="stable") if clear[n]]
     told: list[FloatArray] = []
     for n in order:
