@@ -345,7 +345,7 @@ class _Search:
             return
         # Layers have seldom a symmetry, limbs often.
         for source in (limbs, layered) if asked else (layered, limbs):
-            found = source(problem, self.frame, sizes, problem.limits.kinds)
+            found = source(problem, self.frame, sizes, problem.limits.kinds, asked)
             fits = (each for each in found if asked is None or is_symmetric(each, asked))
             yield "", islice(fits, _WITH_BODIES)
 
