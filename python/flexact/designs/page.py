@@ -22,6 +22,8 @@ from ..analysis.freedoms import Freedom, together
 from ..analysis.naming import Line, line_of
 from ..api import Analysis, analyse
 from ..show.drawing import Moving, drawing_of
+from ..show.notebook.output import SMALL, shown
+from ..show.notebook.output import table as notebook_table
 from ..show.page.assets import (
     FEW_SHAPES,
     LAYOUT_SCRIPTS,
@@ -50,10 +52,10 @@ from ..util.partial import attempted
 from ..util.text import harmless, number_in_words
 from .design import Designs, confirmed, found_in_words
 from .explain import Explanation, nearby
-from .explain_files import sides_of
+from .explain_files import in_one_line, sides_of
 from .files import slug, stem_of
-from .layouts import COORDINATES, Flexure, Layout, counted, declared
-from .problem import Problem
+from .layouts import COORDINATES, Flexure, Layout, declared, in_a_row, plural
+from .problem import KINDS, Problem
 from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, unit_rows
 
 #: A twist whose part along a coordinate is less than this of the largest does not move it.
@@ -141,7 +143,7 @@ class Cards:
         data = {
             "key": key,
             "number": number,
-            "kind": slug(counted(layout.flexures)),
+            "kind": slug(kinds_of(layout)),
             "held": "over" if layout.over_constrained else "exact",
             "best": "best" if is_best else "other",
             "place": place,
@@ -210,6 +212,43 @@ def without_layouts(designs: Designs, title: str) -> Content:
     statement = "" if why is None else f": {why.statement}"
     body = spaces_body(title, f"No layout{statement}", [head, *told], sides_of(explanation))
     return Content(f"{title}: no layout", body)
+
+
+def html_of(designs: Designs) -> str:
+    """What a notebook shows: what is wanted, and a table of the layouts with pictures."""
+    wanted = text(in_one_line(designs.explanation.lines[0]))
+    if not designs.layouts:
+        why = "" if designs.why_none is None else f": {text(designs.why_none.statement)}"
+        return f"<div><p>{wanted}</p><p><b>No layout</b>{why}</p></div>"
+    keys = ordered_columns(designs.layouts)
+    heads = ("", "layout", *(f"{SCORES[key].head} {SCORES[key].under}".strip() for key in keys))
+    best = pareto(designs.layouts)
+    rows = [
+        (
+            in_notebook(layout),
+            f"<b>{layout.number}</b>&nbsp; {text(layout.what)}{' \N{BLACK STAR}' * is_best}",
+            *(text(cell(key, layout)) for key in keys),
+        )
+        for layout, is_best in zip(designs.layouts, best, strict=True)
+    ]
+    told = text(f"{found_in_words(designs)} {confirmed(designs)}")
+    star = text(_STAR) if any(best) and not all(best) else ""
+    table_ = notebook_table(heads, rows)
+    return f"<div><p>{wanted}</p>{table_}<p><small>{told} {star}</small></p></div>"
+
+
+def in_notebook(layout: Layout) -> str:
+    """A small picture of what the flexures hold, where it can be made."""
+    if not has_packages():
+        return ""
+
+    def drawn() -> str:
+        given = layout.model.data
+        *_, held = spaces_of(layout, drawing_of(given).size)
+        made = spaces_bytes(given, [held], layout.what, size=SMALL, plain=True)
+        return shown(made, SMALL, layout.what)
+
+    return attempted("The picture", drawn, "", None)
 
 
 # What is drawn
@@ -350,11 +389,25 @@ def taken(layout: Layout, deck: str, is_whole: bool) -> str:
     )
 
 
+def kinds_of(layout: Layout) -> str:
+    """Of which kinds its flexures are, such as "sheets and wires"."""
+    there = {flexure.kind for flexure in layout.flexures}
+    return in_a_row([plural(kind) for kind in (*KINDS[1:], KINDS[0]) if kind in there] or ["none"])
+
+
+#: What the mark of the Pareto set means.
+_STAR = "\N{BLACK STAR} No other layout is better in stiffness, drive, frequency or parts without a loss."
+
+
+def ordered_columns(layouts: Sequence[Layout]) -> list[str]:
+    """Keys of the columns of a table; that by which they are ordered first, as on phones alone."""
+    rank = layouts[0].problem.rank
+    return sorted(columns_of(layouts, rank), key=lambda key: key != rank[0])
+
+
 def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     """All layouts in a table, and in a chart whose axes are chosen where there are scripts."""
-    rank = layouts[0].problem.rank
-    # That by which they are ordered stands first; on a phone it stands alone.
-    keys = sorted(columns_of(layouts, rank), key=lambda key: key != rank[0])
+    keys = ordered_columns(layouts)
     heads = ("layout", *(f"{SCORES[key].head} {SCORES[key].under}" for key in keys))
     rows = (
         row(
@@ -388,11 +441,7 @@ def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     size = 1.0e3 * layouts[0].problem.size
     notes = [f"Turns are compared with displacements at L = {size:.4g} mm."]
     if any(best) and not all(best):
-        notes.insert(
-            0,
-            "\N{BLACK STAR} No other layout is better in stiffness, drive, frequency or parts "
-            "without a loss.",
-        )
+        notes.insert(0, _STAR)
     note = f'<p class="note">{text(" ".join(notes))}</p>'
     whole = f'<div class="scores">{table(heads, rows, kind="designs")}{note}</div>'
     return section("compared", "Compared", f'<div class="both">{chart}{whole}</div>')
@@ -431,7 +480,7 @@ def moving() -> str:
 
 def finder_of(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     """What chooses and sorts the cards: kinds, how they are held, ranges of scores."""
-    counts = Counter(counted(layout.flexures) for layout in layouts)
+    counts = Counter(map(kinds_of, layouts))
     kinds = [(slug(words), f"{words} ({count})") for words, count in counts.items()]
     over = sum(layout.over_constrained > 0 for layout in layouts)
     held = [("exact", "exactly constrained"), ("over", "over-constrained")]
