@@ -226,7 +226,7 @@ def html_of(designs: Designs) -> str:
     rows = [
         (
             in_notebook(layout),
-            f"<b>{layout.number}</b>&nbsp; {text(layout.what)}{' \N{BLACK STAR}' * is_best}",
+            f"<b>{layout.number}</b>&nbsp; {text(layout.what)}" + _MARK * is_best,
             *(text(cell(key, layout)) for key in keys),
         )
         for layout, is_best in zip(designs.layouts, best, strict=True)
@@ -372,7 +372,7 @@ def taken(layout: Layout, deck: str, is_whole: bool) -> str:
         f'<div class="text" data-file="{text(name)}"><p><b>{title}</b> <code>{text(name)}</code>'
         '<button type="button" class="copy" hidden>Copy</button>'
         '<button type="button" class="save" hidden>Save</button></p>'
-        f'<pre tabindex="0" aria-label="{title}"><code>{text(content)}</code></pre></div>'
+        f'<pre tabindex="0" aria-label="{title}"><code>{in_lines(content)}</code></pre></div>'
         for _, title, name, content in parts
     )
     solids = (
@@ -389,14 +389,23 @@ def taken(layout: Layout, deck: str, is_whole: bool) -> str:
     )
 
 
+def in_lines(content: str) -> str:
+    """A text of several lines as HTML."""
+    return "\n".join(map(text, content.splitlines()))
+
+
 def kinds_of(layout: Layout) -> str:
     """Of which kinds its flexures are, such as "sheets and wires"."""
     there = {flexure.kind for flexure in layout.flexures}
     return in_a_row([plural(kind) for kind in (*KINDS[1:], KINDS[0]) if kind in there] or ["none"])
 
 
-#: What the mark of the Pareto set means.
-_STAR = "\N{BLACK STAR} No other layout is better in stiffness, drive, frequency or parts without a loss."
+#: The mark of the Pareto set, and what it means.
+_MARK = " \N{BLACK STAR}"
+_STAR = (
+    f"{_MARK.strip()} No other layout is better in stiffness, drive, frequency or parts without "
+    "a loss."
+)
 
 
 def ordered_columns(layouts: Sequence[Layout]) -> list[str]:
@@ -413,7 +422,7 @@ def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
         row(
             f'<a href="#card-{layout.number}"><span class="number">{layout.number}</span> '
             f"{text(layout.what)}</a>"
-            + ('<span class="star" title="Pareto set"> \N{BLACK STAR}</span>' if is_best else ""),
+            + (f'<span class="star" title="Pareto set">{_MARK}</span>' if is_best else ""),
             *(
                 f'<span class="head" aria-hidden="true">{text(head)}</span>'
                 f"<span>{text(cell(key, layout, unit=not SCORES[key].under.startswith('N/um')))}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact watch``: the page of a deck, a script, CAD or a problem, renewed whenever it is saved."""
+"""``flexact watch``: the page of a deck, a script, CAD or a problem, renewed with each save."""
 
 from __future__ import annotations
 

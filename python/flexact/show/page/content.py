@@ -111,7 +111,8 @@ def deck_part(
         "".join(_told(item) for item in at[0]),
         note,
         f"<details{opened}><summary>{summary}</summary>"
-        f'<div class="deck" role="group" aria-label="{what.lower()}" tabindex="0">{shown}</div></details>',
+        f'<div class="deck" role="group" aria-label="{what.lower()}" tabindex="0">{shown}</div>'
+        "</details>",
     )
 
 
