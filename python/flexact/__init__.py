@@ -55,6 +55,9 @@ With stiffness and mass
     shape, Shape: the shape in which it vibrates or buckles
     cost, Cost: what over-constraint costs, and what each release gains
 
+Better designs
+    refine, Refined: lengths, thicknesses and places that are best within limits
+
 Many variants, and paths
     sweep, grid, Table: variants of a design in one table
     Crossing, Crossings: the singular variants between its rows
@@ -106,6 +109,8 @@ if _typing.TYPE_CHECKING:
     from .designs.design import Designs, design
     from .designs.layouts import Layout
     from .designs.reading import box
+    from .designs.refine import refine
+    from .designs.refined import Refined
     from .elasticity import (
         Elastic,
         ElasticError,
@@ -195,6 +200,8 @@ _HOMES = {
     "designs.design": ("Designs", "design"),
     "designs.layouts": ("Layout",),
     "designs.reading": ("box",),
+    "designs.refine": ("refine",),
+    "designs.refined": ("Refined",),
     "elasticity": (
         "Elastic",
         "ElasticError",
@@ -297,6 +304,7 @@ __all__ = [
     "Place",
     "PointTable",
     "Proof",
+    "Refined",
     "ReinforcedSheet",
     "Results",
     "Scatter",
@@ -328,6 +336,7 @@ __all__ = [
     "polar",
     "read",
     "read_text",
+    "refine",
     "shape",
     "sweep",
     "tolerances",

@@ -46,9 +46,12 @@ def layout(problem: Json, flexures: list[Json], what: str, number: int = 1) -> J
         flat = {"thickness": flexure.get("thickness"), "breadth": flexure.get("width")}
         if flexure["kind"] == "wire":
             model.wire(p, q, name=flexure["name"], thickness=flexure["diameter"], material=material)
-        elif flexure["kind"] == "sheet":
+        elif flexure["kind"] in ("sheet", "waisted sheet"):
             along = np.cross(flexure["normal"], np.subtract(q, p))
-            model.sheet(p, q, tuple(along), name=flexure["name"], material=material, **flat)
+            made_of = {"name": flexure["name"], "material": material}
+            made = model.sheet(p, q, tuple(along), **made_of, **flat)
+            if flexure["kind"] == "waisted sheet":
+                model.release(made, "in-plane bending", at=tuple(flexure["waist"]))
         else:
             fold = flexure["fold"]
             model.folded_sheet(
@@ -63,7 +66,7 @@ def layout(problem: Json, flexures: list[Json], what: str, number: int = 1) -> J
     for place in points.get("ground", []):
         model.fix(place)
     result = flexact.analyse(model)
-    made: Json = {
+    record: Json = {
         "number": number,
         "what": what,
         "deck": model.to_deck(),
@@ -74,11 +77,11 @@ def layout(problem: Json, flexures: list[Json], what: str, number: int = 1) -> J
         "symmetry": 1,
         "alike": 1,
     }
-    structure = design_oracle.Structure(made["deck"], problem, [f["name"] for f in flexures])
-    declare(made, structure, len(problem["wanted"]), problem)
+    structure = design_oracle.Structure(record["deck"], problem, [f["name"] for f in flexures])
+    declare(record, structure, len(problem["wanted"]), problem)
     space = design_oracle.freedom(problem)
-    made["scores"] = structure.elastic().scores(space, bool(problem.get("mass")))
-    return made
+    record["scores"] = structure.elastic().scores(space, bool(problem.get("mass")))
+    return record
 
 
 def declare(made: Json, structure: Any, count: int, problem: Json) -> None:

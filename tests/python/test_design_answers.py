@@ -10,6 +10,7 @@ import io
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from design_answers_by_hand import Json, design_oracle, problems, random_freedoms
 
@@ -40,16 +41,34 @@ def wrong(problem: Json, folder: Path, *options: str) -> list[str]:
     return found
 
 
-@pytest.mark.dear(8)
+@pytest.mark.dear(4)
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_the_answer_to_a_problem_holds(name: str, tmp_path: Path) -> None:
     assert wrong(PROBLEMS[name], tmp_path) == []
 
 
+WAYS = {
+    "turned and shifted": (np.eye(3)[[2, 0, 1]], np.array([0.5, -0.25, 1.0]), 1.0),
+    "mirrored": (np.diag([-1.0, 1.0, 1.0]), np.zeros(3), 1.0),
+    "a thousand times as large": (np.eye(3), np.zeros(3), 1e3),
+    "a thousandth": (np.eye(3)[[1, 0, 2]], np.zeros(3), 1e-3),
+}
+
+
+@pytest.mark.dear(1)
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", ["hinge", "screw", "three_skew_rotations", "guide_folded"])
+def test_a_moved_problem_has_the_same_layouts(name: str, way: str, tmp_path: Path) -> None:
+    problem = PROBLEMS[name]
+    _, here = answered(problem, tmp_path)
+    _, there = answered(design_oracle.moved(problem, *WAYS[way]), tmp_path)
+    assert design_oracle.correspond(problem, here, there, WAYS[way]) == []
+
+
 RANDOM = list(random_freedoms.problems(2 * len(random_freedoms.FREEDOMS)))
 
 
-@pytest.mark.dear(4)
+@pytest.mark.dear(3)
 @pytest.mark.parametrize("problem", RANDOM, ids=lambda problem: str(problem["id"]))
 def test_the_answer_to_a_random_freedom_holds(problem: Json, tmp_path: Path) -> None:
     """In free space every freedom has a layout, and one in parallel turns little with errors."""

@@ -91,16 +91,16 @@ ONE = {
     "screw": ([turn(X, 0.3)], (1, 0, 0), 0, True, False),
 }
 TWO = {
-    "pencil": ([turn(X), turn(Y)], (0, 0, 2), 0, True, True),
-    "parallels and across": ([turn(X), move(Z)], (0, 0, 2), 1, True, True),
+    "two rotations that meet": ([turn(X), turn(Y)], (0, 0, 2), 0, True, True),
+    "rotations in a plane, move across": ([turn(X), move(Z)], (0, 0, 2), 1, True, True),
     "two translations": ([move(X), move(Y)], (0, 0, 2), 2, False, False),
     "two skew rotations": ([turn(X), turn(Y, 0, 0.3 * Z)], (1, 1, 0), 0, True, False),
-    "cylindrical": ([turn(X), move(X)], (1, 1, 0), 1, True, False),
-    "oblique translation": ([turn(X), move(SLANT)], (1, 1, 0), 1, True, False),
-    "unequal pitches": ([turn(X, 0.2), turn(Y, 0.5)], (2, 0, 0), 0, True, False),
-    "equal pitches": ([turn(X, 0.2), turn(Y, 0.2)], (2, 0, 0), 0, True, False),
-    "rotation and screw": ([turn(X), turn(Y, 0.4)], (1, 0, 1), 0, True, False),
-    "screw and across": ([turn(X, 0.4), move(Y)], (1, 0, 1), 1, True, False),
+    "rotation and move along it": ([turn(X), move(X)], (1, 1, 0), 1, True, False),
+    "rotation and oblique move": ([turn(X), move(SLANT)], (1, 1, 0), 1, True, False),
+    "two screws of one sense": ([turn(X, 0.2), turn(Y, 0.5)], (2, 0, 0), 0, True, False),
+    "two equal screws": ([turn(X, 0.2), turn(Y, 0.2)], (2, 0, 0), 0, True, False),
+    "rotation and screw that meet": ([turn(X), turn(Y, 0.4)], (1, 0, 1), 0, True, False),
+    "screw and move across": ([turn(X, 0.4), move(Y)], (1, 0, 1), 1, True, False),
 }
 
 
@@ -112,29 +112,29 @@ def axes(*pitches: float) -> list[np.ndarray]:
 #: Signature, couples, how many freedoms wires alone leave besides, whether a sheet fits.
 THREE = {
     "ball joint": (axes(0, 0, 0), (0, 0, 3), 0, 0, False),
-    "two rotations and a screw": (axes(0, 0, 0.3), (1, 0, 2), 0, 1, False),
-    "rotation, equal pitches": (axes(0, 0.3, 0.3), (2, 0, 1), 0, 2, False),
-    "rotation, unequal pitches": (axes(0, 0.2, 0.5), (2, 0, 1), 0, 2, False),
-    "two pencils": (axes(0, 0.3, -0.2), (1, 1, 1), 0, 0, False),
-    "equal pitches": (axes(0.3, 0.3, 0.3), (3, 0, 0), 0, 3, False),
-    "two equal pitches": (axes(0.3, 0.3, 0.5), (3, 0, 0), 0, 3, False),
-    "three pitches of one sense": (axes(0.2, 0.3, 0.5), (3, 0, 0), 0, 3, False),
-    "round regulus": (axes(0.3, 0.3, -0.2), (2, 1, 0), 0, 0, False),
-    "regulus": (axes(0.2, 0.4, -0.3), (2, 1, 0), 0, 0, False),
+    "two rotations, screw": (axes(0, 0, 0.3), (1, 0, 2), 0, 1, False),
+    "rotation, two equal screws": (axes(0, 0.3, 0.3), (2, 0, 1), 0, 2, False),
+    "rotation, screws of one sense": (axes(0, 0.2, 0.5), (2, 0, 1), 0, 2, False),
+    "rotation, screws of both senses": (axes(0, 0.3, -0.2), (1, 1, 1), 0, 0, False),
+    "three equal screws": (axes(0.3, 0.3, 0.3), (3, 0, 0), 0, 3, False),
+    "two equal screws, third": (axes(0.3, 0.3, 0.5), (3, 0, 0), 0, 3, False),
+    "three screws of one sense": (axes(0.2, 0.3, 0.5), (3, 0, 0), 0, 3, False),
+    "three skew rotations, round": (axes(0.3, 0.3, -0.2), (2, 1, 0), 0, 0, False),
+    "three skew rotations": (axes(0.2, 0.4, -0.3), (2, 1, 0), 0, 0, False),
     "tip, tilt, piston": ([*axes(0, 0), move(Z)], (0, 0, 3), 1, 0, True),
-    "rotation, screw, across": ([*axes(0, 0.3), move(Z)], (1, 0, 2), 1, 1, False),
-    "equal pitches, across": ([*axes(0.3, 0.3), move(Z)], (2, 0, 1), 1, 3, False),
-    "one sense, across": ([*axes(0.2, 0.5), move(Z)], (2, 0, 1), 1, 3, False),
-    "two families of parallels": ([*axes(0.3, -0.2), move(Z)], (1, 1, 1), 1, 0, False),
-    "pencil and parallels": ([turn(Z), turn(X), move(Z)], (1, 1, 1), 1, 0, False),
-    "paraboloid": ([turn(Z), turn(X, 0.4), move(Z)], (2, 1, 0), 1, 0, False),
-    "planar": ([turn(Z), move(X), move(Y)], (0, 0, 3), 2, 0, False),
-    "screw and across": ([turn(Z, 0.3), move(X), move(Y)], (1, 0, 2), 2, 3, False),
+    "rotation, screw, move across": ([*axes(0, 0.3), move(Z)], (1, 0, 2), 1, 1, False),
+    "two equal screws, move across": ([*axes(0.3, 0.3), move(Z)], (2, 0, 1), 1, 3, False),
+    "screws of one sense, move across": ([*axes(0.2, 0.5), move(Z)], (2, 0, 1), 1, 3, False),
+    "screws of both senses, move across": ([*axes(0.3, -0.2), move(Z)], (1, 1, 1), 1, 0, False),
+    "rotation, move along it, rotation": ([turn(Z), turn(X), move(Z)], (1, 1, 1), 1, 0, False),
+    "rotation, move along it, screw": ([turn(Z), turn(X, 0.4), move(Z)], (2, 1, 0), 1, 0, False),
+    "x, y and rotation about z": ([turn(Z), move(X), move(Y)], (0, 0, 3), 2, 0, False),
+    "x, y and screw along z": ([turn(Z, 0.3), move(X), move(Y)], (1, 0, 2), 2, 3, False),
     "x, y and rotation about x": ([turn(X), move(X), move(Y)], (1, 1, 1), 2, 1, False),
     "x, y and oblique rotation": (
         *([turn(np.array((0.6, 0.0, 0.8))), move(X), move(Y)], (1, 1, 1), 2, 1, False),
     ),
-    "three translations": ([move(X), move(Y), move(Z)], (0, 0, 3), 3, 3, False),
+    "x, y and z": ([move(X), move(Y), move(Z)], (0, 0, 3), 3, 3, False),
 }
 
 
@@ -165,13 +165,16 @@ def test_freedoms_of_three_motions(name: str) -> None:
     assert (found.sheet is not None) is sheet
 
 
-KINDS = [
-    [],
-    *(rows for rows, *_ in {**ONE, **TWO}.values()),
-    *(rows for rows, *_ in THREE.values()),
-    *(reciprocal(rows) for rows, *_ in {**ONE, **TWO}.values()),
-    np.eye(6),
-]
+NAMED = {
+    "nothing": [],
+    **{name: rows for name, (rows, *_) in {**ONE, **TWO, **THREE}.items()},
+    **{
+        f"left by: {name}": reciprocal(rows)
+        for name, (rows, *_) in reversed(list({**ONE, **TWO}.items()))
+    },
+    "every motion": np.eye(6),
+}
+KINDS = list(NAMED.values())
 
 
 def test_twenty_six_of_fifty_freedoms_are_those_of_parallel_wires() -> None:
@@ -182,6 +185,22 @@ def test_twenty_six_of_fifty_freedoms_are_those_of_parallel_wires() -> None:
         able[found.dimension] = able.get(found.dimension, 0) + found.parallel
     assert len(KINDS) == 50
     assert able == {0: 1, 1: 3, 2: 9, 3: 9, 4: 3, 5: 1, 6: 1}
+
+
+def table_row(name: str, found: Possible) -> str:
+    """What docs/theory.md has of a freedom."""
+    cells = (
+        *(name, found.dimension, " ".join(map(str, found.signature_freedom))),
+        *(len(found.freedom.directions), "no" if found.wires is None else found.wires),
+        *(found.extra_dimension, "no" if found.sheet is None else "yes", found.least_layers),
+    )
+    return f"| {' | '.join(map(str, cells))} |"
+
+
+def test_the_table_of_all_freedoms_is_that_of_the_theory() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "theory.md").read_text("utf-8")
+    for name, rows in NAMED.items():
+        assert table_row(name, possible(space_of(rows))) in text
 
 
 # The search ------------------------------------------------------------------------------

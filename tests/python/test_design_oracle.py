@@ -3,6 +3,7 @@
 
 import copy
 import itertools
+import json
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -215,6 +216,10 @@ MISTAKES: dict[str, tuple[Callable[[], Case], str]] = {
         lambda: edited(HINGE, deck(("% wire 5", "% wire 6"))),
         "wire 5: is not in the deck",
     ),
+    "fold": (
+        lambda: edited(GUIDE, put(*FIRST, "flexures", 0, "fold", "point", 1, value=-0.019)),
+        "the deck has no fold of it at (0.065, -0.019, 0.01)",
+    ),
     "section": (
         lambda: edited(HINGE, put(*FIRST, "flexures", 0, "diameter", value=1.0001e-3)),
         "its section gives",
@@ -232,6 +237,12 @@ MISTAKES: dict[str, tuple[Callable[[], Case], str]] = {
         "the deck cannot be read",
     ),
     "missing key": (lambda: edited(HINGE, lambda t: t["layouts"][0].pop("alike")), "has no alike"),
+    "mass": (lambda: edited(HINGE, deck(("XM 1 0.2", "XM 1 0.3"))), "has 0.3 kg in the deck"),
+    "inertia": (
+        lambda: edited(HINGE, deck(("XM 2 4e-05", "XM 2 5e-05"))),
+        "another inertia about the centre",
+    ),
+    "stage": (lambda: edited(HINGE, put(*FIRST, "stage", value="table")), "calls the stage table"),
     # Images and symmetry.
     "images": (lambda: edited(HINGE, mirrored), "layouts 1 and 2 are images of each other"),
     "symmetry": (lambda: asked(HINGE, symmetry="mirror y"), "not its own image"),
@@ -293,6 +304,7 @@ MISTAKES: dict[str, tuple[Callable[[], Case], str]] = {
         lambda: (by_hand.problems()["guide_without_room"], edited(HINGE, none_of("length"))[1]),
         "no layout by length, not by regions",
     ),
+    "nothing nearby": (lambda: edited(HINGE, none_of("regions")), "possible nearby"),
     "no reason": (lambda: edited(HINGE, put("layouts", value=[])), "no condition that leaves none"),
 }
 
@@ -470,6 +482,28 @@ def test_the_48_isometries_are_all() -> None:
         assert np.max(np.abs(one - other)) > 0.5
 
 
+def test_moved_layouts_correspond() -> None:
+    """A mirror image of a layout, in another place and ten times as large, is told as the same."""
+    problem, given = HINGE
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    way = turn, np.array([1.0, 2.0, 3.0]), 10.0
+    there = design_oracle.moved(problem, *way)
+    other = json.loads(json.dumps(given))
+    for made in other["layouts"]:
+        for flexure in made["flexures"]:
+            ends = np.array(flexure["ends"]) * [1.0, 1.0, -1.0]
+            flexure["ends"] = (10 * ends @ turn.T + way[1]).tolist()
+            for key in ("width", "thickness", "diameter"):
+                flexure[key] = 10 * flexure.get(key, 0.0)
+    assert design_oracle.correspond(problem, given, other, way) == []
+    assert design_oracle.classify(design_oracle.freedom(there))["dimension"] == 1
+    other["layouts"][0]["flexures"][0]["diameter"] *= 1.01
+    assert design_oracle.correspond(problem, given, other, way) == [
+        "layout 1 is not among those of the moved problem",
+        "1 layouts of the moved problem are others",
+    ]
+
+
 PROBLEMS = by_hand.problems() | by_hand.problems("more_design_problems.json")
 
 
@@ -549,6 +583,24 @@ def folded(name: str, p: list[float], fold: list[float], q: list[float]) -> Json
     return {"name": name, "kind": "folded sheet", "ends": [p, q], "between": between} | sizes
 
 
+#: Lines of z = 0, and lines of y = 0 through the waist at the ground.
+WAISTED = [
+    sheet("sheet 1", [0.008, 0.02, 0.0], [0.008, 0.07, 0.0], [0.0, 0.0, 1.0], 0.02),
+    sheet("sheet 2", [-0.008, 0.0, 0.01], [-0.008, 0.0, 0.07], [0.0, 1.0, 0.0], 0.02)
+    | {"kind": "waisted sheet", "waist": [-0.008, 0.0, 0.07]},
+]
+
+
+@pytest.mark.parametrize("waist", [[-0.008, 0.0, 0.01], None])
+def test_a_waist_is_where_the_deck_has_it(waist: list[float] | None) -> None:
+    problem = PROBLEMS["hinge_of_waisted_sheet"]
+    made = layout(problem, WAISTED, "a sheet and a waisted sheet")
+    made["flexures"] = [WAISTED[0], WAISTED[1] | {"waist": waist}]
+    said = design_oracle.judge(problem, answer(problem, [made]))
+    assert len(said) == 1
+    assert "its waist is at (-0.008, 0, 0.07) in the deck" in said[0]
+
+
 BY_HAND: dict[str, list[Json]] = {
     "hinge_of_two_sheets": [
         sheet("sheet 1", [0.008, 0.02, 0.0], [0.008, 0.07, 0.0], [0.0, 0.0, 1.0], 0.02),
@@ -558,6 +610,7 @@ BY_HAND: dict[str, list[Json]] = {
         sheet("sheet 1", [0.02, 0.0, 0.008], [0.065, 0.0, 0.008], [0.0, 0.0, 1.0], 0.02),
         sheet("sheet 2", [0.02, 0.0, -0.008], [0.065, 0.0, -0.008], [0.0, 0.0, 1.0], 0.02),
     ],
+    "hinge_of_waisted_sheet": WAISTED,
     "sheet_alone": [sheet("sheet 1", [0.02, 0.0, 0.0], [0.065, 0.0, 0.0], [0.0, 0.0, 1.0], 0.02)],
     "sheet_and_three_wires": [
         sheet("sheet 1", [0.02, 0.0, 0.0], [0.065, 0.0, 0.0], [0.0, 0.0, 1.0], 0.02),

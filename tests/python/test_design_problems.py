@@ -230,6 +230,16 @@ def test_region_in_every_form(form):
     assert found.high.tolist() == [0.08, 0.08, 0.08]
 
 
+def test_none_is_as_if_it_were_left_out(tmp_path):
+    given = small(mass=None, keep_out=None, limits=None, title=None)
+    given |= {"mass": None, "keep_out": {"boxes": None}, "limits": {"width": None}, "rank": None}
+    given["wanted"] = [{"kind": "rotation", "direction": [1, 0, 0], "point": None, "pitch": None}]
+    found = problem_of(given)
+    assert found.to_dict() == problem_of(small()).to_dict()
+    path = file_of(tmp_path, "a.json", json.dumps(given))
+    assert problem_of_file(path).to_dict() == found.to_dict()
+
+
 def test_regions_of_points_and_flat_boxes():
     stage = {"points": [[0, 0, 0], ["10 mm", 0, 0]], "boxes": [[[0, 0, 0.01], [0.01, 0.01, 0.01]]]}
     found = problem_of(small(stage=stage))
@@ -300,6 +310,8 @@ def test_keywords_units_and_homes_of_keys_agree():
         ),
         ("all but rotation about (0, 0, 0.3) along y", np.eye(6)[[3, 4, 5, 0, 2]]),
         ("all but translation x and rotation x", np.eye(6)[[4, 5, 1, 2]]),
+        ("all but z", [*np.eye(6)[[3, 4]], *np.eye(6)[:3]]),
+        ("all but planar z", np.eye(6)[[5, 0, 1]]),
         ("translation x; rotation about (0, 0, 0) along z", np.eye(6)[[3, 2]]),
         (["stage: translation -x"], [[0, 0, 0, -1, 0, 0]]),
         ("screw z pitch 10 mm", [[0, 0, 1, 0, 0, 0.01]]),
@@ -492,6 +504,17 @@ def test_deck_gives_the_points_of_a_body_and_what_is_declared():
     assert np.allclose(in_mm.size, found.size)
 
 
+def test_rotation_without_a_point_is_about_a_line_that_the_body_can_turn_about():
+    """A wire along z through (0.02, 0.02) leaves rotations along x about y = 0.02 alone."""
+    found = problem_of_deck(held_stage(), "stage", "stage: rotation x")
+    assert np.allclose(twists(found), [[1, 0, 0, 0, 0, -0.02]], atol=1e-12)
+    # Of several rotations that meet, the middle is where they do.
+    with pytest.raises(ModelError, match="'rotation x' is stopped"):
+        problem_of_deck(held_stage(), "stage", "spherical")
+    held = problem_of_deck(held_stage(), "stage", "spherical at (0.02, 0.02, 0)")
+    assert held.freedom.dimension == 3
+
+
 def test_problem_that_names_its_deck(tmp_path):
     file_of(tmp_path, "stage.dat", held_stage().to_deck())
     text = 'deck = "stage.dat"\nbody = "stage"\nwanted = "nothing"\n'
@@ -549,6 +572,7 @@ NONSENSE = [
     ({"wanted": ["translation x pitch 3"]}, "a translation has no pitch"),
     ({"wanted": ["all but screw z pitch 0.01"]}, "of a screw there is no one opposite"),
     ({"wanted": ["all but translation x at (0,0,1) and translation y"]}, "are of two points"),
+    ({"wanted": ["all but " * 500 + "z"]}, "is no motion"),
     ({"wanted": ["universal x"]}, "two directions are wanted"),
     ({"wanted": ["nothing at all"]}, "nothing stands behind nothing"),
     ({"wanted": ["x;; y"]}, "there is no motion between two semicolons"),
@@ -701,6 +725,25 @@ def test_all_that_is_wrong_is_said_at_once_with_its_place(tmp_path):
     assert str(caught.value).count("^") >= 5 and "hinge.toml: 5 errors" in str(caught.value)
 
 
+def test_tables_in_lists_of_toml_have_places(tmp_path):
+    text = """\
+[[wanted]]
+kind = "rotation"
+direction = [1, 0, 0]
+[[wanted]]
+'kind' = "rotaton" # a comment with "quotes"
+direction = [
+  0, # and one here
+  1, 0]
+[stage."boxes".a]
+"""
+    with pytest.raises(DeckError) as caught:
+        problem_of_file(file_of(tmp_path, "a.toml", text))
+    first, second = caught.value.diagnostics
+    assert (first.line, first.column, first.last_column) == (5, 10, 18)
+    assert (second.line, second.code) == (9, "bad-region")
+
+
 def test_dependent_motions_are_both_shown(tmp_path):
     text = 'wanted = [\n  "rotation x",\n  "y",\n  {kind = "rotation", direction = [2, 0, 0]},\n]\n'
     with pytest.raises(DeckError) as caught:
@@ -731,7 +774,7 @@ def test_dependent_motions_are_both_shown(tmp_path):
         ("a.json", '{"size": NaN, "wanted": []}', "size is not finite"),
         ("a.json", '{"size": 1e999, "wanted": []}', "size is not finite"),
         ("a.json", '{"a": ' + "[" * 100000 + "]" * 100000 + "}", "too deep|this is no JSON"),
-        ("a.json", "{" + " " * 2**22 + "}", "the file is too large"),
+        ("a.json", "{" + " " * 2**20 + "}", "the file is too large"),
         ("a.txt", "wanted = []", "the suffix '.txt' is none of a problem"),
         ("a.dat", "BEAM", "a deck (.dat) takes --body"),
     ],
@@ -855,7 +898,7 @@ def test_mutated_texts_never_end_in_a_traceback(tmp_path):
         "c.toml": toml_of(PROBLEMS["ball"]),
     }
     refused = 0
-    for turn in range(400):
+    for turn in range(200):
         name = chance.choice(sorted(texts))
         text = texts[name]
         for _ in range(chance.randint(1, 4)):
@@ -871,13 +914,13 @@ def test_mutated_texts_never_end_in_a_traceback(tmp_path):
                 lines = text.split("\n")
                 assert each.line <= len(lines)
                 assert not each.line or each.column <= len(lines[each.line - 1]) + 1
-    assert refused > 200
+    assert refused > 70
 
 
 def test_mutated_values_never_end_in_a_traceback():
     chance = random.Random(34)
     refused = 0
-    for _ in range(400):
+    for _ in range(150):
         given = json.loads(json.dumps(PROBLEMS[chance.choice(sorted(PROBLEMS))]))
         given["keep_out"] = {"boxes": [[[0.03, 0.03, 0.03], [0.04, 0.04, 0.04]]]}
         for _ in range(chance.randint(1, 3)):
@@ -889,4 +932,4 @@ def test_mutated_values_never_end_in_a_traceback():
         except ModelError as error:
             refused += 1
             assert str(error)
-    assert refused > 200
+    assert refused > 70

@@ -26,7 +26,7 @@ _PARTS = {"element", "elements", "part", "body", "target", "release", "freedom"}
 #: Those of such a name that take something else.
 _OTHERS = {
     *(("cost", "points"), ("Tolerances.quantiles", "at"), ("Elastic.notes_of", "at")),
-    ("Scatter.quantiles", "at"),
+    *(("Scatter.quantiles", "at"), ("refine", "at")),
     *(("Analysis.advice", "body"), ("Model.beam", "release")),
 }
 
@@ -133,6 +133,19 @@ def changed(change: Callable[[flexact.Model], object]) -> str:
     return model.to_deck()
 
 
+def refined(**asked: Any) -> list[float]:
+    made = flexact.refine(
+        *(MODEL, ["thickness of left, right: 0.2..0.4 mm"]),
+        maximise="worst stiffness",
+        over_constrained=True,
+        beams=1,
+        starts=1,
+        evaluations=3,
+        **asked,
+    )
+    return [each.objective for each in made.evaluations]
+
+
 def costed(**asked: Any) -> list[Any]:
     asked = {"release": (), "beams": 1, **asked}
     made = flexact.cost(MODEL, **asked)
@@ -147,6 +160,8 @@ def costed(**asked: Any) -> list[Any]:
 Asked = tuple[dict[str, Any], Callable[[Any], Any]]
 #: Of each argument the forms that it takes, and what is asked with it.
 ARGUMENTS: dict[tuple[str, str], Asked] = {
+    ("refine", "point"): (FORMS, lambda n: refined(point=n)),
+    ("refine", "stroke"): (FORMS, lambda n: refined(stroke=(n, "x", 0.0, "1 mm"))),
     ("Elastic.along", "node"): (FORMS, lambda n: elastic().along(n, "x", 1e-3)),
     ("Elastic.limits", "point"): (FORMS, lambda n: elastic().limits(n, "x", 0.01).high),
     ("Elastic.scatter", "at"): (FORMS, lambda n: scattered(at=n)),

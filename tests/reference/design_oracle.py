@@ -25,9 +25,11 @@ What had to be decided, so that two programs mean the same:
 - *Length* is that between the ends; of a folded sheet that of each leaf (a layout is accepted where
   its two leaves together are within the limits, with a remark). A limit that is one number is a
   value to be met within 1e-9 of it.
-- *Solids*: a wire is a segment with a radius, a sheet a box (length, width, thickness), a folded
-  sheet two boxes, anything else a segment with half its diameter or thickness. Clearance holds
-  between any two flexures, also on one body, and to keep-outs; bodies have no points in keep-outs.
+- *Solids*: a wire is a segment with a radius, a sheet a box (length, width, thickness), also where
+  it has a waist, a folded sheet two boxes, anything else a segment with half its diameter or
+  thickness. Clearance holds between any two flexures, also on one body, and to keep-outs; bodies
+  have no points in keep-outs.
+- *Mass and inertia* of the stage are those of the problem, about `centre`.
 - *Isometries* are the signed permutations about `centre` that keep T, inertia, and the lists of
   boxes and points of stage, ground, keep-out and intermediate. Two layouts are images where
   flexures of one kind, with the same sizes and ends, correspond; bodies between have no names then.
@@ -192,6 +194,9 @@ def judge_layout(problem: Json, layout: Json) -> tuple[list[str], list[str]]:
         remarks += [f"{flexure['name']}: {text}" for text in said]
     wrong += _bodies_between(problem, structure, layout)
     wrong += _apart(problem, structure, flexures)
+    wrong += _weight(problem, structure)
+    if isinstance(layout["stage"], str) and layout["stage"] != "stage":
+        wrong.append(f"calls the stage {layout['stage']}")
     wrong += _mobility(problem, structure, layout)
     wrong += _scores(problem, structure, layout)
     asked = problem.get("symmetry", problem["limits"].get("symmetry", "any"))
@@ -264,6 +269,13 @@ def _against_deck(structure: Structure, flexure: Json) -> list[str]:
     pieces = {"wire": 1, "sheet": 1, "folded sheet": 2, "bellows": 1}
     if kind in pieces and len(labels) != pieces[kind]:
         wrong.append(f"is of {len(labels)} elements, not {pieces[kind]}")
+    if kind == "folded sheet":
+        fold = flexure["fold"]["point"]
+        inner = [n for n in inside - set(ends) if deck.kinds[n] == "p"]
+        if not any(
+            np.linalg.norm(np.subtract(deck.position[n], fold)) < CLOSE * size for n in inner
+        ):
+            wrong.append(f"the deck has no fold of it at {_place(fold)}")
     for label in labels:
         wrong += _against_element(structure, label, flexure)
     return wrong
@@ -277,6 +289,12 @@ def _against_element(structure: Structure, label: int, flexure: Json) -> list[st
     held = {k for k in range(1, 7) if structure.deck.deformations.get((label, str(k))) == "fixed"}
     if kind in HELD and held not in HELD[kind]:
         wrong.append(f"element {label} holds {sorted(held)}, which is no {kind}")
+    if kind == "waisted sheet" and held in HELD[kind]:
+        # In-plane bending at p and q: where it is not held, there is the waist.
+        end = structure.deck.position[element.nodes[0 if 4 in held else 2]]
+        waist = np.array(flexure.get("waist") or [math.inf] * 3, dtype=float).reshape(-1)[:3]
+        if not np.linalg.norm(waist - end) < CLOSE * structure.problem["size"]:
+            wrong.append(f"its waist is at {_place(end)} in the deck, not at {_place(waist)}")
     if kind not in ("wire", "sheet", "folded sheet"):
         return wrong
     material = structure.problem.get("material")
@@ -418,6 +436,20 @@ def _apart(problem: Json, structure: Structure, flexures: list[Json]) -> list[st
                 wrong.append(
                     f"{name} is {gap:.6g} m from the keep-out at {_place(box[0])}, not {least:.6g}"
                 )
+    return wrong
+
+
+def _weight(problem: Json, structure: Structure) -> list[str]:
+    """Mass and inertia of the stage in the deck."""
+    mass, inertia = structure.weight()
+    asked = problem.get("mass") or 0.0
+    given = problem.get("inertia") or 0.0
+    tensor = given * np.eye(3) if isinstance(given, (int, float)) else _inertia(given)
+    wrong = []
+    if not math.isclose(mass, asked, rel_tol=1e-9):
+        wrong.append(f"the stage has {mass:.6g} kg in the deck, not {asked:.6g}")
+    if np.max(np.abs(inertia - tensor)) > 1e-9 * max(asked * problem["size"] ** 2, 1e-300):
+        wrong.append("the stage has another inertia about the centre in the deck")
     return wrong
 
 
@@ -683,6 +715,8 @@ def examine(problem: Json, answer: Json) -> tuple[list[str], list[str]]:
             wrong.append(f"no layout, and no condition that leaves none: {none}")
         elif "why" in expected and none["condition"] not in _reasons(expected["why"]):
             wrong.append(f"no layout by {none['condition']}, not by {expected['why']}")
+        if "nearby" not in answer:
+            wrong.append("no layout, and nothing of what is possible nearby")
         if isinstance(none, dict) and not str(none.get("statement", "")).strip():
             wrong.append("no layout, and no sentence about it")
     elif none:
@@ -696,6 +730,75 @@ def examine(problem: Json, answer: Json) -> tuple[list[str], list[str]]:
     wrong += _images(problem, layouts)
     wrong += _order(answer, layouts)
     return wrong, remarks
+
+
+def moved(problem: Json, turn: Real, shift: Real, scale: float) -> Json:
+    """A problem turned about the origin by a signed permutation, scaled, and shifted then."""
+    result = json.loads(json.dumps(problem))
+    sense = float(np.sign(np.linalg.det(turn)))
+
+    def point(at: Any) -> list[float]:
+        return [float(value) for value in shift + scale * (turn @ np.array(at, dtype=float))]
+
+    for motion in result["wanted"]:
+        motion["direction"] = (turn @ np.array(motion["direction"], dtype=float)).tolist()
+        motion |= {"point": point(motion["point"])} if "point" in motion else {}
+        motion |= {"pitch": sense * scale * motion["pitch"]} if "pitch" in motion else {}
+    for name in ("stage", "ground", "keep_out", "intermediate"):
+        if name in result:
+            boxes = [[point(corner) for corner in box] for box in boxes_of(problem, name)]
+            result[name] = {"boxes": [np.sort(np.array(box), axis=0).tolist() for box in boxes]}
+            result[name]["points"] = [point(at) for at in points_of(problem, name)]
+    result["centre"], result["size"] = point(centre_of(problem)), scale * problem["size"]
+    for key in ("length", "width", "thickness", "diameter", "clearance"):
+        if key in result["limits"]:
+            result["limits"][key] = (scale * np.array(result["limits"][key])).tolist()
+    if isinstance(result.get("inertia"), float):
+        result["inertia"] *= scale**5
+    if "mass" in result:
+        result["mass"] *= scale**3
+    return dict(result)
+
+
+def correspond(problem: Json, one: Json, other: Json, way: tuple[Real, Real, float]) -> list[str]:
+    """What differs between the layouts of a problem and of the moved one, up to its isometries.
+
+    Args:
+        problem: The first problem.
+        one: Its answer.
+        other: The answer to `moved(problem, *way)`.
+        way: Signed permutation, shift, scale.
+    """
+    turn, shift, scale = way
+    there = moved(problem, turn, shift, scale)
+    turns = isometries(there)
+    left, wrong = [layout["flexures"] for layout in other["layouts"]], []
+
+    def point(at: Any) -> list[float]:
+        return [float(value) for value in shift + scale * (turn @ np.array(at, dtype=float))]
+
+    for layout in one["layouts"]:
+        flexures = json.loads(json.dumps(layout["flexures"]))
+        for flexure in flexures:
+            flexure["ends"] = [point(end) for end in flexure["ends"]]
+            for key in ("width", "thickness", "diameter"):
+                flexure[key] = scale * (flexure.get(key) or 0.0)
+            if flexure.get("normal"):
+                flexure["normal"] = (turn @ np.array(flexure["normal"])).tolist()
+            if flexure.get("fold"):
+                along = (turn @ np.array(flexure["fold"]["direction"])).tolist()
+                flexure["fold"] = {"point": point(flexure["fold"]["point"]), "direction": along}
+            if flexure.get("waist"):
+                flexure["waist"] = point(flexure["waist"])
+        hit = next(
+            (k for k, o in enumerate(left) if any(image(there, flexures, o, t) for t in turns)),
+            None,
+        )
+        if hit is None:
+            wrong.append(f"layout {layout['number']} is not among those of the moved problem")
+        else:
+            del left[hit]
+    return wrong + [f"{len(left)} layouts of the moved problem are others"] * bool(left)
 
 
 def judge(problem: Json, answer: Json) -> list[str]:

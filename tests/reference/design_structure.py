@@ -151,6 +151,21 @@ class Structure:
                 rows[3 + axis, self.place[p, name]] = 1.0
         return rows
 
+    def weight(self) -> tuple[float, Real]:
+        """Mass of the stage, and its inertia about the centre, by XM."""
+        mass, inertia = 0.0, np.zeros((3, 3))
+        for node, values in self.numbers["XM"].items():
+            if self.bodies.get(node) != "stage":
+                continue
+            if self.deck.kinds[node] == "p":
+                arm = np.array(self.deck.position[node]) - centre_of(self.problem)
+                mass += values[0]
+                inertia += values[0] * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+            else:
+                xx, xy, xz, yy, yz, zz = [*values, *[0.0] * 6][:6]
+                inertia += np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        return mass, inertia
+
     def motions(self) -> tuple[Real, int]:
         """Freedom of the stage (orthonormal scaled twists) and number of inner motions."""
         rows = [label for label, name in self.deck.deformations.items() if name == "fixed"]

@@ -20,6 +20,7 @@ NAMES = {
     "models": ("Models and decks", ("deck", "model")),
     "analysis": ("Analysis, results, advice", ("api", "analysis", "advice", "util")),
     "stiffness": ("Stiffness and cost", ("elasticity", "costs")),
+    "designs": ("Designs", ("designs",)),
     "sweeps": ("Sweeps, tracing, notebooks", ("sweeps", "tracing", "show")),
 }
 

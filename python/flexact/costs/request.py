@@ -254,7 +254,7 @@ class Request:
         made = cls(
             at,
             None if release is None else tried(_releases, release),
-            None if stroke is None else tried(_stroke, stroke, units),
+            None if stroke is None else tried(stroke_given, stroke, units),
             tried(_misalignments, misalign, units),
             tried(shift_of, shift),
             tried(_one_of, "held", held, HELD),
@@ -366,7 +366,13 @@ def _stiffness(given: Any) -> Quantity:
     return given if isinstance(given, str) else value
 
 
-def _stroke(given: object, units: Units) -> StrokeRequest:
+def stroke_given(given: object, units: Units) -> StrokeRequest:
+    """A stroke as Python takes it: a text, or (point, coordinate, from, to).
+
+    Raises:
+        RequestError, QuantityError: the text is not written so.
+        TypeError: it is neither.
+    """
     if isinstance(given, str):
         return stroke_of(given, units)
     if isinstance(given, Sequence) and len(given) == 4:

@@ -15,20 +15,23 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from ..advice.spaces.screws import Family, ScrewSpace, complement
-from ..core.arrays import BoolArray, FloatArray, IntArray
+from ..advice.spaces.screws import EXACT, Family, ScrewSpace, canonical, complement
+from ..core.arrays import BoolArray, FloatArray, IndexArray
 from ..util.records import Frozen, cached_property
 from ..util.rotations import unit
-from .geometry import TINY, cut, meets_box, within
+from .geometry import SLACK, TINY, cut, meets_box, within
 from .problem import Box, Region
 
 #: Of screws, how much of one may be outside of a space in which it is.
 _OUTSIDE = 1.0e-10
 #: Angles between directions that are tried in a plane.
 _ANGLES = 24
+#: Values of a form that differ by less are one.
+_EQUAL = 1.0e-7
 #: Lines that are taken of a regulus.
 _RULINGS = 180
 
@@ -118,7 +121,7 @@ class Candidates(Frozen):
         return len(self.ends)
 
     @property
-    def arrays(self) -> dict[str, FloatArray]:
+    def arrays(self) -> dict[str, Any]:
         """What there is one of for each."""
         names = ("ends", "strips", "rows", "stiffness", "width", "normal", "via", "axes")
         return {name: getattr(self, name) for name in names}
@@ -130,7 +133,7 @@ class Candidates(Frozen):
         reach = np.linalg.norm(ends - starts, axis=2) / 2.0 + np.linalg.norm(half, axis=2)
         return (starts + ends) / 2.0, reach
 
-    def of(self, which: IntArray | BoolArray) -> Candidates:
+    def of(self, which: IndexArray | BoolArray) -> Candidates:
         """Those at some places."""
         return replace(self, **{name: each[which] for name, each in self.arrays.items()})
 
@@ -138,9 +141,10 @@ class Candidates(Frozen):
 def joined(parts: Sequence[Candidates]) -> Candidates:
     """Candidates of one kind together."""
     names = parts[0].arrays
-    return replace(
-        parts[0], **{name: np.concatenate([part.arrays[name] for part in parts]) for name in names}
-    )
+    arrays: dict[str, Any] = {
+        name: np.concatenate([part.arrays[name] for part in parts]) for name in names
+    }
+    return replace(parts[0], **arrays)
 
 
 # Points and directions ----------------------------------------------------------------
@@ -163,7 +167,7 @@ def velocities(freedom: FloatArray, points: FloatArray) -> FloatArray:
     return np.asarray(freedom[None, :, 3:] + np.cross(freedom[None, :, :3], points[:, None]))
 
 
-def able(freedom: FloatArray, points: FloatArray) -> tuple[FloatArray, IntArray]:
+def able(freedom: FloatArray, points: FloatArray) -> tuple[FloatArray, IndexArray]:
     """(n, 3, 3) unit vectors, and how many of their last ones are across all velocities."""
     if not len(freedom):
         return np.broadcast_to(np.eye(3), (len(points), 3, 3)), np.full(len(points), 3)
@@ -232,7 +236,7 @@ def lines_of_families(constraint: FloatArray) -> tuple[FloatArray, FloatArray]:
         return np.zeros((0, 3)), np.zeros((0, 3))
     form = rows[:, :3] @ rows[:, 3:].T
     values, vectors = np.linalg.eigh((form + form.T) / 2.0)
-    axes = vectors.T @ rows
+    axes = _told(values, vectors.T @ rows)
     plus, minus = axes[values > TINY], axes[values < -TINY]
     flat = axes[np.abs(values) <= TINY]
     made: list[FloatArray] = []
@@ -257,6 +261,17 @@ def lines_of_families(constraint: FloatArray) -> tuple[FloatArray, FloatArray]:
     sizes = np.linalg.norm(found[:, :3], axis=1)
     found = found[sizes > TINY * 10.0] / sizes[sizes > TINY * 10.0, None]
     return np.cross(found[:, :3], found[:, 3:]), found[:, :3]
+
+
+def _told(values: FloatArray, axes: FloatArray) -> FloatArray:
+    """Principal axes of a form; of equal values those nearest to unit vectors, not arbitrary ones."""
+    made = np.array(axes)
+    first = 0
+    while first < len(values):
+        same = np.flatnonzero(np.abs(values - values[first]) <= _EQUAL)
+        made[same] = canonical(axes[same]) if same.size > 1 else axes[same]
+        first = int(same[-1]) + 1
+    return made
 
 
 def _combined(rows: FloatArray) -> FloatArray:
@@ -290,7 +305,7 @@ def special_places(freedom: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
 
 
 def _families(rows: FloatArray) -> Sequence[Family]:
-    from_rows = ScrewSpace(rows, np.zeros(3), 1.0)
+    from_rows = ScrewSpace(rows, np.zeros(3), 1.0, tolerance=EXACT)
     return from_rows.families
 
 
@@ -321,7 +336,7 @@ def reached(
     directions: FloatArray,
     half: FloatArray,
     beside: float | None = None,
-) -> tuple[IntArray, FloatArray, FloatArray]:
+) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Which lines reach from a body to what holds it, forth or back, and where they end.
 
     A strip leaves the body where its box ends and ends where that of the ground begins; where
@@ -355,12 +370,12 @@ def reached(
                 t = np.minimum(np.minimum(s1, g1 - least), before)
                 u = np.maximum(np.maximum(g0, t + least), after)
                 ok = (
-                    (s0 <= s1)
-                    & (g0 <= g1)
-                    & (t >= s0 - TINY)
-                    & (u - t <= most + TINY)
-                    & (g1 > s1 - TINY)
-                    & (u <= g1 + TINY)
+                    (s0 <= s1 + SLACK)
+                    & (g0 <= g1 + SLACK)
+                    & (t >= s0 - SLACK)
+                    & (u - t <= most + SLACK)
+                    & (g1 > s1 - SLACK)
+                    & (u <= g1 + SLACK)
                 )
                 ok &= u - t < best - TINY
                 best = np.where(ok, u - t, best)
@@ -440,7 +455,7 @@ def lines_for(place: Place, fineness: int) -> tuple[FloatArray, FloatArray]:
     directions = np.concatenate([each[1] for each in sets])
     # Of one line one point and one sense are enough.
     key = np.round(forces(points, directions), 9) + 0.0
-    sign = np.array([row[np.flatnonzero(row)[0]] if row.any() else 1.0 for row in key])
+    sign = key[np.arange(len(key)), (key != 0.0).argmax(axis=1)]
     _, first = np.unique(key * np.sign(sign)[:, None] + 0.0, axis=0, return_index=True)
     first = np.sort(first)
     return points[first], directions[first]
@@ -631,8 +646,9 @@ def _along(starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray
 def in_plane(
     area: float, second: float, lengths: FloatArray, shear: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Stiffness of a sheet in its plane about its middle, in parts of the modulus: along it,
-    across, and of turning (Timoshenko, with a shear factor of 5/6).
+    """Stiffness of a sheet in its plane about its middle: along it, across, and of turning.
+
+    In parts of the modulus, by Timoshenko, with a shear factor of 5/6.
     """
     lag = 12.0 * second * shear / (5.0 / 6.0 * area * lengths**2)
     return area / lengths, 12.0 * second / (lengths**3 * (1.0 + lag)), second / lengths

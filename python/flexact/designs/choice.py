@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..core.arrays import BoolArray, FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IndexArray
 from ..util.records import Frozen, cached_property
 from .candidates import Candidates
 from .geometry import between_strips
@@ -43,7 +43,7 @@ class Blocks(Frozen):
     """
 
     candidates: Candidates
-    members: IntArray
+    members: IndexArray
     rows: FloatArray
     weighted: FloatArray
 
@@ -67,7 +67,7 @@ def blocks_of(candidates: Candidates, constraint: FloatArray) -> Blocks:
     return blocks_of_sets(candidates, np.arange(len(candidates))[:, None], constraint)
 
 
-def blocks_of_sets(candidates: Candidates, members: IntArray, constraint: FloatArray) -> Blocks:
+def blocks_of_sets(candidates: Candidates, members: IndexArray, constraint: FloatArray) -> Blocks:
     """Sets of candidates, (n, q) places among them."""
     sizes = np.linalg.norm(candidates.rows, axis=2, keepdims=True)
     # Of what is held already the part at right angles to it counts.
@@ -145,7 +145,7 @@ def clear_of(strips: FloatArray, radius: float, others: Candidates, clearance: f
     return clear
 
 
-def spread(rows: FloatArray, count: int, first: int) -> IntArray:
+def spread(rows: FloatArray, count: int, first: int) -> IndexArray:
     """Places of blocks, (n, r, k) rows, that span what is as different as may be."""
     bases = np.linalg.qr(rows.transpose(0, 2, 1))[0]
     taken = [first]
@@ -232,10 +232,10 @@ def _filled(
     return places
 
 
-def _rounded(values: FloatArray) -> FloatArray:
+def _rounded(values: np.ndarray) -> FloatArray:
     """Values with the digits that do not depend on the order of sums."""
     size = float(np.abs(values).max(initial=0.0)) or 1.0
-    return np.round(values / size, 6)
+    return np.asarray(np.round(values / size, 6))
 
 
 def _clear(

@@ -8,10 +8,13 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
+from ..analysis.naming import filled
+from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.loading import load
@@ -23,6 +26,7 @@ from .explain import Explanation, explain, explained_json, nearby
 from .frame import Scaled, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
+from .layers import layered
 from .layouts import (
     Flexure,
     Layout,
@@ -33,6 +37,7 @@ from .layouts import (
     plural,
     verified,
 )
+from .limbs import limbs
 from .possible import Possible, possible
 from .problem import Problem
 from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
@@ -43,6 +48,8 @@ from .search import (
     Found,
     Part,
     Stock,
+    is_mixed,
+    is_symmetric,
     key_of,
     recipes,
     sets_of,
@@ -54,6 +61,11 @@ from .search import (
 _STARTS, _FEWER = 12, 6
 #: Of each kind of layouts so many are scored at most.
 _OF_A_KIND = 10
+#: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
+#: layouts with bodies between are sought where none are needed.
+_SYMMETRIC, _FEW_KINDS = 2, 3
+#: How many layouts in layers, and with limbs, are looked at.
+_WITH_BODIES = 8
 #: A freedom that is off the wanted one by more is another one.
 _SAME_FREEDOM = 1.0e-9
 #: Two layouts of one kind whose scores differ by less than this part are much the same.
@@ -253,8 +265,10 @@ class _Search:
         most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
             iterator = iter(arrangements)
-            if self.take(kind, iterator):
-                waiting.append((kind, iterator))
+            while self.take(kind, iterator):
+                if kind:
+                    waiting.append((kind, iterator))
+                    break
             if len(self.kinds) >= count:
                 break
         for _ in range(_OF_A_KIND - 1):
@@ -275,10 +289,15 @@ class _Search:
     def take(self, kind: str, arrangements: Iterator[Arrangement]) -> bool:
         """Take the next layout of a kind that is not much like one that is there."""
         for arrangement in arrangements:
-            layout = self.made(kind, arrangement)
+            own = kind or arrangement.kind
+            there = self.kinds.get(own, [])
+            # Of kinds that come in any order one more is enough for now.
+            if not kind and len(there) > 1:
+                continue
+            layout = self.made(own, arrangement)
             if layout is None:
                 continue
-            there = self.kinds.setdefault(kind, [])
+            self.kinds[own] = there
             if any(_much_alike(layout, other) for other in there):
                 continue
             there.append(layout)
@@ -288,31 +307,43 @@ class _Search:
         return False
 
     def sources(self) -> Iterator[tuple[str, Iterator[Arrangement]]]:
-        """Kinds of layouts, and where they come from."""
+        """Kinds of layouts, and where they come from; without a name what tells its own kinds."""
         problem, stock = self.problem, self.stock
-        count = len(stock.constraint)
+        count, limits = len(stock.constraint), problem.limits
         if not count:
             yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
-        _, couples = possible(problem.freedom).bellows or (0, 0)
-        made = recipes(count, problem.limits.kinds, problem.limits.over_constraint, couples)
-        every = (
-            [asked]
-            if asked is not None
-            else list(groups(stock.place.freedom, self.frame.isometries))
-        )
-        for k, recipe in enumerate(made):
-            if asked is None:
-                yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
-        if problem.symmetry == "none":
+        found = possible(problem.freedom)
+        _, couples = found.bellows or (0, 0)
+        made = recipes(count, limits.kinds, limits.over_constraint, couples)
+        plain = [recipe for recipe in made if not is_mixed(recipe)]
+        for k, recipe in enumerate(plain if asked is None else ()):
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER if k else _STARTS)
+        if not found.parallel:
+            yield from self.with_bodies(asked)
+        for recipe in plain[: _SYMMETRIC if asked is None else None]:
+            # By default the images of whole groups are offered, too.
+            every = [asked] if asked else list(groups(stock.place.freedom, self.frame.isometries))
+            for group in every if problem.symmetry != "none" else ():
+                axis = ", ".join(f"{part:.3g}" for part in group.axis + 0.0)
+                name = f"{recipe_name(recipe)}, {group.order} about ({axis})"
+                yield name, self.of_group(group, recipe)
+        for recipe in [recipe for recipe in made if recipe not in plain] if asked is None else ():
+            yield recipe_name(recipe), self.of_recipe(recipe, _FEWER)
+        if found.parallel and len(self.kinds) < _FEW_KINDS:
+            yield from self.with_bodies(asked)
+
+    def with_bodies(self, asked: Group | None) -> Iterator[tuple[str, Iterator[Arrangement]]]:
+        """Layouts with bodies between, if they are allowed."""
+        problem, sizes = self.problem, self.stock.place.sizes
+        if problem.limits.bodies < 1 or self.held is not None:
             return
-        for recipe in made:
-            for group in every:
-                yield (
-                    f"{recipe_name(recipe)}, {group.order} about {group.axis.tolist()}",
-                    self.of_group(group, recipe),
-                )
+        # Layers have seldom a symmetry, limbs often.
+        for source in (limbs, layered) if asked else (layered, limbs):
+            found = source(problem, self.frame, sizes, problem.limits.kinds)
+            fits = (each for each in found if asked is None or is_symmetric(each, asked))
+            yield "", islice(fits, _WITH_BODIES)
 
     def of_recipe(self, recipe: tuple[str, ...], starts: int) -> Iterator[Arrangement]:
         """Layouts of a recipe, the stiffest first."""
@@ -329,7 +360,7 @@ class _Search:
         return Arrangement(recipe_name(found.recipe), (Part(("stage", "ground"), found),))
 
     def made(self, kind: str, arrangement: Arrangement) -> Layout | None:
-        """A layout, verified and scored; None of an image of one that is there, or of a wrong one."""
+        """A layout, verified and scored; None of an image of one that is there, or a wrong one."""
         key, alike = key_of(self.frame, arrangement)
         if key in self.keys:
             return None
@@ -350,13 +381,14 @@ class _Search:
             self.refused += 1
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
-        what = ", ".join((counted(flexures), *symmetry_words(kept, self.frame)))
-        layout = Layout(
+        parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
+        what = ", ".join(parts)
+        return Layout(
             *(0, what, kind, problem, flexures, bodies, model),
             *(found.over_constrained, found.internal, found.analysis.proof is not None),
-            *(found.freedom_error, order, alike, {}),
+            *(found.freedom_error, order, alike),
+            cheap_scores(model, problem, flexures, order),
         )
-        return replace(layout, scores=cheap_scores(model, problem, flexures, order))
 
     def best(self) -> tuple[Layout, ...]:
         """As many as are asked for: the best of each kind, then the next ones; in their order."""
@@ -370,14 +402,28 @@ class _Search:
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
+#: Scores that a scale changes by one factor in all layouts of a problem.
+_SCALED = {"worst_stiffness", "drive_stiffness", "turns_with_errors", "thermal_drift", "room"}
+
+
 def _much_alike(one: Layout, other: Layout) -> bool:
-    """Whether all scores of two layouts are nearly the same."""
-    keys = set(one.scores) & set(other.scores)
+    """Whether two layouts are nearly the same in all that does not depend on how large they are."""
+    keys = set(one.scores) & set(other.scores) & _SCALED
     return all(
         abs(one.scores[key] - other.scores[key])
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
         for key in keys
     )
+
+
+def between_words(arrangement: Arrangement) -> list[str]:
+    """How the bodies between are held, such as "in two layers"; empty where there are none."""
+    count = len(arrangement.bodies)
+    if not count:
+        return []
+    if "limb" in arrangement.kind:
+        return ["with a limb" if count == 1 else f"with {number_in_words(count)} limbs"]
+    return [f"in {number_in_words(count + 1)} layers"]
 
 
 def symmetry_words(kept: Sequence[Group], frame: Scaled) -> list[str]:
@@ -415,32 +461,32 @@ def asked_group(problem: Problem, frame: Scaled) -> Group | None:
 
 def described(designs: Designs, width: int) -> Iterator[str]:
     """The lines of an answer."""
-    problem = designs.problem
-    for remark in problem.remarks:
-        yield wrapped(remark, width)
-    yield str(designs.explanation)
+    # What else the freedom takes is told by the explanation.
+    told = [filled(line, width=width) for line in designs.explanation.lines]
+    end = next((k for k, line in enumerate(told) if line.startswith("It takes")), len(told))
+    yield from told[: end + (1 if designs.possible.parallel else 2)]
     many = len(designs.layouts)
     if not many:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    if designs.candidates:
-        yield wrapped(found_in_words(designs), width)
+    yield wrapped(found_in_words(designs), width)
     yield ""
     yield designs.table(width)
     yield wrapped(confirmed(designs), width)
+    for remark in designs.problem.remarks:
+        yield wrapped(f"Remark: {remark}.", width)
 
 
 def found_in_words(designs: Designs) -> str:
     """How many flexures fit the regions, and how many layouts there are."""
-    counts = " and ".join(
-        f"{count} {kind if count == 1 else plural(kind)}"
-        for kind, count in designs.candidates.items()
-    )
+    every = designs.candidates.items()
+    counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
     many = len(designs.layouts)
     of = f" of {designs.found} found" if designs.found > many else ""
     layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-    return f"{counts} fit the regions; {layouts}, none an image of another."
+    fit = f"{counts} fit the regions; " if counts else ""
+    return f"{fit}{layouts}, none an image of another."
 
 
 def confirmed(designs: Designs) -> str:

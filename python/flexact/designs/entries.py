@@ -309,8 +309,10 @@ class Entries:
         """
         if isinstance(given, Region):
             return given
-        inside, count = given if isinstance(given, dict) else {"boxes": given}, self.total
-        keys = {each: (*path, each) if inside is given else path for each in ("boxes", "points")}
+        is_table, count = isinstance(given, dict), self.total
+        inside = dict(given) if isinstance(given, dict) else {"boxes": given}
+        inside = {key: value for key, value in inside.items() if value is not None}
+        keys = {each: (*path, each) if is_table else path for each in ("boxes", "points")}
         boxes, points = inside.get("boxes", []), inside.get("points", [])
         if corners := {each: inside[each] for each in CORNERS if each in inside}:
             boxes, keys["boxes"] = corners, path

@@ -26,6 +26,8 @@ from .problem import Box, Problem
 
 Entries = dict[str, Any]
 
+#: How many wires a waisted sheet stands for.
+_WAISTED = 2
 #: How families of lines are told as places where wires are.
 _EVERY_LINE = "all lines "
 
@@ -148,13 +150,13 @@ def _in_parallel(geometry: Geometry, found: Possible) -> Iterator[Line]:
         f"Folded sheets: {number_in_words(needed)}, with the line of each fold such a line."
     )
     if found.with_sheet is not None:
-        where = _of_sheet(geometry, found)
-        with_sheet = _with_wires(f"A sheet {where}", found.with_sheet[1])
-        if needed >= 5:
-            rest = found.with_sheet[1] - 2
-            with_sheet += _with_wires(", or such a sheet, a waisted sheet", rest)
-            with_sheet = with_sheet if rest else with_sheet.replace("sheet, a w", "sheet and a w")
-        yield line_of(f"{with_sheet}.")
+        where, rest = _of_sheet(geometry, found), found.with_sheet[1]
+        words = f"A sheet {where}" + f", and {_counted(rest, 'wire')}" * (rest > 0)
+        if rest >= _WAISTED:
+            others = " and" if rest == _WAISTED else ","
+            words += f"; or such a sheet{others} a waisted sheet"
+            words = _with_wires(words, rest - _WAISTED)
+        yield line_of(f"{words}.")
         if found.dimension == 1:
             yield line_of("Two whole sheets: over-constrained by one.")
     else:
@@ -178,7 +180,7 @@ def _of_sheet(geometry: Geometry, found: Possible) -> str:
     if where is None or where.kind is FamilyKind.EVERY:
         return "in any plane"
     if where.kind is FamilyKind.LINE:
-        return f"in any plane through {geometry.line(where.point, where.direction)}"
+        return f"in any plane that contains {geometry.line(where.point, where.direction)}"
     if where.kind is FamilyKind.DIRECTION:
         return f"in any plane perpendicular to {axis_words(where.direction)}"
     return f"in {geometry.plane(where)}"
@@ -354,7 +356,7 @@ def explained_json(found: Possible, typed: ArrayLike = ()) -> Entries:
             "principal_screws": [
                 {
                     "direction": screw.direction.tolist(),
-                    "point": screw.point.tolist() if screw.direction.any() else None,
+                    "point": None if screw.is_of_directions else screw.point.tolist(),
                     "pitch": None if screw.is_of_directions else screw.pitch,
                 }
                 for screw in found.freedom.principal

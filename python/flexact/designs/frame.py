@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..advice.spaces.screws import ScrewSpace, canonical
+from ..advice.spaces.screws import EXACT, ScrewSpace, canonical
 from ..core.arrays import FloatArray
 from ..util.records import Frozen, cached_property
 from .problem import Box, Problem, Region
@@ -53,7 +53,7 @@ class Scaled(Frozen):
     @cached_property
     def space(self) -> ScrewSpace:
         """T as a space of twists about the origin."""
-        return ScrewSpace(self.freedom, np.zeros(3), 1.0)
+        return ScrewSpace(self.freedom, np.zeros(3), 1.0, tolerance=EXACT)
 
     def back(self, places: FloatArray) -> FloatArray:
         """Places of the problem [m], (..., 3), of places in the frame."""

@@ -15,8 +15,8 @@ from ..core.arrays import BoolArray, FloatArray
 
 #: What is smaller is zero, of lengths in parts of the size of a problem.
 TINY = 1.0e-9
-#: By so much a place may be outside of a region for rounding.
-_SLACK = 1.0e-12
+#: By so much a place may be outside of a region, and a line miss one, for rounding.
+SLACK = 1.0e-12
 
 
 def within(points: FloatArray, low: FloatArray, high: FloatArray) -> BoolArray:
@@ -29,6 +29,8 @@ def cut(
 ) -> tuple[FloatArray, FloatArray]:
     """The first and last parameter at which lines are in a box; first > last where they miss it.
 
+    Where they touch it rounding may make the last less than the first, by less than `SLACK`.
+
     Args:
         points: (n, 3) of the lines.
         directions: (n, 3) along them.
@@ -36,10 +38,9 @@ def cut(
         high: (3,) of the box.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        one = (low - _SLACK - points) / directions
-        other = (high + _SLACK - points) / directions
+        one, other = (low - points) / directions, (high - points) / directions
     still = np.abs(directions) < TINY
-    inside = (points >= low - _SLACK) & (points <= high + _SLACK)
+    inside = (points >= low - SLACK) & (points <= high + SLACK)
     first = np.where(still, np.where(inside, -np.inf, np.inf), np.minimum(one, other))
     last = np.where(still, np.where(inside, np.inf, -np.inf), np.maximum(one, other))
     return first.max(axis=-1), last.min(axis=-1)
@@ -102,7 +103,7 @@ def between_strips(one: FloatArray, others: FloatArray) -> FloatArray:
         found = np.minimum(found, _to_faces(first, others))
     if not thin:
         found = np.minimum(found, _to_faces(second, np.broadcast_to(mine, others.shape)))
-    return found
+    return np.asarray(found)
 
 
 def _to_faces(edges: FloatArray, strips: FloatArray) -> FloatArray:

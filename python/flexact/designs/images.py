@@ -10,11 +10,12 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import BoolArray, FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IndexArray
+from ..util.groups import distinct
 from ..util.rotations import matrix_of
 from .candidates import Candidates, Place, clear_of_boxes, joined
 from .choice import Blocks, blocks_of_sets
@@ -73,12 +74,7 @@ def groups(freedom: FloatArray, isometries: FloatArray | None = None) -> Iterato
         _, values, right = np.linalg.svd(freedom[:, :3])
         if values[0] > TINY and np.sum(values > TINY) == 1:
             axes.append(right[0])
-    known: list[FloatArray] = []
-    kept = [
-        axis
-        for axis in axes
-        if not any(abs(axis @ other) > 1.0 - TINY for other in known) and not known.append(axis)
-    ]
+    kept = distinct(axes, lambda one, other: bool(abs(one @ other) > 1.0 - TINY))
     for order in (0, *ORDERS):
         found: list[FloatArray] = []
         for axis in kept:
@@ -137,15 +133,16 @@ def orbits(
     images = [moved(candidates, turn) for turn in group.turns]
     fits = np.ones(len(candidates), dtype=bool)
     for image in images[1:]:
-        fits &= _is_within(image, place)
+        fits &= is_within(image, place)
     keys = np.stack([materials(image) for image in images], axis=1)
     made = []
     # A set is one whichever of its members is looked at.
-    firsts = [tuple(sorted(map(tuple, each.tolist()))) for each in keys]
-    seen: set[object] = set()
-    alone = np.array([not (key in seen or seen.add(key)) for key in firsts], dtype=bool)  # type: ignore[func-returns-value]
-    distinct = [list(dict.fromkeys(map(tuple, each.tolist()))) for each in keys]
-    sizes = np.array([len(each) for each in distinct])
+    different = [list(dict.fromkeys(map(tuple, each.tolist()))) for each in keys]
+    firsts: dict[object, int] = {}
+    for n, each in enumerate(different):
+        firsts.setdefault(tuple(sorted(each)), n)
+    alone = np.isin(np.arange(len(different)), list(firsts.values()))
+    sizes = np.array([len(each) for each in different])
     for size in sorted(set(sizes.tolist())):
         of_size = np.flatnonzero(fits & alone & (sizes == size))
         if not of_size.size:
@@ -153,7 +150,7 @@ def orbits(
         # Which images are the distinct ones.
         which = np.array(
             [
-                [list(map(tuple, keys[n].tolist())).index(key) for key in distinct[n]]
+                [list(map(tuple, keys[n].tolist())).index(key) for key in different[n]]
                 for n in of_size
             ]
         ).reshape(-1, size)
@@ -166,18 +163,18 @@ def orbits(
     return made
 
 
-def _picked(images: Sequence[Candidates], places: IntArray, which: IntArray) -> Candidates:
+def _picked(images: Sequence[Candidates], places: IndexArray, which: IndexArray) -> Candidates:
     """Of each place the image that is asked for."""
     first = images[0].of(places)
     names = ("ends", "strips", "rows", "normal", "via", "axes")
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for name in names:
         stacked = np.stack([getattr(image, name)[places] for image in images])
         arrays[name] = stacked[which, np.arange(len(places))]
     return replace(first, **arrays)
 
 
-def _is_within(candidates: Candidates, place: Place) -> BoolArray:
+def is_within(candidates: Candidates, place: Place) -> BoolArray:
     """(n,) whether flexures end in the regions and stay out of what is to be kept out of."""
     ok = np.ones(len(candidates), dtype=bool)
     for end, boxes in ((0, place.here), (1, place.there)):
@@ -194,7 +191,7 @@ def _is_within(candidates: Candidates, place: Place) -> BoolArray:
     return ok & clear_of_boxes(place, candidates.strips, candidates.radius)
 
 
-def _apart(candidates: Candidates, members: IntArray, clearance: float) -> BoolArray:
+def _apart(candidates: Candidates, members: IndexArray, clearance: float) -> BoolArray:
     """(n,) whether the flexures of each set, (n, q) members, are clear of each other."""
     clear = np.ones(len(members), dtype=bool)
     centres, reaches = candidates.balls

@@ -7,12 +7,14 @@ import math
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from ..advice.spaces.screws import ScrewSpace
 from ..advice.spaces.subjects import Freed, subject_named
+from ..analysis.places import listed
 from ..api import Analysis, analyse
 from ..core.arrays import FloatArray
 from ..model.model import Model
@@ -102,6 +104,16 @@ class Layout(Frozen):
     alike: int
     scores: dict[str, float]
 
+    @property
+    def worst_stiffness(self) -> float:
+        """The least stiffness of the stage across its freedom [N/m]; NaN where it has none."""
+        return self.scores.get("worst_stiffness", math.nan)
+
+    @property
+    def parts(self) -> int:
+        """How many flexures and bodies between it has."""
+        return len(self.flexures) + len(self.bodies)
+
     def python(self) -> str:
         """A script that makes the model."""
         return script_of(self)
@@ -171,10 +183,29 @@ def calls_of(
         yield Call("body", ([centre, *own],), sizes)
     elif distinct["stage"]:
         yield Call("body", ([held.own, *distinct["stage"]],), {"name": problem.body})
-    for name, _ in bodies:
-        yield Call("body", (distinct[name],), {"name": name})
+    for name, arms in bodies:
+        yield from _body_calls(name, arms, distinct[name])
     if distinct["ground"]:
         yield Call("fix", tuple(distinct["ground"]), {})
+
+
+def _body_calls(name: str, arms: FloatArray, points: Sequence[tuple[float, ...]]) -> Iterator[Call]:
+    """Calls that make a body between; one with arms has a link to a point from the nearest of them.
+
+    Args:
+        name: Of the body.
+        arms: (n, 3) further points, one linked to the next.
+        points: All of its points, the further ones first.
+    """
+    if len(arms) < 2:
+        yield Call("body", (list(points),), {"name": name})
+        return
+    corners = points[: len(arms)]
+    for pair in pairwise(corners):
+        yield Call("body", (list(pair),), {"name": name})
+    for point in points[len(arms) :]:
+        near = int(np.argmin(np.linalg.norm(arms - np.array(point), axis=1)))
+        yield Call("body", ([corners[near], point],), {"name": name})
 
 
 def model_of(
@@ -201,7 +232,7 @@ def model_of(
         getattr(model, method)(*map(meant, given), **named_, **material)
     names = declared(problem.freedom)
     if names and (held is None or analyse(model).under_constrained):
-        model.independent("stage" if held is None else meant(held.own), *names)
+        model.independent("stage" if held is None else model.handle(*held.own), *names)
     made = with_axes(model)
     return made if held is None else Model.from_data(replace(made.data, units=units))
 
@@ -237,12 +268,10 @@ def _calls(problem: Problem, flexure: Flexure, points: Sequence[End]) -> Iterabl
         return [Call("bellows", (p, q, across(flexure.ends), name), {"diameter": flexure.width})]
     if flexure.form == "strut":
         hint = across(flexure.ends)
-        made = strut_calls(name, flexure.ends, hint, flexure.diameter, least)
-        return _between(made, flexure, points)
+        return strut_calls(name, points, flexure.ends, hint, flexure.diameter, least)
     if flexure.kind == "notch":
         sizes = flexure.width, flexure.thickness, least
-        made = notch_calls(name, flexure.ends, flexure.via, flexure.axes[0], *sizes)
-        return _between(made, flexure, points)
+        return notch_calls(name, points, flexure.ends, flexure.via, flexure.axes[0], *sizes)
     given = {"thickness": flexure.thickness, "breadth": flexure.width}
     if flexure.kind == "folded sheet":
         fold, along = (tuple(each) for each in (flexure.via[0].tolist(), flexure.axes[0].tolist()))
@@ -253,16 +282,8 @@ def _calls(problem: Problem, flexure: Flexure, points: Sequence[End]) -> Iterabl
     return calls
 
 
-def _between(calls: Iterable[Call], flexure: Flexure, points: Sequence[End]) -> Iterator[Call]:
-    """Calls whose first and last places are given as other points."""
-    meant = dict(zip(map(tuple, flexure.ends.tolist()), points, strict=True))
-    for call in calls:
-        given = (meant.get(each, each) if isinstance(each, tuple) else each for each in call.given)
-        yield call._replace(given=tuple(given))
-
-
 def across(ends: FloatArray) -> str:
-    """The axis that is most nearly across a member with two ends, (2, 3); of equal ones the last."""
+    """The axis that is most nearly across a member of two ends, (2, 3); of equal ones the last."""
     along = np.abs(ends[1] - ends[0])
     along = np.round(along / along.max(), 6)
     return "xyz"[2 - int(np.argmin(along[::-1]))]
@@ -373,8 +394,13 @@ _FORMS = (*KINDS[1:4], "notch", "rod", "bellows", "strut", "wire")
 
 def counted(flexures: Sequence[Flexure]) -> str:
     """What kinds of flexures a layout has, such as "a sheet and two wires"."""
-    counts = Counter(flexure.form for flexure in flexures)
-    return in_a_row([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
+    return kinds_in_words([flexure.form for flexure in flexures])
+
+
+def kinds_in_words(forms: Sequence[str]) -> str:
+    """Kinds of flexures, one for each, such as "a sheet and two wires"."""
+    counts = Counter(forms)
+    return listed([_many(counts[form], form) for form in sorted(counts, key=_FORMS.index)])
 
 
 def _many(count: int, form: str) -> str:
@@ -385,12 +411,6 @@ def _many(count: int, form: str) -> str:
 def plural(kind: str) -> str:
     """Several flexures of a kind."""
     return kind if kind == "bellows" else f"{kind}es" if kind.endswith("ch") else f"{kind}s"
-
-
-def in_a_row(items: Sequence[str]) -> str:
-    """Items as a sentence has them: "a, b and c"."""
-    *first, last = items
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
@@ -424,9 +444,7 @@ def script_of(layout: Layout) -> str:
     else:
         lines.append(f'model = flexact.read_text("""{held.model.to_deck()}""")')
         if held.model.data.units is not METRES:
-            lines.insert(
-                2, "# The deck is in other units than the places below, which are in metres."
-            )
+            lines.insert(2, "# Places below are in metres, whatever the deck is in.")
     for method, given, named_ in calls_of(problem, layout.flexures, layout.bodies, held):
         words = [repr(each) for each in given]
         words += [f"{key}={value!r}" for key, value in named_.items()]

@@ -68,7 +68,10 @@ _HOMES: Mapping[str, tuple[str, ...]] = {
     "count": ("", "rank"),
 }
 #: What a problem may say of itself at the top.
-_DESCRIPTIONS = ("id", "title", "source", "expect", "about", "$schema")
+_DESCRIPTIONS = (
+    *("about", "author", "comment", "date", "description", "expect", "id", "name", "note", "notes"),
+    *("reference", "see", "source", "tags", "version", "$schema"),
+)
 
 #: Regions, and what messages call them.
 _REGIONS = {
@@ -142,7 +145,7 @@ def problem_of(given: Mapping[str, Any], name: str = "") -> Problem:
     """
     if not isinstance(given, Mapping):
         raise TypeError(f"a problem is a mapping, not {type(given).__name__}")
-    return _problem(Entries(name=name), {k: v for k, v in given.items() if v is not None})
+    return _problem(Entries(name=name), given)
 
 
 def problem_of_keywords(
@@ -223,7 +226,7 @@ def problem_of_deck(
     """
     wanted = [wanted] if isinstance(wanted, str) else list(wanted)
     made = {"wanted": wanted or None, "body": body, **given}
-    return _problem(Entries(), {k: v for k, v in made.items() if v is not None}, base=model)
+    return _problem(Entries(), made, base=model)
 
 
 def _problem(
@@ -319,10 +322,10 @@ def _problem(
 def _keys(entries: Entries, tree: dict[str, Any]) -> dict[str, tuple[Path, Any]]:
     """All entries by their last keys; unknown keys are wrong, and those that are there twice.
 
-    What is in a region stays in it.
+    None is as if the key were not there. What is in a region stays in it.
     """
     made: dict[str, tuple[Path, Any]] = {}
-    tables = ["", *(each for each in (*_REGIONS, "limits", "rank") if each in tree)]
+    tables = ["", *(each for each in (*_REGIONS, "limits", "rank") if tree.get(each) is not None)]
     for table in tables:
         inside = tree[table] if table else tree
         if not isinstance(inside, dict):
@@ -337,10 +340,11 @@ def _keys(entries: Entries, tree: dict[str, Any]) -> dict[str, tuple[Path, Any]]
                 if key in made and key not in ("boxes", "points"):
                     message = f"{key} is given twice"
                     entries.wrong(path, message, "take one of them away", other=made[key][0])
-                made[key] = path, value
+                if value is not None:
+                    made[key] = path, value
             elif key not in others:
                 _unknown(entries, path, table, key, here)
-    for path, _, _ in entries.text.twice if entries.text else ():
+    for path in entries.text.twice if entries.text else ():
         entries.wrong(path, f"{in_short(path[-1])} is given twice", of_key=True)
     return made
 
@@ -428,7 +432,7 @@ def _regions(entries: Entries, keys: Keys) -> dict[str, Region | None]:
 def _lines(entries: Entries, keys: Keys, result: Result | None, held: Spaces | None) -> list[Line]:
     """What is wanted; of a body in a deck what is declared, if nothing is said."""
     if "wanted" in keys:
-        return lines_of(entries, *keys["wanted"], result)
+        return lines_of(entries, *keys["wanted"], result, held)
     if held is None:
         if result is None and "deck" not in keys:
             hint = 'write wanted = ["rotation about (0, 0, 0) along x"], or [] for none'
@@ -690,6 +694,7 @@ def _material(entries: Entries, path: Path, given: object) -> Material:
         hint = "G is E/(2 (1 + nu)), with nu about 0.3 for metals"
         entries.wrong(path, f"the material has no {' and no '.join(lacking)}", hint)
     name = entries.word((*path, "name"), given["name"], "name") if "name" in given else ""
+    given = {key: value for key, value in given.items() if value is not None}
     for key in [each for each in values if each in given]:
         at = (*path, key)
         if not isinstance(given[key], (str, int, float)):

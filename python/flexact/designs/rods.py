@@ -18,7 +18,7 @@ What flexures hold is as stiff as all their pieces in a row, with what they rele
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,7 +69,7 @@ _NECK, _NECK_OF_LENGTH = 6.0, 1.0 / 6.0
 #: How much thicker a strut is than its necks.
 _STRUT = 3.0
 #: Bars that are shorter are none, in parts of the size.
-_NO_BAR = 1.0e-12
+_NO_BAR = 1.0e-11
 #: Two notches take up at most this part of a rod.
 _NOTCHED = 2.0 / 3.0
 
@@ -142,7 +142,7 @@ def _in_a_row(pieces: list[_Piece]) -> FloatArray:
 
 def _held(compliance: FloatArray, held: list[int]) -> FloatArray:
     """(n, r, r) stiffness against the wrenches that are held, what is released being free."""
-    return np.linalg.inv(compliance[:, held][:, :, held])
+    return np.asarray(np.linalg.inv(compliance[:, held][:, :, held]))
 
 
 def _plain(sizes: Sizes) -> Material:
@@ -318,16 +318,16 @@ def rods_between(
     if kind == "notch":
         before = -np.linalg.norm(at - starts, axis=1)
         pieces = [
-            _bar(bar, before, none - contour.length / 2.0, plain),
+            _bar(bar, before, none - reach, plain),
             _notched(contour, none),
-            _bar(bar, none + contour.length / 2.0, before + lengths, plain),
+            _bar(bar, none + reach, before + lengths, plain),
         ]
         rows = _meeting(at, along, axes)
         matrix = _held(_in_a_row(pieces), [0, 1, 2, 3, 4])
         via = at[:, None]
     else:
         away = lengths / 2.0 - reach
-        half = away - contour.length / 2.0
+        half = away - reach
         pieces = [_notched(contour, -away), _bar(bar, -half, half, plain), _notched(contour, away)]
         rows = _in_the_plane(at, along, axes)
         matrix = _held(_in_a_row(pieces), [0, 2, 3, 4])
@@ -505,6 +505,7 @@ class Call(NamedTuple):
 
 def notch_calls(
     name: str,
+    points: Sequence[tuple[float, ...]],
     ends: FloatArray,
     via: FloatArray,
     axis: FloatArray,
@@ -516,7 +517,8 @@ def notch_calls(
 
     Args:
         name: What it is called; its parts are "name, notch 1", "name, bar 1", ...
-        ends: (2, 3) [m].
+        points: Its ends, as methods of a model take them.
+        ends: (2, 3) where these are [m].
         via: (1 or 2, 3) middles of the notches, from the first end to the second [m].
         axis: (3,) of the notches.
         breadth: Along the axis [m].
@@ -531,10 +533,11 @@ def notch_calls(
         at += [middle - reach * along, middle + reach * along]
     at.append(ends[1])
     is_bar = [np.linalg.norm(at[k + 1] - at[k]) > _SAME * length for k in range(0, len(at), 2)]
+    inner = [tuple(point) for point in snapped(np.array(at[1:-1]), length).tolist()]
     # Without a bar the notch begins at the end itself.
-    at[1] = at[1] if is_bar[0] else at[0]
-    at[-2] = at[-2] if is_bar[-1] else at[-1]
-    points = [tuple(point.tolist()) for point in snapped(np.array(at), length)]
+    inner[0] = inner[0] if is_bar[0] else points[0]
+    inner[-1] = inner[-1] if is_bar[-1] else points[1]
+    points = [points[0], *inner, points[1]]
     deep, way = tuple(snapped(np.cross(axis, along), 1.0).tolist()), tuple(axis.tolist())
     for k, there in enumerate(is_bar):
         if there:
@@ -549,7 +552,12 @@ def notch_calls(
 
 
 def strut_calls(
-    name: str, ends: FloatArray, y: str, diameter: float, least: float
+    name: str,
+    points: Sequence[tuple[float, ...]],
+    ends: FloatArray,
+    y: str,
+    diameter: float,
+    least: float,
 ) -> Iterator[Call]:
     """What makes a strut: a bar between two necks, whose turning about itself is declared.
 
@@ -557,15 +565,17 @@ def strut_calls(
 
     Args:
         name: What it is called; its parts are "name, neck 1", "name, bar" and "name, neck 2".
-        ends: (2, 3) [m].
+        points: Its ends, as methods of a model take them.
+        ends: (2, 3) where these are [m].
         y: The axis that is most nearly across it.
         diameter: Of the necks [m].
         least: Least length of flexures, to which that of the necks is adapted [m].
     """
     along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
     neck = neck_of(diameter, least)
-    at = (ends[0], ends[0] + neck * along, ends[1] - neck * along, ends[1])
-    p, a, b, q = (tuple(point) for point in snapped(np.array(at), 1.0).tolist())
+    at = np.array((ends[0] + neck * along, ends[1] - neck * along))
+    a, b = (tuple(point) for point in snapped(at, float(np.abs(ends).max())).tolist())
+    p, q = points
     first = f"{name}, neck 1"
     yield Call("beam", (p, a, y, (4, 6), first), {"section": diameter})
     yield Call("beam", (a, b, y), {"name": f"{name}, bar", "section": _typed(_STRUT * diameter)})

@@ -45,7 +45,7 @@ from ..util.loading import load
 from ..util.matrices import complement, null_space
 from ..util.records import cached_property
 from ..util.rotations import cross, matrix_of, vector_of_euler
-from ..util.text import in_short, table, wrapped
+from ..util.text import columns, in_short, table, wrapped
 from .layouts import Flexure, Layout
 from .problem import Problem
 from .rods import outer_sizes, turns_of
@@ -58,6 +58,8 @@ EXPANSION = 1.0e-5
 STRESS = 0.3e9
 #: So many digits are told of a score; the rest is rounding and orders nothing.
 _DIGITS = 9
+#: Columns of a table for what a layout is of.
+_LONGEST = 38
 #: Modes beyond these are too fast to be among those that move the stage.
 _MODES = 60
 
@@ -837,10 +839,15 @@ def table_of(layouts: Sequence[Layout], rank: tuple[str, bool], width: int) -> s
         ["", *(score.under for score in every)],
     ]
     for layout, is_best in zip(layouts, best, strict=True):
-        first = f"{layout.number:>{wide}} {'*' if is_best and is_told else ' '} {layout.what}"
+        # Bodies between and symmetry go to a second row, where one would be too long.
+        what, _, more = layout.what.partition(", ")
+        first = f"{layout.number:>{wide}} {'*' if is_best and is_told else ' '} {what}"
         # A unit that the heading has is not said again.
         said = [cell(s.key, layout, unit=not s.under.startswith("N/um")) for s in every]
-        rows.append([first, *said])
+        if more and columns(first) + len(more) + 2 > _LONGEST:
+            rows += [[first, *said], [" " * (wide + 3) + more, *("" for _ in every)]]
+        else:
+            rows.append([f"{first}, {more}" if more else first, *said])
     lines = [table(rows, width, second=True)]
     if is_told:
         lines.append(

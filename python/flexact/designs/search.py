@@ -97,6 +97,12 @@ class Stock:
         self._blocks: dict[str, Blocks] = {}
         self._orbits: dict[tuple[str, bytes], dict[int, Blocks]] = {}
 
+    def beside(self, avoided: Sequence[tuple[FloatArray, float]]) -> Stock:
+        """The same flexures, where there are others already."""
+        made = Stock(self.place, avoided)
+        made.clearances, made._known, made._blocks = self.clearances, self._known, self._blocks
+        return made
+
     def candidates(self, kind: str) -> Candidates:
         """Flexures of a kind, thinned out evenly where there are very many."""
         if kind not in self._known:
@@ -106,7 +112,7 @@ class Stock:
                 if len(made) >= _ENOUGH:
                     break
             assert made is not None
-            self._known[kind] = thinned(made, _MOST)
+            self._known[kind] = thinned(in_order(made), _MOST)
         return self._known[kind]
 
     def blocks(self, kind: str) -> Blocks:
@@ -145,6 +151,14 @@ class Stock:
             return False
         gram = every.T @ every / len(every)
         return bool(np.linalg.eigvalsh(gram)[0] > 1.0e-10)
+
+
+def in_order(candidates: Candidates) -> Candidates:
+    """The same in an order that follows from their places alone."""
+    if not len(candidates):
+        return candidates
+    keys = materials(candidates, 7)
+    return candidates.of(np.lexsort(keys.T[::-1]))
 
 
 def thinned(candidates: Candidates, most: int) -> Candidates:
@@ -207,15 +221,18 @@ def recipes(
                     made.append((surplus, (stiff,)))
                 elif rest > 0:
                     made += [(surplus, (stiff,) + (filler,) * rest) for filler in beside]
-    mixed = lambda recipe: len(set(recipe))  # noqa: E731
-    made.sort(
-        key=lambda each: (
-            each[0],
-            mixed(each[1]) > 1 and not {"sheet", "rod", "notch"} & set(each[1]),
-            mixed(each[1]),
-        )
-    )
-    return [recipe for _, recipe in dict.fromkeys(made)]
+    large = {"sheet", "rod", "notch"}
+
+    def order(each: tuple[int, tuple[str, ...]]) -> tuple[int, bool, int]:
+        kinds_ = set(each[1])
+        return each[0], len(kinds_) > 1 and not large & kinds_, len(kinds_)
+
+    return [recipe for _, recipe in sorted(dict.fromkeys(made), key=order)]
+
+
+def is_mixed(recipe: Sequence[str]) -> bool:
+    """Whether several kinds that hold a single force each fill up what others leave."""
+    return len({kind for kind in recipe if HOLDS[kind] == 1}) > 1
 
 
 def sets_of(stock: Stock, recipe: tuple[str, ...], starts: int) -> list[Found]:
@@ -296,6 +313,12 @@ def turns_that_keep(freedom: FloatArray, arrangement: Arrangement) -> tuple[int,
     return len(kept), found
 
 
+def is_symmetric(arrangement: Arrangement, group: Group) -> bool:
+    """Whether the material of a layout is its own image under a group."""
+    sets = _sets(arrangement)
+    return _material(sets, group.turns[1], 5) == _material(sets, np.eye(3), 5)
+
+
 def key_of(frame: Scaled, arrangement: Arrangement) -> tuple[object, int]:
     """What is the same of all images of a layout, and how many images it has."""
     sets = _sets(arrangement)
@@ -322,5 +345,7 @@ def _material(sets: Sequence[_Set], turn: FloatArray, digits: int = 6) -> list[t
     rows: list[tuple[object, ...]] = []
     for between, candidates in sets:
         every = materials(moved(candidates, turn), digits)
-        rows += [(between, candidates.kind, *row) for row in every.tolist()]
+        # Bodies between may change places, too; which is which is told by where flexures are.
+        bodies = tuple(name.rstrip(" 0123456789") for name in between)
+        rows += [(bodies, candidates.kind, *row) for row in every.tolist()]
     return sorted(rows)

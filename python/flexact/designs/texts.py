@@ -9,20 +9,21 @@ import re
 import stat
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any, NoReturn
+from dataclasses import dataclass
+from typing import Any, NamedTuple, NoReturn
 
 from ..deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
 from ..deck.rendering import DeckError
 from ..util.errors import reason_of
 from ..util.loading import load
+from ..util.records import cached_property
 from ..util.text import in_short
 
 #: Keys and places in lists, from the outermost.
 Path = tuple[str | int, ...]
 
 #: A person's file is smaller.
-_MOST_BYTES = 2**22
+_MOST_BYTES = 2**20
 #: Tables and lists within each other.
 MOST_DEPTH = 24
 _UTF8_MARK = b"\xef\xbb\xbf"
@@ -32,6 +33,20 @@ _BARE_UNIT = re.compile(r"(?<![\w\"'.])[-+]?\d+\.?\d*(?:e[-+]?\d+)?\s*[a-zA-Z]+\
 _TOML_PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
+#: First and last character.
+Span = tuple[int, int]
+
+
+class Places(NamedTuple):
+    """Where keys and values stand in a text, in characters of it."""
+
+    values: dict[Path, Span]
+    keys: dict[Path, Span]
+    """Of a table of TOML its heading."""
+    twice: list[Path]
+    """Keys that are there again; their places are the second ones."""
+
+
 @dataclass(frozen=True, eq=False)
 class FileText:
     """What a file holds.
@@ -39,20 +54,31 @@ class FileText:
     Attributes:
         tree: Its keys and values.
         source: Its text.
-        values: Where each value begins and ends, in characters of the text.
-        keys: Where each key does; of a table of TOML its heading.
-        twice: Keys that are there again, with both places.
+        locate: Finds where they stand, which is wanted where something is wrong alone.
+        has_twice: Whether keys are there again.
     """
 
     tree: dict[str, Any]
     source: Source
-    values: Mapping[Path, tuple[int, int]] = field(default_factory=dict)
-    keys: Mapping[Path, tuple[int, int]] = field(default_factory=dict)
-    twice: tuple[tuple[Path, tuple[int, int], tuple[int, int]], ...] = ()
+    locate: Callable[[], Places]
+    has_twice: bool = False
+
+    @cached_property
+    def places(self) -> Places:
+        """Where they stand."""
+        return self.locate()
+
+    @property
+    def twice(self) -> list[Path]:
+        """Keys that are there again."""
+        return self.places.twice if self.has_twice else []
 
     def place(self, path: Path, *, of_key: bool = False) -> Place | None:
         """Where a value stands, or its key; where it has no place, that of what it is in."""
-        order = (self.keys, self.values) if of_key else (self.values, self.keys)
+        if not path:
+            return None
+        values, keys, _ = self.places
+        order = (keys, values) if of_key else (values, keys)
         while path:
             for each in order:
                 if path in each:
@@ -178,17 +204,24 @@ def _toml(text: str, source: Source) -> FileText:
         _no(what, text, found and found[1], found and found[2])
     except ValueError as error:
         _no(str(error), text)
-    return _located(tree, source, text, _Scanner.toml)
+    return FileText(tree, source, lambda: _Scanner(text).toml())
 
 
 def _json(text: str, source: Source) -> FileText:
+    doubled: list[bool] = []
+
+    def table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        made = dict(pairs)
+        doubled.append(len(made) < len(pairs))
+        return made
+
     try:
-        tree = json.loads(text)
+        tree = json.loads(text, object_pairs_hook=table)
     except json.JSONDecodeError as error:
         raise _SyntaxError(_begun_small(error.msg), error.pos) from None
     except ValueError as error:
         _no(str(error), text)
-    return _located(tree, source, text, _Scanner.json)
+    return FileText(tree, source, lambda: _Scanner(text).json(), any(doubled))
 
 
 def _no(what: str, text: str, line: str | None = None, column: str | None = None) -> NoReturn:
@@ -206,52 +239,43 @@ def _begun_small(words: str) -> str:
     return words[:1].lower() + words[1:]
 
 
-def _located(tree: Any, source: Source, text: str, scan: Callable[[_Scanner], None]) -> FileText:
-    scanner = _Scanner(text)
-    scan(scanner)
-    return FileText(tree, source, scanner.values, scanner.keys, tuple(scanner.twice))
-
-
 class _Scanner:
     """Finds where the keys and values of a text stand that is known to be TOML or JSON."""
 
     def __init__(self, text: str) -> None:
         self.text = text
         self.at = 0
-        self.values: dict[Path, tuple[int, int]] = {}
-        self.keys: dict[Path, tuple[int, int]] = {}
-        self.twice: list[tuple[Path, tuple[int, int], tuple[int, int]]] = []
+        self.found = Places({}, {}, [])
 
-    def json(self) -> None:
-        """All of a JSON text."""
+    def json(self) -> Places:
+        """Of all of a JSON text."""
         self.value(())
+        return self.found
 
-    def toml(self) -> None:
-        """All of a TOML text; tables in lists are counted."""
+    def toml(self) -> Places:
+        """Of all of a TOML text; tables in lists are counted."""
         table: Path = ()
         counts: dict[Path, int] = {}
         self.skip()
         while self.at < len(self.text):
-            first = self.at
-            brackets = 0
-            while self.text[self.at] == "[":
-                brackets += 1
-                self.at += 1
-            if not brackets:
+            first, is_listed = self.at, self.text.startswith("[[", self.at)
+            if self.peek() != "[":
                 self.entry(table)
             else:
+                self.at += 1 + is_listed
+                *outer, last = self.key()
                 table = ()
-                for key in self.key():
+                for key in outer:
                     table = (*table, key)
-                    if table in counts and (brackets == 1 or self.peek() != "]"):
-                        table = (*table, counts[table] - 1)
-                self.at += brackets
-                if brackets == 2:
-                    table = table[:-1] if isinstance(table[-1], int) else table
+                    table = (*table, counts[table] - 1) if table in counts else table
+                table = (*table, last)
+                if is_listed:
                     counts[table] = counts.get(table, 0) + 1
-                    table = (*table, counts[table] - 1)
-                self.keys[table] = first, self.at
+                table = (*table, counts[table] - 1) if table in counts else table
+                self.at += 1 + is_listed
+                self.put_key(table, (first, self.at))
             self.skip()
+        return self.found
 
     def peek(self) -> str:
         return self.text[self.at : self.at + 1]
@@ -273,11 +297,17 @@ class _Scanner:
         first = self.at
         path = table + self.key()
         place = first, self.end()
-        if path in self.keys and path in self.values:
-            self.twice.append((path, self.keys[path], place))
-        self.keys[path] = place
+        if path in self.found.keys and path in self.found.values:
+            self.found.twice.append(path)
+        self.put_key(path, place)
         self.at += 1
         self.value(path)
+
+    def put_key(self, path: Path, place: Span) -> None:
+        """Keep where a key stands, and with it the tables that it makes."""
+        self.found.keys[path] = place
+        while path := path[:-1]:
+            self.found.keys.setdefault(path, place)
 
     def key(self) -> tuple[str, ...]:
         """The parts of a key, apart by dots, up to what stands behind it."""
@@ -330,7 +360,7 @@ class _Scanner:
         else:
             found = _SCALAR.match(self.text, self.at)
             self.at = found.end() if found and found.end() > self.at else self.at + 1
-        self.values[path] = first, self.end()
+        self.found.values[path] = first, self.end()
 
 
 _BLANKS = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
@@ -359,9 +389,7 @@ def _yaml(text: str, source: Source) -> FileText:
         what = getattr(error, "problem", None) or str(error).split("\n")[0]
         raise _SyntaxError(what, mark.index if mark else None) from None
     loader = yaml.SafeLoader("")
-    values: dict[Path, tuple[int, int]] = {}
-    keys: dict[Path, tuple[int, int]] = {}
-    twice: list[tuple[Path, tuple[int, int], tuple[int, int]]] = []
+    values, keys, twice = found = Places({}, {}, [])
     seen: set[int] = set()
 
     def tree(node: Any, path: Path) -> Any:
@@ -382,7 +410,7 @@ def _yaml(text: str, source: Source) -> FileText:
                     raise _SyntaxError("a key is not a word", span[0])
                 inside = (*path, key.value)
                 if inside in keys:
-                    twice.append((inside, keys[inside], span))
+                    twice.append(inside)
                 keys[inside] = span
                 made[key.value] = tree(each, inside)
             return made
@@ -395,7 +423,7 @@ def _yaml(text: str, source: Source) -> FileText:
             raise _SyntaxError("this value cannot be read", place[0]) from None
 
     made: Any = tree(top, ()) if top is not None else None
-    return FileText(made, source, values, keys, tuple(twice))
+    return FileText(made, source, lambda: found, bool(twice))
 
 
 _FLOAT = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d+")

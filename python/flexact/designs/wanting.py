@@ -10,7 +10,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..advice.spaces.spaces import Spaces
-from ..advice.spaces.wanted_motion import Written, numbers, pitch_of, place_of, read_all
+from ..advice.spaces.wanted_motion import (
+    Written,
+    numbers,
+    pitch_of,
+    place_of,
+    read_all,
+    wanted_of,
+)
 from ..analysis.result import Result
 from ..analysis.screws import ScrewKind
 from ..core.arrays import FloatArray
@@ -48,7 +55,13 @@ class Line(NamedTuple):
     text: str
 
 
-def lines_of(entries: Entries, path: Path, given: object, result: Result | None) -> list[Line]:
+def lines_of(
+    entries: Entries,
+    path: Path,
+    given: object,
+    result: Result | None = None,
+    held: Spaces | None = None,
+) -> list[Line]:
     """The wanted motions of an entry: a sentence, a table, or several.
 
     Args:
@@ -56,6 +69,8 @@ def lines_of(entries: Entries, path: Path, given: object, result: Result | None)
         path: Its keys.
         given: It.
         result: The analysis of the model that the stage is of, whose points have names.
+        held: What the stage can do in it: as in `advise`, a rotation without a point is about the
+            line nearest to its middle which it can turn about.
     """
     listed = [(path, given)] if isinstance(given, (str, dict)) else given
     if not isinstance(listed, list):
@@ -73,7 +88,7 @@ def lines_of(entries: Entries, path: Path, given: object, result: Result | None)
         if isinstance(each, dict):
             made += _of_table(entries, place, each, result)
         elif isinstance(each, str):
-            made += _of_sentence(entries, place, each, result)
+            made += _of_sentence(entries, place, each, result, held)
         else:
             message = f"a wanted motion is a text or a table, not {in_short(each)}"
             hint = 'write "rotation about (0, 0, 0) along x", or a table with kind and direction'
@@ -81,11 +96,17 @@ def lines_of(entries: Entries, path: Path, given: object, result: Result | None)
     return made
 
 
-def _of_sentence(entries: Entries, path: Path, text: str, result: Result | None) -> Iterator[Line]:
+def _of_sentence(
+    entries: Entries, path: Path, text: str, result: Result | None, held: Spaces | None
+) -> Iterator[Line]:
     try:
         for each in read_all(text, units=entries.units):
-            needs_point = each.point is not None and each.kind is not ScrewKind.TRANSLATION
-            point = _point(entries, each, result) if needs_point else None
+            point = None
+            if each.kind in (ScrewKind.ROTATION, ScrewKind.SCREW):
+                if each.point:
+                    point = _point(entries, each, result)
+                elif each.point is None and result is not None and held is not None:
+                    point = wanted_of(result, held.freedom, each).point
             if each.kind is not ScrewKind.NONE:
                 yield Line(path, each.kind, each.direction, point, each.pitch, each.text.strip())
     except ProblemsError as error:

@@ -75,7 +75,7 @@ class Thicknesses(Frozen):
         return np.asarray(self.data.arrays.deformation_class[3] == Class.NONE)
 
     @cached_property
-    def _follows(self) -> BoolArray:
+    def follows(self) -> BoolArray:
         """(2, elements) which sizes are the thickness."""
         is_round = self.data.appearance.cross_section == CrossSection.CIRC
         y, z = self.size
@@ -85,7 +85,7 @@ class Thicknesses(Frozen):
     @property
     def thickness(self) -> FloatArray:
         """(elements,) [m]; 1 where not known."""
-        return np.asarray(np.where(self._follows[0], self.size[0], self.size[1]))
+        return np.asarray(np.where(self.follows[0], self.size[0], self.size[1]))
 
     def constants(self, element: int, size: FloatArray) -> Constants:
         """Of the section of an element with other sizes (2, elements)."""
@@ -98,10 +98,13 @@ class Thicknesses(Frozen):
 
     def changed(self, by: FloatArray) -> Scales:
         """What becomes of the elements where thicknesses change by (elements,) [m]."""
-        size = self.size + np.where(self._follows & self.is_known, by, 0.0)
-        stiffness, mass = (np.ones((n, by.size)) for n in (6, 5))
+        return self.resized(self.size + np.where(self.follows & self.is_known, by, 0.0))
+
+    def resized(self, size: FloatArray) -> Scales:
+        """What becomes of the elements with other sizes (2, elements) along local y and z [m]."""
+        stiffness, mass = (np.ones((n, size.shape[1])) for n in (6, 5))
         bars = member_table()[self.data.arrays.element_kind] == Member.BAR
-        for e in np.flatnonzero(self.is_known & (by != 0.0)).tolist():
+        for e in np.flatnonzero(self.is_known & (size != self.size).any(axis=0)).tolist():
             old, new = self._designed[e], self.constants(e, size)
             area, iy, iz, torsion = (b / a for a, b in zip(old, new, strict=True))
             polar = (new.iy + new.iz) / (old.iy + old.iz)

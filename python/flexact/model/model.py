@@ -421,8 +421,8 @@ class Model:
             radius: Of a circular contour, or of the fillets [m].
             length: Of any other than a circular contour [m].
             material: Steel by default, see `wire`.
-            warping: Whether its ends cannot warp, which makes a broad notch much stiffer in torsion,
-                see `NotchContour.held_torsion`.
+            warping: Whether its ends cannot warp, which makes a broad notch much stiffer in
+                torsion, see `NotchContour.held_torsion`.
 
         Returns:
             The notch, with its points p and q; with a contour it has `pieces`.

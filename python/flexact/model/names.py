@@ -37,9 +37,15 @@ def part_name(element_name: str) -> str:
     return found[1] if found else _TAIL.sub("", element_name)
 
 
+_HALF = re.compile(r", (?:half [12]|bar(?: [123])?)$")
+
+
 def is_half(name: str) -> bool:
-    """Whether this is what the half of a notch is called, which a body may carry."""
-    return name.endswith((", half 1", ", half 2"))
+    """Whether this is what the half of a notch, or a bar beside one, is called.
+
+    A body may carry it.
+    """
+    return bool(_HALF.search(name))
 
 
 def own_number(element_name: str) -> int:

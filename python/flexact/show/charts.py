@@ -139,8 +139,8 @@ class Scale(Frozen):
 
     @property
     def heading(self) -> str:
-        """The unit behind a title, such as " [mm]"; nothing where each tick has its own."""
-        return "" if self.each_its_own else f" [{self.unit.name}]"
+        """The unit behind a title, " [mm]"; nothing without, or where each tick has its own."""
+        return "" if self.each_its_own or not self.unit.name else f" [{self.unit.name}]"
 
 
 def linear_scale(values: ArrayLike, unit: str, *, from_zero: bool = False) -> Scale:

@@ -126,7 +126,7 @@ _DIRECTION = re.compile(r"\([^()]*\)|(?<![\w.])[+-]?[xyzXYZ]\b")
 class Written(NamedTuple):
     """A wanted motion as far as it can be read without the mechanism.
 
-    Its kind is `ScrewKind.NONE` where nothing is wanted.
+    Its kind is `ScrewKind.NONE` where nothing is wanted. A point "" is the middle of the body.
     """
 
     text: str
@@ -191,8 +191,8 @@ def _motions(motion: str, planar: bool, units: Units) -> Iterator[Written]:
         yield from _told(planar, motion, ScrewKind.TRANSLATION, _across(normal[None]), None)
         yield from _told(planar, motion, ScrewKind.ROTATION, normal[None], None)
     elif form == "spherical":
-        point = re.sub(r"^(?:at|about|through)\s+", "", rest) or None
-        yield from _told(planar, motion, ScrewKind.ROTATION, np.eye(3), point)
+        place = re.sub(r"^(?:at|about|through)\s+", "", rest)
+        yield from _told(planar, motion, ScrewKind.ROTATION, np.eye(3), place)
     elif form == "cylindrical":
         given, point = _parted(motion, ScrewKind.ROTATION, rest, False)
         axis = _direction(motion, given, planar=False)[None]
@@ -203,32 +203,32 @@ def _motions(motion: str, planar: bool, units: Units) -> Iterator[Written]:
         axes = [_direction(motion, each, planar=False) for each in _DIRECTION.findall(given)]
         if len(axes) != 2:
             raise unreadable(motion, "two directions are wanted", 'write "universal x and y"; ')
-        yield from _told(planar, motion, ScrewKind.ROTATION, np.array(axes), point)
+        yield from _told(planar, motion, ScrewKind.ROTATION, np.array(axes), point or "")
     else:
         yield read(motion, planar=planar, units=units)
 
 
 def _all_but(motion: str, given: str, planar: bool, units: Units) -> Iterator[Written]:
     """The translations of a point across some directions, and the rotations across others."""
-    left = [
-        read(each, planar=planar, units=units) for each in re.split(r"\s+and\s+", given) if given
-    ]
+    left: list[Written] = []
+    for each in re.split(r"\s+and\s+", given) if given else ():
+        is_nested = each.lower().startswith("all")
+        one = [read(each)] if is_nested else _motions(each.strip(), planar, units)
+        left.extend(one)
     if any(each.kind is ScrewKind.SCREW for each in left):
         hint = "type the motions that are wanted, apart by semicolons; "
         raise unreadable(motion, "of a screw there is no one opposite", hint)
     stopped = [each for each in left if each.kind is ScrewKind.TRANSLATION]
-    if len({each.point for each in stopped}) > 1:
+    if len({each.point or "" for each in stopped}) > 1:
         raise unreadable(motion, "the translations are of two points", "give them one; ")
     point = stopped[0].point if stopped else None
     for kind in (ScrewKind.TRANSLATION, ScrewKind.ROTATION):
         taken = [each.direction for each in left if each.kind is kind]
-        # In the plane, what there is not is taken as well.
-        taken += [np.eye(3)[2]] if planar and kind is ScrewKind.TRANSLATION else []
-        taken += [*np.eye(3)[:2]] if planar and kind is ScrewKind.ROTATION else []
+        if planar:
+            # What there is not in the plane is taken as well.
+            taken += list(np.eye(3)[2:] if kind is ScrewKind.TRANSLATION else np.eye(3)[:2])
         rows = _across(np.array(taken).reshape(-1, 3))
-        yield from _told(
-            planar, motion, kind, rows, None if kind is not ScrewKind.ROTATION else point
-        )
+        yield from _told(planar, motion, kind, rows, point or "")
 
 
 def _across(directions: FloatArray) -> FloatArray:
@@ -249,10 +249,9 @@ def _told(
         along = along or f"({', '.join(f'{part:.6g}' for part in axis)})"
         if planar and (axis[2] != 0.0) is (kind is ScrewKind.TRANSLATION):
             raise unreadable(text, f"in a planar model there is no {kind} along {along}")
-        said = f"{kind} {along}" if point is None else f"{kind} about {point} along {along}"
-        yield Written(
-            said, None, kind, axis, point, math.inf if kind is ScrewKind.TRANSLATION else 0.0
-        )
+        is_free = kind is ScrewKind.TRANSLATION
+        said = f"{kind} about {point} along {along}" if point and not is_free else f"{kind} {along}"
+        yield Written(said, None, kind, axis, point, math.inf if is_free else 0.0)
 
 
 def read(text: str, *, planar: bool = False, units: Units = METRES) -> Written:
@@ -440,7 +439,7 @@ def wanted_of(result: Result, space: ScrewSpace, written: Written) -> Wanted:
             raise unreadable(written.text, "a planar model has no z")
         return _made(written, space, space.about, space.free(direction))
     if written.point is not None:
-        point = place_of(result, written)
+        point = place_of(result, written) if written.point else space.about
         return _made(written, space, point, space.line(point, direction, written.pitch))
     twist = _nearest_line(space, direction, written.pitch)
     if twist is None:
