@@ -20,7 +20,9 @@ from ..advice.constraint_quality import Hold
 from ..advice.spaces.screws import EXACT, ScrewSpace
 from ..analysis.freedoms import Freedom, together
 from ..analysis.naming import Line, line_of
+from ..analysis.places import listed
 from ..api import Analysis, analyse
+from ..core.arrays import FloatArray
 from ..show.drawing import Moving, drawing_of
 from ..show.notebook.output import SMALL, shown
 from ..show.notebook.output import table as notebook_table
@@ -54,11 +56,11 @@ from .design import Designs, confirmed, found_in_words
 from .explain import Explanation, nearby
 from .explain_files import in_one_line, sides_of
 from .files import slug, stem_of
-from .layouts import COORDINATES, Flexure, Layout, declared, in_a_row, plural
+from .layouts import Flexure, Layout, plural
 from .problem import KINDS, Problem
-from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, unit_rows
+from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, stage_point, unit_rows
 
-#: A twist whose part along a coordinate is less than this of the largest does not move it.
+#: Less than this part of the largest twist, or of the size, is no motion.
 _STAYS = 1.0e-9
 
 
@@ -255,43 +257,37 @@ def in_notebook(layout: Layout) -> str:
 
 
 def wanted_motions(layout: Layout, analysis: Analysis) -> Iterator[tuple[str, Moving]]:
-    """The wanted motions, each with its words; inner ones stay as they are.
-
-    The stage's coordinates are declared at the centre, so that the parts of a wanted twist are
-    the velocities of what is declared.
-    """
+    """The wanted motions, each with its words, made of what is declared."""
     problem = layout.problem
-    parts = dict(zip(declared(problem.freedom), stage_freedoms(layout, analysis), strict=False))
-    for motion in problem.wanted:
-        twist = dict(zip(COORDINATES, motion.twist.tolist(), strict=True))
-        most = max(abs(twist[name]) * scale_of(name, problem) for name in parts)
-        moved = [
-            (freedom, twist[name])
-            for name, freedom in parts.items()
-            if abs(twist[name]) * scale_of(name, problem) > _STAYS * most
-        ]
-        found = together(moved) if moved else None
+    at = stage_point(analysis.given, problem.body)
+    arm = problem.centre - analysis.given.arrays.node_value[:3, at.position]
+    free: list[Freedom] = []
+    twists: list[FloatArray] = []
+    for freedom in analysis.freedoms:
+        motion = freedom.motion
+        if motion is None:
+            continue
+        turned = motion.rotation[at.orientation]
+        moved = motion.displacement[at.position] + np.cross(turned, arm)
+        twist = np.concatenate((problem.size * turned, moved))
+        # Of folds, and of bodies between, the stage knows nothing.
+        if np.linalg.norm(twist) > _STAYS * problem.size:
+            free.append(freedom)
+            twists.append(twist)
+    for wanted in problem.wanted if free else ():
+        scaled = wanted.twist * problem.freedom.factors
+        shares = np.linalg.lstsq(np.transpose(twists), scaled, rcond=_STAYS)[0]
+        chosen = np.abs(shares) > _STAYS * np.abs(shares).max()
+        parts = [(free[k], float(shares[k])) for k in np.flatnonzero(chosen)]
+        found = together(parts)
         if found is not None:
-            yield harmless(motion.text), found
-
-
-def stage_freedoms(layout: Layout, analysis: Analysis) -> list[Freedom]:
-    """What is declared at the stage, in the order of `declared`."""
-    names = {f"{layout.problem.body} {name}" for name in declared(layout.problem.freedom)}
-    found = {each.label: each for each in analysis.freedoms if each.label in names}
-    wanted = (f"{layout.problem.body} {name}" for name in declared(layout.problem.freedom))
-    return [found[name] for name in wanted if name in found]
-
-
-def scale_of(coordinate: str, problem: Problem) -> float:
-    """By which a velocity along a coordinate compares with others."""
-    return problem.size if coordinate.startswith("r") else 1.0
+            yield harmless(wanted.text), found
 
 
 def spaces_of(layout: Layout, size: float) -> Iterator[SpaceShown]:
     """The wanted freedom, and what the flexures hold, in a drawing of a size [m]."""
     yield space_shown(layout.problem.freedom, "Freedom", "what is wanted", size)
-    holds = [held_by(flexure, layout.problem, size) for flexure in layout.flexures]
+    holds = [hold_shown(flexure, layout.problem, size) for flexure in layout.flexures]
     shape = reduce(add, holds, SpaceShape(is_freedom=False))
     yield SpaceShown("Constraints", shape, "what the flexures hold", np.zeros((0, 2, 3)))
 
@@ -315,7 +311,7 @@ def picture_of(layout: Layout, analysis: Analysis) -> bytes | None:
     return attempted("The picture", drawn, None, None)
 
 
-def held_by(flexure: Flexure, problem: Problem, size: float) -> SpaceShape:
+def hold_shown(flexure: Flexure, problem: Problem, size: float) -> SpaceShape:
     """What is drawn of what a flexure holds: a line of a wire, a plane of a sheet."""
     middle = flexure.ends.mean(axis=0)
     rows = np.linalg.qr(unit_rows(flexure, middle, problem.size).T)[0].T
@@ -397,7 +393,7 @@ def in_lines(content: str) -> str:
 def kinds_of(layout: Layout) -> str:
     """Of which kinds its flexures are, such as "sheets and wires"."""
     there = {flexure.kind for flexure in layout.flexures}
-    return in_a_row([plural(kind) for kind in (*KINDS[1:], KINDS[0]) if kind in there] or ["none"])
+    return listed([plural(kind) for kind in (*KINDS[1:], KINDS[0]) if kind in there] or ["none"])
 
 
 #: The mark of the Pareto set, and what it means.
