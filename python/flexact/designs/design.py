@@ -17,6 +17,7 @@ from ..analysis.naming import filled
 from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
+from ..util.loading import load
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
@@ -116,6 +117,11 @@ class Designs(Frozen):
     def explanation(self) -> Explanation:
         """What the wanted freedom takes, in words."""
         return explain(self.problem)
+
+    def _repr_html_(self) -> str:
+        # Notebooks alone ask for it.
+        made: str = load("flexact.designs.page").html_of(self)
+        return made
 
     def table(self, width: int = USUAL) -> str:
         """The layouts with their scores in columns.
