@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -423,6 +424,16 @@ def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
             counts[kind] += 1
         made.append(f"{kind} {counts[kind]}")
     return made
+
+
+def stem_of(layout: Layout) -> str:
+    """What files of a layout are called without a suffix, such as "03_five_wires"."""
+    return f"{layout.number:02d}_{slug(layout.what, '_')}"
+
+
+def slug(words: str, between: str = "-") -> str:
+    """Words in letters that a file or a class may be called by."""
+    return re.sub(r"[^a-z0-9]+", between, words.lower()).strip(between)
 
 
 # As a script ----------------------------------------------------------------------------

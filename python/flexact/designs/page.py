@@ -55,8 +55,7 @@ from ..util.text import harmless, number_in_words
 from .design import Designs, confirmed, found_in_words
 from .explain import Explanation, nearby
 from .explain_files import in_one_line, sides_of
-from .files import slug, stem_of
-from .layouts import Flexure, Layout, plural
+from .layouts import Flexure, Layout, plural, slug, stem_of
 from .problem import KINDS, Problem
 from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, stage_point, unit_rows
 
