@@ -264,7 +264,7 @@ def lines_of_families(constraint: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _told(values: FloatArray, axes: FloatArray) -> FloatArray:
-    """Principal axes of a form; of equal values those nearest to unit vectors, not arbitrary ones."""
+    """Principal axes of a form; of equal values those nearest to unit vectors, none at random."""
     made = np.array(axes)
     first = 0
     while first < len(values):

@@ -17,12 +17,13 @@ from ..analysis.naming import filled
 from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
+from ..util.loading import load
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
 from .explain import Explanation, explain, explained_json, nearby
-from .frame import Scaled, scaled
+from .frame import Scaled, rounded, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
 from .layers import layered
@@ -117,6 +118,11 @@ class Designs(Frozen):
         """What the wanted freedom takes, in words."""
         return explain(self.problem)
 
+    def _repr_html_(self) -> str:
+        # Notebooks alone ask for it.
+        made: str = load("flexact.designs.page").html_of(self)
+        return made
+
     def table(self, width: int = USUAL) -> str:
         """The layouts with their scores in columns.
 
@@ -193,12 +199,15 @@ def sizes_of(problem: Problem) -> Sizes:
     limits, size = problem.limits, problem.size
 
     def two(pair: tuple[float, float]) -> tuple[float, float]:
-        return pair[0] / size, pair[1] / size
+        return one(pair[0]), one(pair[1])
+
+    def one(length: float) -> float:
+        return float(rounded(np.array(length / size)))
 
     return Sizes(
         *(two(limits.length), two(limits.width)),
-        *(middle_of(limits.thickness) / size, middle_of(limits.diameter) / size),
-        limits.clearance / size,
+        *(one(middle_of(limits.thickness)), one(middle_of(limits.diameter))),
+        one(limits.clearance),
         problem.material.E / problem.material.G,
     )
 
@@ -220,10 +229,17 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
         show: Told of each layout as soon as it is verified and scored.
     """
     begun = time.perf_counter()
+    found = possible(problem.freedom)
+    if found.off:
+        # What is all but special is taken for that, and told.
+        twists = found.freedom.basis
+        wanted = zip(problem.wanted, twists, strict=True)
+        special = tuple(replace(motion, twist=twist) for motion, twist in wanted)
+        problem = replace(problem, wanted=special)
     frame = scaled(problem)
     search = _Search(problem, frame, show)
     search.run()
-    found, layouts = possible(problem.freedom), search.best()
+    layouts = search.best()
     why = None if layouts else reason_of(problem, found, has_layout)
     return Designs(
         *(problem, found, layouts, search.stock.counts),

@@ -15,12 +15,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..advice.spaces.screws import ScrewSpace
+from ..advice.spaces.screws import ScrewSpace, canonical
 from ..core.arrays import FloatArray
 from ..util.text import number_in_words
 from .candidates import Place, Sizes, boxes_of
 from .choice import clear_of
-from .frame import Scaled, turned_screws
+from .frame import Scaled, rounded, turned_screws
 from .images import Group, keeps
 from .layouts import kinds_in_words
 from .possible import layers_of
@@ -72,7 +72,9 @@ class Stocks:
             numbers += [np.concatenate((box.low, box.high)) for box in boxes]
         key = np.concatenate(numbers).tobytes()
         if key not in self._known:
-            place = Place(freedom, here, there, (*self.frame.keep_out, *solid), self.sizes)
+            # Rows that do not depend on the sense in which a motion was written.
+            rows = rounded(canonical(freedom))
+            place = Place(rows, here, there, (*self.frame.keep_out, *solid), self.sizes)
             self._known[key] = Stock(place)
             self.spent += 1
         return self._known[key]
@@ -124,7 +126,8 @@ def layered(
         # Each layer holds forces.
         return
     factors = np.repeat((problem.size, 1.0), 3)
-    typed = [turned_screws(frame.turn, motion.twist * factors) for motion in problem.wanted]
+    wanted = [motion.twist * factors / problem.size for motion in problem.wanted]
+    typed = [rounded(turned_screws(frame.turn, twist)) for twist in wanted]
     stocks = Stocks(frame, sizes, asked)
     over = problem.limits.over_constraint
     seen: set[frozenset[bytes]] = set()
