@@ -190,7 +190,7 @@ def test_what_a_wire_holds_is_drawn_along_it(designs: Designs) -> None:
 def test_a_part_that_cannot_be_drawn_is_told_and_the_rest_stays(
     designs: Designs, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def fails(*_: object) -> None:
+    def fails(*_: object, **__: object) -> None:
         raise FlexactError("there is none")
 
     monkeypatch.setattr(pages, "motions_data", fails)

@@ -119,6 +119,30 @@ class Designs(Frozen):
         """What the wanted freedom takes, in words."""
         return explain(self.problem)
 
+    @property
+    def found_in_words(self) -> str:
+        """How many flexures fit the regions, and how many layouts there are."""
+        every = self.candidates.items()
+        counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
+        many = len(self.layouts)
+        of = f" of {self.found} found" if self.found > many else ""
+        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+        fit = f"{counts} fit the regions; " if counts else ""
+        return f"{fit}{layouts}, none an image of another."
+
+    @property
+    def confirmed(self) -> str:
+        """What the analysis says of all layouts."""
+        exact = [layout for layout in self.layouts if not layout.over_constrained]
+        worst = max(layout.freedom_error for layout in self.layouts)
+        rest = len(self.layouts) - len(exact)
+        proven = all(layout.is_proven for layout in exact)
+        how = "proven for the decimals as typed" if proven else "as the analysis found"
+        some = "All of them" if not rest else f"{number_in_words(len(exact)).capitalize()} of them"
+        said = f"{some}: exactly constrained, {how}" if exact else "None is exactly constrained"
+        over = f"; {number_in_words(rest)} over-constrained" if rest else ""
+        return f"{said}{over}; freedom as wanted within {max(worst, 1.0e-16):.0e}."
+
     def _repr_html_(self) -> str:
         # Notebooks alone ask for it.
         made: str = feature("designs")(self)
@@ -485,36 +509,12 @@ def described(designs: Designs, width: int) -> Iterator[str]:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    yield wrapped(found_in_words(designs), width)
+    yield wrapped(designs.found_in_words, width)
     yield ""
     yield designs.table(width)
-    yield wrapped(confirmed(designs), width)
+    yield wrapped(designs.confirmed, width)
     for remark in designs.problem.remarks:
         yield wrapped(f"Remark: {remark}.", width)
-
-
-def found_in_words(designs: Designs) -> str:
-    """How many flexures fit the regions, and how many layouts there are."""
-    every = designs.candidates.items()
-    counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
-    many = len(designs.layouts)
-    of = f" of {designs.found} found" if designs.found > many else ""
-    layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-    fit = f"{counts} fit the regions; " if counts else ""
-    return f"{fit}{layouts}, none an image of another."
-
-
-def confirmed(designs: Designs) -> str:
-    """What the analysis says of all layouts."""
-    exact = [layout for layout in designs.layouts if not layout.over_constrained]
-    worst = max(layout.freedom_error for layout in designs.layouts)
-    rest = len(designs.layouts) - len(exact)
-    proven = all(layout.is_proven for layout in exact)
-    how = "proven for the decimals as typed" if proven else "as the analysis found"
-    some = "All of them" if not rest else f"{number_in_words(len(exact)).capitalize()} of them"
-    said = f"{some}: exactly constrained, {how}" if exact else "None is exactly constrained"
-    over = f"; {number_in_words(rest)} over-constrained" if rest else ""
-    return f"{said}{over}; freedom as wanted within {max(worst, 1.0e-16):.0e}."
 
 
 def answer_of(designs: Designs) -> dict[str, Any]:

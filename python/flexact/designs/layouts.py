@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -22,7 +21,7 @@ from ..model.model import Model
 from ..model.names import part_name
 from ..model.variation import with_vectors
 from ..util.records import Frozen
-from ..util.text import number_in_words
+from ..util.text import number_in_words, slug
 from ..util.units import METRES
 from .frame import Scaled, snapped
 from .held import Held, Joined, held_by
@@ -429,11 +428,6 @@ def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
 def stem_of(layout: Layout) -> str:
     """What files of a layout are called without a suffix, such as "03_five_wires"."""
     return f"{layout.number:02d}_{slug(layout.what, '_')}"
-
-
-def slug(words: str, between: str = "-") -> str:
-    """Words in letters that a file or a class may be called by."""
-    return re.sub(r"[^a-z0-9]+", between, words.lower()).strip(between)
 
 
 # As a script ----------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 from operator import add
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -51,13 +52,15 @@ from ..show.picture.files import fewer_colours
 from ..show.spaces import SpaceShape, SpaceShown, shape_of_hold, space_shown
 from ..show.writers import as_bytes
 from ..util.partial import attempted
-from ..util.text import harmless, number_in_words
-from .design import Designs, confirmed, found_in_words
+from ..util.text import harmless, number_in_words, slug
 from .explain import Explanation, nearby
 from .explain_files import in_one_line, sides_of
-from .layouts import Flexure, Layout, plural, slug, stem_of
+from .layouts import Flexure, Layout, plural, stem_of
 from .problem import KINDS, Problem
 from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, stage_point, unit_rows
+
+if TYPE_CHECKING:
+    from .design import Designs
 
 #: Less than this part of the largest twist, or of the size, is no motion.
 _STAYS = 1.0e-9
@@ -92,7 +95,7 @@ class Cards:
         if not designs.layouts:
             return without_layouts(designs, title)
         many = len(designs.layouts)
-        told = found_in_words(designs), confirmed(designs)
+        told = designs.found_in_words, designs.confirmed
         words = f"{title}: {number_in_words(many)} layout{'s' * (many > 1)}"
         return self._content(words, designs.explanation, designs.layouts, told, is_whole)
 
@@ -232,7 +235,7 @@ def html_of(designs: Designs) -> str:
         )
         for layout, is_best in zip(designs.layouts, best, strict=True)
     ]
-    told = text(f"{found_in_words(designs)} {confirmed(designs)}")
+    told = text(f"{designs.found_in_words} {designs.confirmed}")
     star = text(_STAR) if any(best) and not all(best) else ""
     table_ = notebook_table(heads, rows)
     return f"<div><p>{wanted}</p>{table_}<p><small>{told} {star}</small></p></div>"
