@@ -358,8 +358,8 @@ def reached(
     which, starts, ends = [], [], []
     least, most = place.sizes.length
     before, after = (np.inf, -np.inf) if beside is None else (-beside, beside)
-    here = [_spans(points, directions, half, box) for box in place.here]
-    there = [_spans(points, directions, half, box) for box in place.there]
+    here = [spans(points, directions, half, box) for box in place.here]
+    there = [spans(points, directions, half, box) for box in place.there]
     for sense in (1.0, -1.0):
         best = np.full(len(points), np.inf)
         begin, end = np.zeros(len(points)), np.zeros(len(points))
@@ -390,9 +390,10 @@ def reached(
     return np.concatenate(which), np.concatenate(starts), np.concatenate(ends)
 
 
-def _spans(
+def spans(
     points: FloatArray, directions: FloatArray, half: FloatArray, box: Box
 ) -> tuple[FloatArray, FloatArray]:
+    """Where the lines of strips, with their edges, are in a box: see `cut`."""
     if not half.any() or (box.high - box.low).max() <= TINY:
         # At a point the middle of the clamp is, however wide it is.
         return cut(points, directions, box.low, box.high)
@@ -683,8 +684,8 @@ def folded(place: Place, fineness: int = 5) -> Candidates:
     made = []
     for breadth in breadths(place.sizes)[1:]:
         half = breadth / 2.0 * ways
-        begins = [_nearest(folds, ways, half, box) for box in place.here]
-        ends = [_nearest(folds, ways, half, box) for box in place.there]
+        begins = [nearest_in(folds, ways, half, box) for box in place.here]
+        ends = [nearest_in(folds, ways, half, box) for box in place.there]
         for (start, ok), (end, there) in itertools.product(begins, ends):
             both = ok & there
             made.append(
@@ -700,7 +701,7 @@ def _corners(place: Place, starts: FloatArray) -> Iterator[FloatArray]:
             yield starts + length * axis
 
 
-def _nearest(
+def nearest_in(
     folds: FloatArray, ways: FloatArray, half: FloatArray, box: Box
 ) -> tuple[FloatArray, BoolArray]:
     """(n, 3) nearest points of a box in planes across folds, and whether edges are in the box."""

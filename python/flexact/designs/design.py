@@ -15,9 +15,10 @@ import numpy as np
 
 from ..analysis.naming import filled
 from ..analysis.places import listed
+from ..core.progress import Progress
 from ..model.model import Model
 from ..util.errors import FlexactError
-from ..util.loading import feature
+from ..util.loading import feature, load
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
@@ -146,6 +147,41 @@ class Designs(Frozen):
     def _repr_html_(self) -> str:
         # Notebooks alone ask for it.
         made: str = feature("designs")(self)
+        return made
+
+    def refined(
+        self,
+        *numbers: int,
+        starts: int = 2,
+        evaluations: int = 200,
+        method: str = "auto",
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> Designs:
+        """The same with better sizes and places of some layouts, in their new order.
+
+        Each layout that was refined has what it was as `before`, and how it was refined as
+        `refined`. See `flexact.designs.reshape`.
+
+        Args:
+            numbers: Of layouts; by default the first three.
+            starts: From how many places each is searched.
+            evaluations: How many designs of each are looked at, at most.
+            method: As of `flexact.refine`.
+            seed: The same gives the same.
+            progress: Called with what is best so far, and how much is done, from 0 to 1.
+
+        Raises:
+            FlexactError: there is no such layout, or none can be refined.
+        """
+        made: Designs = load("flexact.designs.reshape").refined_designs(
+            *(self, numbers),
+            starts=starts,
+            evaluations=evaluations,
+            method=method,
+            seed=seed,
+            progress=progress,
+        )
         return made
 
     def table(self, width: int = USUAL) -> str:

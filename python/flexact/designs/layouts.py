@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -23,11 +23,15 @@ from ..model.variation import with_vectors
 from ..util.records import Frozen
 from ..util.text import number_in_words, slug
 from ..util.units import METRES
+from .candidates import Candidates
 from .frame import Scaled, snapped
 from .held import Held, Joined, held_by
 from .problem import KINDS, Problem
 from .rods import SHOWN_AS, Call, form_of, notch_calls, strut_calls
 from .search import Arrangement
+
+if TYPE_CHECKING:
+    from .refined import Refined
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +91,8 @@ class Layout(Frozen):
         symmetry: Order of the group of isometries that keep its material, 1 for none.
         alike: How many images under the isometries of the problem it stands for.
         scores: See `flexact.designs.scores`; one beam a flexure.
+        before: The layout that it was refined from; None where it was not.
+        refined: How it was refined; likewise.
     """
 
     number: int
@@ -103,6 +109,8 @@ class Layout(Frozen):
     symmetry: int
     alike: int
     scores: dict[str, float]
+    before: Layout | None = None
+    refined: Refined | None = None
 
     @property
     def worst_stiffness(self) -> float:
@@ -310,32 +318,16 @@ def flexures_of(
     problem: Problem, frame: Scaled, arrangement: Arrangement
 ) -> tuple[tuple[Flexure, ...], tuple[tuple[str, FloatArray], ...]]:
     """Flexures and bodies of an arrangement, with true lengths, places as one would type them."""
-    size, limits = problem.size, problem.limits
     thickness, diameter = (
-        math.sqrt(low * high) for low, high in (limits.thickness, limits.diameter)
+        math.sqrt(low * high) for low, high in (problem.limits.thickness, problem.limits.diameter)
     )
     found: list[tuple[tuple[object, ...], Flexure]] = []
-
-    def placed(places: FloatArray) -> FloatArray:
-        return snapped(frame.back(places), size)
-
     for part in arrangement.parts:
         for candidates, k in part.found.chosen.members:
-            form = candidates.kind
-            kind = SHOWN_AS.get(form, form)
-            is_round = form in ("wire", "strut")
-            is_flat = not is_round and form != "bellows"
-            flexure = Flexure(
-                *(form, kind, part.between, placed(candidates.ends[k])),
-                snapped(np.array(diameter), size).item() if is_round else 0.0,
-                snapped(candidates.width[k] * size, size).item(),
-                snapped(np.array(thickness), size).item() if is_flat else 0.0,
-                snapped(frame.turned_back(candidates.normal[k]), 1.0),
-                placed(candidates.via[k]),
-                snapped(frame.turned_back(candidates.axes[k]), 1.0),
-            )
+            flexure = flexure_of(problem, frame, part.between, candidates, k, thickness, diameter)
             # Within a part those that hold most come first, then by their places in the frame.
             place = np.round(candidates.ends[k].ravel(), 6) + 0.0
+            kind = flexure.kind
             found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
     order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
     found.sort(key=lambda each: (order.index(each[1].between), each[0]))
@@ -344,7 +336,47 @@ def flexures_of(
     flexures = tuple(
         replace(flexure, name=name) for name, (_, flexure) in zip(names, found, strict=True)
     )
-    return flexures, tuple((name, placed(points)) for name, points in arrangement.bodies)
+    return flexures, tuple(
+        (name, snapped(frame.back(points), problem.size)) for name, points in arrangement.bodies
+    )
+
+
+def flexure_of(
+    problem: Problem,
+    frame: Scaled,
+    between: tuple[str, str],
+    candidates: Candidates,
+    k: int,
+    thickness: float,
+    diameter: float,
+) -> Flexure:
+    """A candidate with true lengths, places as one would type them; it is called by its form.
+
+    Args:
+        problem: Of its size.
+        frame: In which candidates are.
+        between: The bodies at its ends.
+        candidates: Of one kind.
+        k: Which of them.
+        thickness: Of sheets [m].
+        diameter: Of wires [m].
+    """
+    size, form = problem.size, candidates.kind
+    is_round = form in ("wire", "strut")
+    is_flat = not is_round and form != "bellows"
+
+    def placed(places: FloatArray) -> FloatArray:
+        return snapped(frame.back(places), size)
+
+    return Flexure(
+        *(form, SHOWN_AS.get(form, form), between, placed(candidates.ends[k])),
+        snapped(np.array(diameter), size).item() if is_round else 0.0,
+        snapped(candidates.width[k] * size, size).item(),
+        snapped(np.array(thickness), size).item() if is_flat else 0.0,
+        snapped(frame.turned_back(candidates.normal[k]), 1.0),
+        placed(candidates.via[k]),
+        snapped(frame.turned_back(candidates.axes[k]), 1.0),
+    )
 
 
 class Verified(NamedTuple):

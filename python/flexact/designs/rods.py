@@ -352,7 +352,7 @@ def struts(place: Place, fineness: int = 3) -> Candidates:
     held = outside(place.freedom, forces(points, directions)) <= _OUTSIDE
     points, directions = points[held], directions[held]
     thick = _STRUT * place.sizes.diameter
-    _, starts, ends = reached(place, points, directions, _round(directions, thick))
+    _, starts, ends = reached(place, points, directions, round_ends(directions, thick))
     return struts_between(place, starts, ends)
 
 
@@ -377,7 +377,7 @@ def struts_between(place: Place, starts: FloatArray, ends: FloatArray) -> Candid
     return made.of(clear_of_boxes(place, strips, radius))
 
 
-def _round(directions: FloatArray, diameter: float) -> FloatArray:
+def round_ends(directions: FloatArray, diameter: float) -> FloatArray:
     """(3, n, 3) half of what round ends reach along x, y and z."""
     reach = diameter / 2.0 * np.sqrt(np.maximum(1.0 - directions**2, 0.0))
     return np.stack([reach * axis for axis in np.eye(3)])
@@ -405,7 +405,7 @@ def bellows(place: Place, fineness: int = 3) -> Candidates:
     lines = np.repeat(points, many, axis=0), np.tile(ways, (len(points), 1))
     made = None
     for diameter in breadths(place.sizes)[-2:]:
-        _, starts, ends = reached(place, *lines, _round(lines[1], diameter))
+        _, starts, ends = reached(place, *lines, round_ends(lines[1], diameter))
         found = bellows_between(place, starts, ends, diameter)
         spanned = np.linalg.matrix_rank(found.rows[:, 0, 3:], 1.0e-6) if len(found) else 0
         if made is None or spanned > np.linalg.matrix_rank(made.rows[:, 0, 3:], 1.0e-6):
