@@ -64,7 +64,7 @@ _STARTS, _FEWER = 12, 6
 #: Of each kind of layouts so many are scored at most.
 _OF_A_KIND = 10
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
-#: layouts with bodies between are sought where none are needed.
+#: layouts with bodies between are sought where none are needed, but have their place.
 _SYMMETRIC, _FEW_KINDS = 2, 3
 #: How many layouts in layers, and with limbs, are looked at.
 _WITH_BODIES = 8
@@ -310,7 +310,9 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
 
 def has_layout(problem: Problem) -> bool:
     """Whether any layout is found for a problem."""
-    search = _Search(problem, scaled(problem), None)
+    # What has no layout without a symmetry has none with one.
+    plain = problem if problem.symmetry != "any" else replace(problem, symmetry="none")
+    search = _Search(plain, scaled(plain), None)
     return any(search.take(kind, iter(each)) for kind, each in search.sources())
 
 
@@ -402,7 +404,7 @@ class _Search:
                 yield name, self.of_group(group, recipe)
         for recipe in [recipe for recipe in made if recipe not in plain] if asked is None else ():
             yield recipe_name(recipe), self.of_recipe(recipe, _FEWER)
-        if found.parallel and len(self.kinds) < _FEW_KINDS:
+        if found.parallel and problem.intermediate and len(self.kinds) < _FEW_KINDS:
             yield from self.with_bodies(asked)
 
     def with_bodies(self, asked: Group | None) -> Iterator[tuple[str, Iterator[Arrangement]]]:
