@@ -291,15 +291,15 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
     """
     begun = time.perf_counter()
     found = possible(problem.freedom)
-    if found.off:
-        # What is all but special is taken for that, and told.
-        twists = found.freedom.basis
-        wanted = zip(problem.wanted, twists, strict=True)
+    search = _Search(problem, scaled(problem), show)
+    search.run()
+    if not search.kinds and found.off:
+        # What is all but special, and has no layout as it is, is taken for that, and told.
+        wanted = zip(problem.wanted, found.freedom.basis, strict=True)
         special = tuple(replace(motion, twist=twist) for motion, twist in wanted)
         problem = replace(problem, wanted=special)
-    frame = scaled(problem)
-    search = _Search(problem, frame, show)
-    search.run()
+        search = _Search(problem, scaled(problem), show)
+        search.run()
     layouts = search.best()
     why = None if layouts else reason_of(problem, found, has_layout)
     return Designs(
