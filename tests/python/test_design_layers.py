@@ -13,7 +13,7 @@ import pytest
 from design_answers_by_hand import design_oracle, problems
 
 from flexact.designs.candidates import Place, Sizes, boxes_of
-from flexact.designs.design import sizes_of
+from flexact.designs.design import asked_group, sizes_of
 from flexact.designs.frame import scaled
 from flexact.designs.layers import layered
 from flexact.designs.layouts import flexures_of, model_of, verified
@@ -270,6 +270,20 @@ def test_limbs_are_images_of_each_other_where_they_can_be(name, count, order):
         if all(_has_image(flexures, bodies, k, axis, order) for k in range(count - 1))
     )
     assert axis.any()
+
+
+@pytest.mark.parametrize(("name", "symmetry"), [("xy", "mirror x"), ("xyz", "3-fold about z")])
+def test_limbs_have_the_symmetry_that_is_asked_for(name, symmetry):
+    """By the solids: `design_oracle.symmetric`."""
+    problem = given(name, boxes=False, bodies=3)
+    frame = scaled(problem)
+    group = asked_group(replace(problem, symmetry=symmetry), frame)
+    made = limbs(problem, frame, sizes_of(problem), problem.limits.kinds, group)
+    _, flexures, bodies = next((each, *flexures_of(problem, frame, each)) for each in made)
+    assert_right(problem, flexures, bodies)
+    asked = {"centre": problem.centre, "size": problem.size}
+    every = [as_json(flexure) | {"between": flexure.between} for flexure in flexures]
+    assert design_oracle.symmetric(asked, every, symmetry)
 
 
 def _has_image(flexures, bodies, k, axis, order):

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import itertools
 
-import flexact
 import numpy as np
 import pytest
+
+import flexact
 from flexact.designs import candidates, choice, geometry, images, search
 from flexact.designs.design import place_of
 from flexact.designs.frame import scaled, signed_permutations, turned_screws
@@ -200,7 +201,7 @@ def test_what_holds_a_body_already_counts() -> None:
         assert analysis.verdict is flexact.Verdict.EXACT
         assert layout.model.units == "mm"
         added = [flexure for flexure in layout.flexures if flexure.kind != "sheet 1"]
-        assert sum(search.HOLDS[flexure.kind] for flexure in added) == 2
+        assert sum(search.HOLDS[flexure.form] for flexure in added) == 2
         declared_of = [each.part for each in analysis.freedoms if each.owner[0] == "node"]
         assert declared_of == ["y"]
     script: dict[str, object] = {}

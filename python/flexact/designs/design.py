@@ -17,7 +17,7 @@ from ..analysis.naming import filled
 from ..analysis.places import listed
 from ..model.model import Model
 from ..util.errors import FlexactError
-from ..util.loading import load
+from ..util.loading import feature
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
@@ -44,6 +44,7 @@ from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_ke
 from .reasons import Reason, reason_of
 from .scores import cheap_scores, pareto, rank_by, ranked, table_of
 from .search import (
+    HOLDS,
     Arrangement,
     Found,
     Part,
@@ -144,7 +145,7 @@ class Designs(Frozen):
 
     def _repr_html_(self) -> str:
         # Notebooks alone ask for it.
-        made: str = load("flexact.designs.page").html_of(self)
+        made: str = feature("designs")(self)
         return made
 
     def table(self, width: int = USUAL) -> str:
@@ -401,6 +402,8 @@ class _Search:
         self.keys.add(key)
         problem = self.problem
         flexures, bodies = flexures_of(problem, self.frame, arrangement)
+        holds = sum(HOLDS[flexure.form] for flexure in flexures)
+        over = len(arrangement.parts) == 1 and holds > len(self.stock.constraint)
         try:
             model = model_of(problem, flexures, bodies, self.held)
             found = verified(problem, model, problem.body)
@@ -412,7 +415,9 @@ class _Search:
             or found.under_constrained
             or found.over_constrained > problem.limits.over_constraint + self.given
         ):
-            self.refused += 1
+            # Decimals of oblique lines are seldom dependent to the last digit, as more flexures
+            # than are needed would have to be.
+            self.refused += not over
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
         parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))

@@ -30,7 +30,7 @@ from .search import HOLDS, Arrangement, Found, Part, Stock, recipes, sets_of, sy
 
 #: How many ways to cut a freedom are tried, and after how many layouts of one no more are sought;
 #: nor after so many searches in a region or for a set where there are layouts, and where not.
-_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 24, 120
+_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 24, 60
 #: From how many first flexures the choice in a layer begins, and how many sets are combined.
 _STARTS, _SETS = 4, 3
 #: A layer with a smaller least singular value of unit rows is none.
@@ -122,6 +122,9 @@ def layered(
         kinds: Of the flexures.
         asked: Under which each layer is to be its own image; None where it need not be.
     """
+    if set(kinds) <= {"bellows"}:
+        # Each layer holds forces.
+        return
     factors = np.repeat((problem.size, 1.0), 3)
     wanted = [motion.twist * factors / problem.size for motion in problem.wanted]
     typed = [rounded(turned_screws(frame.turn, twist)) for twist in wanted]
