@@ -18,7 +18,7 @@ from ..analysis.places import listed
 from ..core.progress import Progress
 from ..model.model import Model
 from ..util.errors import FlexactError
-from ..util.loading import feature, load
+from ..util.loading import feature
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
@@ -174,7 +174,7 @@ class Designs(Frozen):
         Raises:
             FlexactError: there is no such layout, or none can be refined.
         """
-        made: Designs = load("flexact.designs.reshape").refined_designs(
+        made: Designs = feature("refined")(
             *(self, numbers),
             starts=starts,
             evaluations=evaluations,
