@@ -16,6 +16,7 @@ import numpy as np
 from ..analysis.naming import filled
 from ..analysis.places import listed
 from ..core.progress import Progress
+from ..deck.rendering import model_error
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.loading import feature
@@ -43,7 +44,7 @@ from .possible import Possible, possible
 from .problem import Problem
 from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
 from .reasons import Reason, reason_of
-from .scores import cheap_scores, pareto, rank_by, ranked, table_of
+from .scores import DEAR, cheap_scores, dear_scores, pareto, rank_by, ranked, table_of
 from .search import (
     HOLDS,
     Arrangement,
@@ -288,8 +289,18 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
     Args:
         problem: The problem.
         show: Told of each layout as soon as it is verified and scored.
+
+    Raises:
+        ModelError: what holds the stage already stops something that is wanted; or layouts are to
+            be ordered by a frequency, and the stage has no mass.
     """
     begun = time.perf_counter()
+    if problem.rank[0].endswith("frequency") and not problem.mass:
+        raise model_error(
+            "no-mass",
+            f"without a mass of the stage there is no {problem.rank[0].replace('_', ' ')}",
+            "give its mass and its inertia, or another rank",
+        )
     found = possible(problem.freedom)
     search = _Search(problem, scaled(problem), show)
     search.run()
@@ -384,7 +395,6 @@ class _Search:
         problem, stock = self.problem, self.stock
         count, limits = len(stock.constraint), problem.limits
         if not count:
-            yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
         found = possible(problem.freedom)
@@ -475,7 +485,14 @@ class _Search:
         for place in range(_OF_A_KIND):
             round_ = [each[place] for each in orders if len(each) > place]
             chosen += ranked(round_, problem.rank)
-        chosen = list(ranked(chosen[: problem.count], problem.rank))
+        chosen = chosen[: problem.count]
+        if problem.rank[0] in DEAR:
+            # What takes long is found of those that are shown.
+            key = problem.rank[0]
+            dear = [layout.scores | dear_scores(layout, [key])[0] for layout in chosen]
+            pairs = zip(chosen, dear, strict=True)
+            chosen = [replace(layout, scores=scores) for layout, scores in pairs]
+        chosen = list(ranked(chosen, problem.rank))
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
