@@ -98,9 +98,9 @@ layout analysed with its proof. Of each machine the first layouts are shown, and
 is drawn: on top as it moves, below it what is wanted in red and what the flexures hold in blue.
 
 """
-MACHINES_TAIL = """`flexact design PROBLEM -o page.html` shows all layouts of a problem, with drawings that move,
-numbers to sort and decks to take; `flexact watch PROBLEM` renews them while the file is edited.
-[From a wanted freedom to a mirror hinge](../from_a_freedom.md) goes step by step.
+MACHINES_TAIL = """`flexact design PROBLEM -o page.html` shows all layouts of a problem, with
+drawings that move, numbers to sort and decks to take; `flexact watch PROBLEM` renews them while the
+file is edited. [From a wanted freedom to a mirror hinge](../from_a_freedom.md) goes step by step.
 """
 
 
@@ -152,6 +152,13 @@ def machine(name: str, designs: Designs) -> str:
 def machines_page(parts: Iterable[str]) -> str:
     """The page of all."""
     return MACHINES_HEAD + "".join(parts) + MACHINES_TAIL
+
+
+def machines_parts(page: str) -> dict[str, str]:
+    """The parts of a page, by their machines."""
+    middle = page.removeprefix(MACHINES_HEAD).removesuffix(MACHINES_TAIL)
+    found = re.split(r"^(?=## )", middle, flags=re.MULTILINE)[1:]
+    return dict(zip(MACHINES, found, strict=True))
 
 
 def draw_machine(name: str, designs: Designs) -> None:
