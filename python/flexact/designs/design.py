@@ -16,9 +16,10 @@ import numpy as np
 from ..analysis.naming import filled
 from ..analysis.places import listed
 from ..core.progress import Progress
+from ..deck.rendering import model_error
 from ..model.model import Model
 from ..util.errors import FlexactError
-from ..util.loading import feature, load
+from ..util.loading import feature
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from .candidates import Place, Sizes, boxes_of
@@ -42,7 +43,7 @@ from .possible import Possible, possible
 from .problem import Problem
 from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
 from .reasons import Reason, reason_of
-from .scores import cheap_scores, pareto, rank_by, ranked, table_of
+from .scores import DEAR, cheap_scores, dear_scores, pareto, rank_by, ranked, table_of
 from .search import (
     HOLDS,
     Arrangement,
@@ -175,7 +176,7 @@ class Designs(Frozen):
         Raises:
             FlexactError: there is no such layout, or none can be refined.
         """
-        made: Designs = load("flexact.designs.reshape").refined_designs(
+        made: Designs = feature("refined")(
             *(self, numbers),
             starts=starts,
             evaluations=evaluations,
@@ -289,18 +290,28 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
     Args:
         problem: The problem.
         show: Told of each layout as soon as it is verified and scored.
+
+    Raises:
+        ModelError: what holds the stage already stops something that is wanted; or layouts are to
+            be ordered by a frequency, and the stage has no mass.
     """
     begun = time.perf_counter()
+    if problem.rank[0].endswith("frequency") and not problem.mass:
+        raise model_error(
+            "no-mass",
+            f"without a mass of the stage there is no {problem.rank[0].replace('_', ' ')}",
+            "give its mass and its inertia, or another rank",
+        )
     found = possible(problem.freedom)
-    if found.off:
-        # What is all but special is taken for that, and told.
-        twists = found.freedom.basis
-        wanted = zip(problem.wanted, twists, strict=True)
+    search = _Search(problem, scaled(problem), show)
+    search.run()
+    if not search.kinds and found.off:
+        # What is all but special, and has no layout as it is, is taken for that, and told.
+        wanted = zip(problem.wanted, found.freedom.basis, strict=True)
         special = tuple(replace(motion, twist=twist) for motion, twist in wanted)
         problem = replace(problem, wanted=special)
-    frame = scaled(problem)
-    search = _Search(problem, frame, show)
-    search.run()
+        search = _Search(problem, scaled(problem), show)
+        search.run()
     layouts = search.best()
     why = None if layouts else reason_of(problem, found, has_layout)
     return Designs(
@@ -385,7 +396,6 @@ class _Search:
         problem, stock = self.problem, self.stock
         count, limits = len(stock.constraint), problem.limits
         if not count:
-            yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
         found = possible(problem.freedom)
@@ -476,7 +486,14 @@ class _Search:
         for place in range(_OF_A_KIND):
             round_ = [each[place] for each in orders if len(each) > place]
             chosen += ranked(round_, problem.rank)
-        chosen = list(ranked(chosen[: problem.count], problem.rank))
+        chosen = chosen[: problem.count]
+        if problem.rank[0] in DEAR:
+            # What takes long is found of those that are shown.
+            key = problem.rank[0]
+            dear = [layout.scores | dear_scores(layout, [key])[0] for layout in chosen]
+            pairs = zip(chosen, dear, strict=True)
+            chosen = [replace(layout, scores=scores) for layout, scores in pairs]
+        chosen = list(ranked(chosen, problem.rank))
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 

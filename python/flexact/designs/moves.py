@@ -209,7 +209,9 @@ class Mover:
         if len(tangents) and len(kept):
             # Of each the mean of its images, with the sense in which the line is its own image.
             force = self.rest.rows[0, 0]
-            images = [_turned(turn, tangents) * np.sign(_turned(turn, force) @ force) for turn in kept]
+            images = [
+                _turned(turn, tangents) * np.sign(_turned(turn, force) @ force) for turn in kept
+            ]
             tangents = np.mean([tangents, *images], axis=0)
         shifts = [
             np.cross(way, tangents[:, 3:] - np.cross(point, tangents[:, :3])) for point in points
@@ -434,9 +436,7 @@ class Mover:
         elif self.form == "folded sheet":
             assert at is not None and axes is not None
             loose = replace(place.sizes, length=(TINY, np.inf))
-            made = folded_between(
-                replace(bare, sizes=loose), one, at[None], other, axes[:1], width
-            )
+            made = folded_between(replace(bare, sizes=loose), one, at[None], other, axes[:1], width)
         elif self.form in ("sheet", "waisted sheet"):
             waist = None
             if self.form == "waisted sheet":

@@ -133,9 +133,7 @@ class Shape:
         self.order, _ = turns_that_keep(self.frame.freedom, self.arranged(rest))
         self.orbits = tuple(self._orbits(rest, here))
         self.forms = [each.kind for each in rest]
-        self._away = {
-            (i, j): self._apart(rest, i, j) for i, j in combinations(range(len(rest)), 2)
-        }
+        self._away = {(i, j): self._apart(rest, i, j) for i, j in combinations(range(len(rest)), 2)}
         self._out = self._outside(rest, here)
         self.parameters: tuple[Parameter, ...] = ()
         self.parameters = tuple(self._parameters(here))
@@ -393,9 +391,7 @@ class Shape:
         least = float((off - reach[0, :, None] - far[0, None]).min()) - one.radius - other.radius
         if least > 2.0 * self.place.sizes.clearance:
             return least
-        apart = min(
-            float(between_strips(strip, other.strips[0]).min()) for strip in one.strips[0]
-        )
+        apart = min(float(between_strips(strip, other.strips[0]).min()) for strip in one.strips[0])
         return apart - one.radius - other.radius
 
 
@@ -425,9 +421,10 @@ def _to_box(flexure: Candidates, box: Box) -> float:
         for sense in (1.0, -1.0):
             at = middle + sense * half * np.eye(3)[axis]
             faces.append((at - along, at + along, beside))
-    return min(
-        float(between_strips(strip, np.array(faces)).min()) for strip in strips
-    ) - flexure.radius
+    return (
+        min(float(between_strips(strip, np.array(faces)).min()) for strip in strips)
+        - flexure.radius
+    )
 
 
 def _is_range(low: float, high: float) -> bool:
@@ -535,7 +532,9 @@ def _finished(
     sense = 1.0 if less else -1.0
     start = outcome.evaluations[0]
     before = layout.scores.get(key, start.objective)
-    better = [e for e in outcome.evaluations if e.is_feasible and sense * (e.objective - before) < 0]
+    better = [
+        e for e in outcome.evaluations if e.is_feasible and sense * (e.objective - before) < 0
+    ]
     best, made = start, layout
     for each in sorted(better, key=lambda each: sense * each.objective)[:_TRIED]:
         drawn = shape.drawn(each.values)

@@ -34,6 +34,7 @@ FEATURES = {
     "scatter": ("flexact.sweeps.scatter", "scatter_of"),
     "flexures": ("flexact.apps.convert.flexure_table", "table_of_flexures"),
     "designs": ("flexact.designs.page", "html_of"),
+    "refined": ("flexact.designs.reshape", "refined_designs"),
     "at_rest": ("flexact.costs.at_rest", "json_of"),
     "at_rest_in_words": ("flexact.costs.at_rest", "at_rest_in_words"),
 }

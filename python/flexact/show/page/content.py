@@ -476,7 +476,7 @@ def content_of(
     *,
     has_origin: bool = True,
     is_short: bool = False,
-    room: int = MOST_SHAPES,
+    room: int | None = None,
     missing: Sequence[str] = (),
     before: tuple[Result, str] | None = None,
     misaligned: dict[str, Any] | None = None,
@@ -513,7 +513,7 @@ def content_of(
         around = [mesh.triangles.reshape(-1, 3) for mesh in solids]
         frames = frames_of(*(drawing_of(each.given) for each in shown), around=around)
         every = zip(shown, frames, (spaces, None), strict=False)
-        most = FEW_SHAPES if is_short else room
+        most = FEW_SHAPES if is_short else room or MOST_SHAPES
         datas = [viewer_data(each, frame, space, most) for each, frame, space in every]
         for each, frame, data in zip(shown, frames, datas, strict=True):
             if scenery is not None:
