@@ -22,9 +22,8 @@ from ..util.errors import FlexactError
 from ..util.loading import feature
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
-from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
-from .explain import Explanation, explain, explained_json, nearby
+from .explain import Explanation, explain, explained_json, nearby_json
 from .frame import Scaled, rounded, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
@@ -64,6 +63,8 @@ from .search import (
 _STARTS, _FEWER = 12, 6
 #: Of each kind of layouts so many are scored at most.
 _OF_A_KIND = 10
+#: So many are sought where fewer are asked for, so that the best of them is a good one.
+_SOUGHT = 6
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
 #: layouts with bodies between are sought where none are needed, but have their place.
 _SYMMETRIC, _FEW_KINDS = 2, 3
@@ -344,7 +345,7 @@ class _Search:
     def run(self) -> None:
         """Find layouts of each kind, first the best of each; the next ones where few are found."""
         waiting: list[tuple[str, Iterator[Arrangement]]] = []
-        count = self.problem.count
+        count = max(self.problem.count, _SOUGHT)
         # Sets come with the stiffest first; by another score the best may be a later one.
         most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
@@ -593,7 +594,7 @@ def answer_of(designs: Designs) -> dict[str, Any]:
     }
     if designs.why_none is not None:
         made["none"] = designs.why_none._asdict()
-        made["nearby"] = [statement for _, statement in nearby(found, typed, units=METRES)]
+        made["nearby"] = nearby_json(found, typed)
     return made
 
 
