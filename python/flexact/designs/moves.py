@@ -3,10 +3,10 @@
 
 All of it is in the frame of a problem, in parts of its size. Lines of W are the zeros of q on W; at
 a line c the directions d with c'Qd = 0 are tangent to them, and from c + d back to a line it goes
-along Q c, by the smaller root of a quadratic equation, all within W. Where Q c is zero, as in a flat
-family, the directions with Q d = 0 stay. Planes are those in which the freedom leaves all lines
-(theorem 2), found anew where a sheet is moved to. So a flexure that was moved is exact with the
-others as it was before, unless lines become dependent.
+along Q c, by the smaller root of a quadratic equation, all within W. Where Q c is zero, as in a
+flat family, the directions with Q d = 0 stay. Planes are those in which the freedom leaves all
+lines (theorem 2), found anew where a sheet is moved to. So a flexure that was moved is exact with
+the others as it was before, unless lines become dependent.
 
 Where a flexure begins and ends along its line follows from the regions as in `candidates.reached`,
 for a least length that may be asked for.
@@ -56,7 +56,7 @@ _OF_LINES = ("wire", "strut", "folded sheet")
 WIDE = ("sheet", "waisted sheet", "folded sheet", "notch", "rod", "bellows")
 STRAIGHT = ("wire", "strut", "sheet", "waisted sheet", "notch", "rod", "bellows")
 #: How far places and angles are moved at most, in parts of the size and radians.
-_FAR, _TURNED = 4.0, 0.8
+_FAR, _TURNED = 1.5, 0.8
 #: How far something is moved to see what it does.
 _TRIAL = 0.01
 #: A force of less is a couple; of a plane, by how much it may turn in a trial.
@@ -93,10 +93,18 @@ class Mover:
         place: Between which regions it is, with sizes as they are at rest; None where its ends
             stay.
         kept: (n, 3, 3) turns and mirrors that it is to be its own image under.
+        least: The length that it has at least at rest.
+
+    Attributes:
+        off: How far it is, at rest, from where it would be by the regions alone.
     """
 
     def __init__(
-        self, flexure: Candidates, place: Place | None, kept: Sequence[FloatArray] = ()
+        self,
+        flexure: Candidates,
+        place: Place | None,
+        kept: Sequence[FloatArray] = (),
+        least: float = 0.0,
     ) -> None:
         """Find its degrees."""
         self.rest, self.form, self.place = flexure, flexure.kind, place
@@ -107,6 +115,7 @@ class Mover:
             each[0] for each in (flexure.normal, flexure.via, flexure.axes)
         )
         self.degrees: tuple[Degree, ...] = ()
+        self.off, self._least = 0.0, least
         self._off: tuple[FloatArray, FloatArray] = (np.zeros(3), np.zeros(3))
         if place is None:
             return
@@ -123,6 +132,7 @@ class Mover:
         # Images, and what is longer than it need be, lie otherwise along their lines.
         there = self._made(np.zeros(self._count), self.width, 0.0, place)
         self._off = self.first - there.ends[0, 0], self.last - there.ends[0, 1]
+        self.off = round(float(np.abs(self._off).max()), 6)
         self._which = [k for k in range(self._count) if self._is_degree(k, kept)]
         self.degrees = tuple(every[k] for k in self._which)
 
@@ -139,10 +149,8 @@ class Mover:
             NoPlaceError: it cannot be there.
         """
         if self.place is None:
-            return self._built(
-                *(self.first, self.last, self.normal, width, place),
-                *(self.via[0] if len(self.via) else None, self.axes),
-            )
+            at = self.via[0] if len(self.via) else None
+            return self._built(self.first, self.last, self.normal, width, place, at, self.axes)
         every = np.zeros(self._count)
         every[self._which] = moves
         return self._made(every, width, least, place)
@@ -209,7 +217,9 @@ class Mover:
         if len(tangents) and len(kept):
             # Of each the mean of its images, with the sense in which the line is its own image.
             force = self.rest.rows[0, 0]
-            images = [_turned(turn, tangents) * np.sign(_turned(turn, force) @ force) for turn in kept]
+            images = [
+                _turned(turn, tangents) * np.sign(_turned(turn, force) @ force) for turn in kept
+            ]
             tangents = np.mean([tangents, *images], axis=0)
         shifts = [
             np.cross(way, tangents[:, 3:] - np.cross(point, tangents[:, :3])) for point in points
@@ -236,7 +246,7 @@ class Mover:
             "notch": self._about_notch,
             "bellows": self._beside,
         }[self.form]
-        return make(moves, width, max(least, place.sizes.length[0]), place)
+        return make(moves, width, max(least, self._least, place.sizes.length[0]), place)
 
     def _moved_line(self, moves: FloatArray) -> tuple[FloatArray, FloatArray]:
         """A point of a line of W, and its direction."""
@@ -434,9 +444,7 @@ class Mover:
         elif self.form == "folded sheet":
             assert at is not None and axes is not None
             loose = replace(place.sizes, length=(TINY, np.inf))
-            made = folded_between(
-                replace(bare, sizes=loose), one, at[None], other, axes[:1], width
-            )
+            made = folded_between(replace(bare, sizes=loose), one, at[None], other, axes[:1], width)
         elif self.form in ("sheet", "waisted sheet"):
             waist = None
             if self.form == "waisted sheet":
