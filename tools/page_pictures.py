@@ -38,7 +38,10 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 #: By page: what its commands write, and what it is called beside the page.
 PICTURES = {
     "tutorial.md": {"guide.png": "tutorial_guide.png", "mended.png": "tutorial_mended.png"},
-    "for_those_who_know_fact.md": {"spaces.png": "fact_spaces.png"},
+    "for_those_who_know_fact.md": {
+        "spaces.png": "fact_spaces.png",
+        "explain.png": "fact_explain.png",
+    },
 }
 
 

@@ -58,8 +58,8 @@ def test_a_hinge_in_words() -> None:
         "Wanted of the stage: one independent motion: rotation about the line through (*, 0, 0) m",
         "It takes five constraints: forces along all lines that meet the line through (*, 0, 0) m",
         "Wires alone: five, on lines that meet the line",
-        "A sheet in any plane through the line through (*, 0, 0) m along x, and two wires; or such "
-        "a sheet and a waisted sheet.",
+        "A sheet in any plane that contains the line through (*, 0, 0) m along x, and two wires; "
+        "or such a sheet and a waisted sheet.",
         "Two whole sheets: over-constrained by one.",
         "Two waisted sheets and a wire.",
         "A notch, or a cross hinge, with its axis on the line.",

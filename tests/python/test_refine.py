@@ -15,8 +15,8 @@ import pytest
 import flexact
 from flexact.costs.request import RequestError
 from flexact.designs.measures import ASKED, Design, How, box_of
-from flexact.designs.refine import refined as refined_by
 from flexact.designs.optimum import METHODS, Measured, Parameter, SearchError, search
+from flexact.designs.refine import refined as refined_by
 from flexact.designs.varied import Variation, bounds_of
 from flexact.elasticity.errors import ElasticError
 from flexact.util.units import METRES, MILLIMETRES
@@ -648,6 +648,9 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"limits": ["first frequency above 3"]}, "a limit is written"),
     ({"limits": ["frist frequency >= 3"]}, "did you mean 'first frequency'"),
     ({"limits": ["stress <= 3 MPa"], "stress": 3e6, "stroke": 1e-4}, "stress is limited twice"),
+    ({"limits": 3}, "limits are texts"),
+    ({"maximise": "room"}, "a planar model has no room"),
+    ({"length": "1 kg"}, "the length: .*, which is a mass"),
     ({"limits": ["room >= much"]}, "the limit of room is a number"),
     ({"point": "nowhere", "maximise": "worst stiffness"}, "nowhere"),
     ({"starts": 0}, "starts is a whole number from 1"),

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from ..advice.spaces.screws import Family, ScrewSpace, complement
+from ..advice.spaces.screws import EXACT, Family, ScrewSpace, canonical, complement
 from ..core.arrays import BoolArray, FloatArray, IndexArray
 from ..util.records import Frozen, cached_property
 from ..util.rotations import unit
@@ -30,6 +30,8 @@ from .problem import Box, Region
 _OUTSIDE = 1.0e-10
 #: Angles between directions that are tried in a plane.
 _ANGLES = 24
+#: Values of a form that differ by less are one.
+_EQUAL = 1.0e-7
 #: Lines that are taken of a regulus.
 _RULINGS = 180
 
@@ -234,7 +236,7 @@ def lines_of_families(constraint: FloatArray) -> tuple[FloatArray, FloatArray]:
         return np.zeros((0, 3)), np.zeros((0, 3))
     form = rows[:, :3] @ rows[:, 3:].T
     values, vectors = np.linalg.eigh((form + form.T) / 2.0)
-    axes = vectors.T @ rows
+    axes = _told(values, vectors.T @ rows)
     plus, minus = axes[values > TINY], axes[values < -TINY]
     flat = axes[np.abs(values) <= TINY]
     made: list[FloatArray] = []
@@ -259,6 +261,17 @@ def lines_of_families(constraint: FloatArray) -> tuple[FloatArray, FloatArray]:
     sizes = np.linalg.norm(found[:, :3], axis=1)
     found = found[sizes > TINY * 10.0] / sizes[sizes > TINY * 10.0, None]
     return np.cross(found[:, :3], found[:, 3:]), found[:, :3]
+
+
+def _told(values: FloatArray, axes: FloatArray) -> FloatArray:
+    """Principal axes of a form; of equal values those nearest to unit vectors, none at random."""
+    made = np.array(axes)
+    first = 0
+    while first < len(values):
+        same = np.flatnonzero(np.abs(values - values[first]) <= _EQUAL)
+        made[same] = canonical(axes[same]) if same.size > 1 else axes[same]
+        first = int(same[-1]) + 1
+    return made
 
 
 def _combined(rows: FloatArray) -> FloatArray:
@@ -292,7 +305,7 @@ def special_places(freedom: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
 
 
 def _families(rows: FloatArray) -> Sequence[Family]:
-    from_rows = ScrewSpace(rows, np.zeros(3), 1.0)
+    from_rows = ScrewSpace(rows, np.zeros(3), 1.0, tolerance=EXACT)
     return from_rows.families
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from ..core.arrays import BoolArray, FloatArray, IndexArray
 from ..util.records import Frozen, cached_property
 from .candidates import Candidates
-from .geometry import between_strips
+from .geometry import between_segments, between_strips
 
 #: From how many first members a choice begins.
 STARTS = 32
@@ -140,8 +140,17 @@ def clear_of(strips: FloatArray, radius: float, others: Candidates, clearance: f
         is_near = np.einsum("nmk,nmk->nm", off, off) < (reaches + (reach + away)) ** 2
         for k in range(is_near.shape[1]):
             near = np.flatnonzero(clear & is_near[:, k])
-            if near.size:
-                clear[near] = between_strips(strip, others.strips[near, k]) >= away
+            if not near.size:
+                continue
+            each = others.strips[near, k]
+            middles = between_segments(strip[0], strip[1], each[:, 0], each[:, 1])
+            clear[near] = middles >= away
+            # Where widths could decide, rectangles are compared.
+            wide = np.linalg.norm(each[:, 2], axis=1) + np.linalg.norm(strip[2])
+            decided = (middles < away) | (middles - wide >= away)
+            rest = near[~decided]
+            if rest.size:
+                clear[rest] = between_strips(strip, each[~decided]) >= away
     return clear
 
 

@@ -18,13 +18,13 @@ from ..analysis.places import listed
 from ..core.progress import Progress
 from ..model.model import Model
 from ..util.errors import FlexactError
-from ..util.loading import load
+from ..util.loading import feature
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
 from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
 from .explain import Explanation, explain, explained_json, nearby
-from .frame import Scaled, scaled
+from .frame import Scaled, rounded, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
 from .layers import layered
@@ -45,6 +45,7 @@ from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_ke
 from .reasons import Reason, reason_of
 from .scores import cheap_scores, pareto, rank_by, ranked, table_of
 from .search import (
+    HOLDS,
     Arrangement,
     Found,
     Part,
@@ -63,7 +64,7 @@ _STARTS, _FEWER = 12, 6
 #: Of each kind of layouts so many are scored at most.
 _OF_A_KIND = 10
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
-#: layouts with bodies between are sought where none are needed.
+#: layouts with bodies between are sought where none are needed, but have their place.
 _SYMMETRIC, _FEW_KINDS = 2, 3
 #: How many layouts in layers, and with limbs, are looked at.
 _WITH_BODIES = 8
@@ -119,6 +120,35 @@ class Designs(Frozen):
         """What the wanted freedom takes, in words."""
         return explain(self.problem)
 
+    @property
+    def found_in_words(self) -> str:
+        """How many flexures fit the regions, and how many layouts there are."""
+        every = self.candidates.items()
+        counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
+        many = len(self.layouts)
+        of = f" of {self.found} found" if self.found > many else ""
+        layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
+        fit = f"{counts} fit the regions; " if counts else ""
+        return f"{fit}{layouts}, none an image of another."
+
+    @property
+    def confirmed(self) -> str:
+        """What the analysis says of all layouts."""
+        exact = [layout for layout in self.layouts if not layout.over_constrained]
+        worst = max(layout.freedom_error for layout in self.layouts)
+        rest = len(self.layouts) - len(exact)
+        proven = all(layout.is_proven for layout in exact)
+        how = "proven for the decimals as typed" if proven else "as the analysis found"
+        some = "All of them" if not rest else f"{number_in_words(len(exact)).capitalize()} of them"
+        said = f"{some}: exactly constrained, {how}" if exact else "None is exactly constrained"
+        over = f"; {number_in_words(rest)} over-constrained" if rest else ""
+        return f"{said}{over}; freedom as wanted within {max(worst, 1.0e-16):.0e}."
+
+    def _repr_html_(self) -> str:
+        # Notebooks alone ask for it.
+        made: str = feature("designs")(self)
+        return made
+
     def refined(
         self,
         *numbers: int,
@@ -144,7 +174,7 @@ class Designs(Frozen):
         Raises:
             FlexactError: there is no such layout, or none can be refined.
         """
-        made: Designs = load("flexact.designs.reshape").refined_designs(
+        made: Designs = feature("refined")(
             *(self, numbers),
             starts=starts,
             evaluations=evaluations,
@@ -230,12 +260,15 @@ def sizes_of(problem: Problem) -> Sizes:
     limits, size = problem.limits, problem.size
 
     def two(pair: tuple[float, float]) -> tuple[float, float]:
-        return pair[0] / size, pair[1] / size
+        return one(pair[0]), one(pair[1])
+
+    def one(length: float) -> float:
+        return float(rounded(np.array(length / size)))
 
     return Sizes(
         *(two(limits.length), two(limits.width)),
-        *(middle_of(limits.thickness) / size, middle_of(limits.diameter) / size),
-        limits.clearance / size,
+        *(one(middle_of(limits.thickness)), one(middle_of(limits.diameter))),
+        one(limits.clearance),
         problem.material.E / problem.material.G,
     )
 
@@ -257,10 +290,17 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
         show: Told of each layout as soon as it is verified and scored.
     """
     begun = time.perf_counter()
-    frame = scaled(problem)
-    search = _Search(problem, frame, show)
+    found = possible(problem.freedom)
+    search = _Search(problem, scaled(problem), show)
     search.run()
-    found, layouts = possible(problem.freedom), search.best()
+    if not search.kinds and found.off:
+        # What is all but special, and has no layout as it is, is taken for that, and told.
+        wanted = zip(problem.wanted, found.freedom.basis, strict=True)
+        special = tuple(replace(motion, twist=twist) for motion, twist in wanted)
+        problem = replace(problem, wanted=special)
+        search = _Search(problem, scaled(problem), show)
+        search.run()
+    layouts = search.best()
     why = None if layouts else reason_of(problem, found, has_layout)
     return Designs(
         *(problem, found, layouts, search.stock.counts),
@@ -270,7 +310,9 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
 
 def has_layout(problem: Problem) -> bool:
     """Whether any layout is found for a problem."""
-    search = _Search(problem, scaled(problem), None)
+    # What has no layout without a symmetry has none with one.
+    plain = problem if problem.symmetry != "any" else replace(problem, symmetry="none")
+    search = _Search(plain, scaled(plain), None)
     return any(search.take(kind, iter(each)) for kind, each in search.sources())
 
 
@@ -362,7 +404,7 @@ class _Search:
                 yield name, self.of_group(group, recipe)
         for recipe in [recipe for recipe in made if recipe not in plain] if asked is None else ():
             yield recipe_name(recipe), self.of_recipe(recipe, _FEWER)
-        if found.parallel and len(self.kinds) < _FEW_KINDS:
+        if found.parallel and problem.intermediate and len(self.kinds) < _FEW_KINDS:
             yield from self.with_bodies(asked)
 
     def with_bodies(self, asked: Group | None) -> Iterator[tuple[str, Iterator[Arrangement]]]:
@@ -372,7 +414,7 @@ class _Search:
             return
         # Layers have seldom a symmetry, limbs often.
         for source in (limbs, layered) if asked else (layered, limbs):
-            found = source(problem, self.frame, sizes, problem.limits.kinds)
+            found = source(problem, self.frame, sizes, problem.limits.kinds, asked)
             fits = (each for each in found if asked is None or is_symmetric(each, asked))
             yield "", islice(fits, _WITH_BODIES)
 
@@ -398,6 +440,8 @@ class _Search:
         self.keys.add(key)
         problem = self.problem
         flexures, bodies = flexures_of(problem, self.frame, arrangement)
+        holds = sum(HOLDS[flexure.form] for flexure in flexures)
+        over = len(arrangement.parts) == 1 and holds > len(self.stock.constraint)
         try:
             model = model_of(problem, flexures, bodies, self.held)
             found = verified(problem, model, problem.body)
@@ -409,7 +453,9 @@ class _Search:
             or found.under_constrained
             or found.over_constrained > problem.limits.over_constraint + self.given
         ):
-            self.refused += 1
+            # Decimals of oblique lines are seldom dependent to the last digit, as more flexures
+            # than are needed would have to be.
+            self.refused += not over
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
         parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
@@ -433,9 +479,13 @@ class _Search:
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
+#: Scores that a scale changes by one factor in all layouts of a problem.
+_SCALED = {"worst_stiffness", "drive_stiffness", "turns_with_errors", "thermal_drift", "room"}
+
+
 def _much_alike(one: Layout, other: Layout) -> bool:
-    """Whether all scores of two layouts are nearly the same."""
-    keys = set(one.scores) & set(other.scores)
+    """Whether two layouts are nearly the same in all that does not depend on how large they are."""
+    keys = set(one.scores) & set(other.scores) & _SCALED
     return all(
         abs(one.scores[key] - other.scores[key])
         <= _ALIKE * max(abs(one.scores[key]), abs(other.scores[key]))
@@ -497,39 +547,15 @@ def described(designs: Designs, width: int) -> Iterator[str]:
         yield ""
         yield wrapped(f"No layout: {designs.why_none.statement if designs.why_none else ''}", width)
         return
-    yield wrapped(found_in_words(designs), width)
+    yield wrapped(designs.found_in_words, width)
     yield ""
     yield designs.table(width)
-    yield wrapped(confirmed(designs), width)
+    yield wrapped(designs.confirmed, width)
     if any(layout.refined for layout in designs.layouts):
         yield ""
-        yield from load("flexact.designs.reshape").refined_in_words(designs, width)
+        yield from feature("refined_in_words")(designs, width)
     for remark in designs.problem.remarks:
         yield wrapped(f"Remark: {remark}.", width)
-
-
-def found_in_words(designs: Designs) -> str:
-    """How many flexures fit the regions, and how many layouts there are."""
-    every = designs.candidates.items()
-    counts = listed([f"{n} {kind if n == 1 else plural(kind)}" for kind, n in every if n])
-    many = len(designs.layouts)
-    of = f" of {designs.found} found" if designs.found > many else ""
-    layouts = f"{number_in_words(many)} layout{'s' * (many > 1)}{of}"
-    fit = f"{counts} fit the regions; " if counts else ""
-    return f"{fit}{layouts}, none an image of another."
-
-
-def confirmed(designs: Designs) -> str:
-    """What the analysis says of all layouts."""
-    exact = [layout for layout in designs.layouts if not layout.over_constrained]
-    worst = max(layout.freedom_error for layout in designs.layouts)
-    rest = len(designs.layouts) - len(exact)
-    proven = all(layout.is_proven for layout in exact)
-    how = "proven for the decimals as typed" if proven else "as the analysis found"
-    some = "All of them" if not rest else f"{number_in_words(len(exact)).capitalize()} of them"
-    said = f"{some}: exactly constrained, {how}" if exact else "None is exactly constrained"
-    over = f"; {number_in_words(rest)} over-constrained" if rest else ""
-    return f"{said}{over}; freedom as wanted within {max(worst, 1.0e-16):.0e}."
 
 
 def answer_of(designs: Designs) -> dict[str, Any]:

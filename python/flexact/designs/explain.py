@@ -180,7 +180,7 @@ def _of_sheet(geometry: Geometry, found: Possible) -> str:
     if where is None or where.kind is FamilyKind.EVERY:
         return "in any plane"
     if where.kind is FamilyKind.LINE:
-        return f"in any plane through {geometry.line(where.point, where.direction)}"
+        return f"in any plane that contains {geometry.line(where.point, where.direction)}"
     if where.kind is FamilyKind.DIRECTION:
         return f"in any plane perpendicular to {axis_words(where.direction)}"
     return f"in {geometry.plane(where)}"
@@ -356,7 +356,7 @@ def explained_json(found: Possible, typed: ArrayLike = ()) -> Entries:
             "principal_screws": [
                 {
                     "direction": screw.direction.tolist(),
-                    "point": screw.point.tolist() if screw.direction.any() else None,
+                    "point": None if screw.is_of_directions else screw.point.tolist(),
                     "pitch": None if screw.is_of_directions else screw.pitch,
                 }
                 for screw in found.freedom.principal

@@ -7,7 +7,6 @@ solids.
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from ..api import analyse
@@ -16,7 +15,7 @@ from ..show.writers import PAGES, PICTURES, SOLIDS, Contents, Writers, as_bytes
 from ..util.loading import load
 from ..util.outputs import OutputError, write_together
 from .design import Designs
-from .layouts import Layout
+from .layouts import Layout, stem_of
 
 #: Of all layouts of a problem.
 DESIGNS = Writers(
@@ -72,13 +71,3 @@ def write_decks(designs: Designs, folder: Path) -> list[Path]:
     files = {folder / name: as_bytes(layout.model.to_deck()) for name, layout in decks}
     write_together(files)
     return list(files)
-
-
-def stem_of(layout: Layout) -> str:
-    """What files of a layout are called without a suffix, such as "03_five_wires"."""
-    return f"{layout.number:02d}_{slug(layout.what, '_')}"
-
-
-def slug(words: str, between: str = "-") -> str:
-    """Words in letters that a file or a class may be called by."""
-    return re.sub(r"[^a-z0-9]+", between, words.lower()).strip(between)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..advice.spaces.screws import ScrewSpace, canonical
+from ..advice.spaces.screws import EXACT, ScrewSpace, canonical
 from ..core.arrays import FloatArray
 from ..util.records import Frozen, cached_property
 from .problem import Box, Problem, Region
@@ -53,7 +53,7 @@ class Scaled(Frozen):
     @cached_property
     def space(self) -> ScrewSpace:
         """T as a space of twists about the origin."""
-        return ScrewSpace(self.freedom, np.zeros(3), 1.0)
+        return ScrewSpace(self.freedom, np.zeros(3), 1.0, tolerance=EXACT)
 
     def back(self, places: FloatArray) -> FloatArray:
         """Places of the problem [m], (..., 3), of places in the frame."""
@@ -111,7 +111,7 @@ def scaled(problem: Problem) -> Scaled:
     order = np.argsort([not np.array_equal(each, np.eye(3)) for each in same], kind="stable")
     stage, ground, keep_out, intermediate = (_turned(turn, region) for region in places)
     return Scaled(
-        *(turn, centre, size, _clean(canonical(turned_screws(turn, twists))), stage, ground),
+        *(turn, centre, size, rounded(canonical(turned_screws(turn, twists))), stage, ground),
         *(keep_out.boxes, intermediate.boxes, same[order]),
     )
 
@@ -124,19 +124,15 @@ def _turned(turn: FloatArray, region: Region) -> Region:
     boxes = []
     for box in region.boxes:
         ends = np.array((box.low, box.high)) @ turn.T
-        boxes.append(Box(_rounded(ends.min(axis=0)), _rounded(ends.max(axis=0))))
+        boxes.append(Box(rounded(ends.min(axis=0)), rounded(ends.max(axis=0))))
     boxes.sort(key=lambda box: (*box.low.tolist(), *box.high.tolist()))
-    points = _rounded(region.points @ turn.T)
+    points = rounded(region.points @ turn.T)
     return Region(tuple(boxes), points[np.lexsort(points.T[::-1])])
 
 
-def _rounded(values: FloatArray) -> FloatArray:
+def rounded(values: FloatArray) -> FloatArray:
+    """Numbers as they are of all problems that differ by a move or a scale alone, to the bit."""
     return np.round(values, _DIGITS + 3) + 0.0
-
-
-def _clean(rows: FloatArray) -> FloatArray:
-    """Rows without what rounding made of zeros."""
-    return np.where(np.abs(rows) < 1.0e-14, 0.0, rows)
 
 
 def _key(

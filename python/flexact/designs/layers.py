@@ -15,21 +15,22 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..advice.spaces.screws import ScrewSpace
+from ..advice.spaces.screws import ScrewSpace, canonical
 from ..core.arrays import FloatArray
 from ..util.text import number_in_words
 from .candidates import Place, Sizes, boxes_of
 from .choice import clear_of
-from .frame import Scaled, turned_screws
+from .frame import Scaled, rounded, turned_screws
+from .images import Group, keeps
 from .layouts import kinds_in_words
 from .possible import layers_of
 from .problem import Box, Problem
 from .rooms import Boxes, corners_between, stacks
-from .search import HOLDS, Arrangement, Found, Part, Stock, recipes, sets_of
+from .search import HOLDS, Arrangement, Found, Part, Stock, recipes, sets_of, symmetric_sets
 
 #: How many ways to cut a freedom are tried, and after how many layouts of one no more are sought;
 #: nor after so many searches in a region or for a set where there are layouts, and where not.
-_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 24, 120
+_CUTS, _ENOUGH, _SPENT, _ALL = 8, 6, 24, 60
 #: From how many first flexures the choice in a layer begins, and how many sets are combined.
 _STARTS, _SETS = 4, 3
 #: A layer with a smaller least singular value of unit rows is none.
@@ -43,11 +44,13 @@ class Stocks:
     Attributes:
         frame: The problem in its own frame.
         sizes: What flexures may measure.
+        group: Under which each set is to be its own image; None where it need not be.
         spent: How many regions were looked into, and sets sought.
     """
 
     frame: Scaled
     sizes: Sizes
+    group: Group | None = None
     spent: int = 0
     _known: dict[bytes, Stock] = field(default_factory=dict)
     _sets: dict[tuple[int, tuple[str, ...]], list[Found]] = field(default_factory=dict)
@@ -69,7 +72,9 @@ class Stocks:
             numbers += [np.concatenate((box.low, box.high)) for box in boxes]
         key = np.concatenate(numbers).tobytes()
         if key not in self._known:
-            place = Place(freedom, here, there, (*self.frame.keep_out, *solid), self.sizes)
+            # Rows that do not depend on the sense in which a motion was written.
+            rows = rounded(canonical(freedom))
+            place = Place(rows, here, there, (*self.frame.keep_out, *solid), self.sizes)
             self._known[key] = Stock(place)
             self.spent += 1
         return self._known[key]
@@ -90,7 +95,10 @@ class Stocks:
     ) -> list[Found]:
         """The same beside flexures that are there."""
         self.spent += 1
-        return sets_of(stock.beside(avoided) if avoided else stock, recipe, starts)
+        there = stock.beside(avoided) if avoided else stock
+        if self.group is not None:
+            return symmetric_sets(there, self.group, recipe)
+        return sets_of(there, recipe, starts)
 
 
 def strips_of(found: Found) -> list[tuple[FloatArray, float]]:
@@ -99,7 +107,11 @@ def strips_of(found: Found) -> list[tuple[FloatArray, float]]:
 
 
 def layered(
-    problem: Problem, frame: Scaled, sizes: Sizes, kinds: Sequence[str]
+    problem: Problem,
+    frame: Scaled,
+    sizes: Sizes,
+    kinds: Sequence[str],
+    asked: Group | None = None,
 ) -> Iterator[Arrangement]:
     """Layouts in layers, one of each kind before others.
 
@@ -108,15 +120,22 @@ def layered(
         frame: The same in its own frame.
         sizes: What flexures may measure.
         kinds: Of the flexures.
+        asked: Under which each layer is to be its own image; None where it need not be.
     """
+    if set(kinds) <= {"bellows"}:
+        # Each layer holds forces.
+        return
     factors = np.repeat((problem.size, 1.0), 3)
-    typed = [turned_screws(frame.turn, motion.twist * factors) for motion in problem.wanted]
-    stocks = Stocks(frame, sizes)
+    wanted = [motion.twist * factors / problem.size for motion in problem.wanted]
+    typed = [rounded(turned_screws(frame.turn, twist)) for twist in wanted]
+    stocks = Stocks(frame, sizes, asked)
     over = problem.limits.over_constraint
     seen: set[frozenset[bytes]] = set()
     is_first = True
     for spaces in layers_of(frame.space, typed):
         if not 1 < len(spaces) <= problem.limits.bodies + 1:
+            continue
+        if asked and not all(keeps(space.scaled, asked.turns) for space in spaces):
             continue
         cut = frozenset(_projector(space) for space in spaces)
         if cut in seen:

@@ -21,7 +21,7 @@ from ..model.model import Model
 from ..model.names import part_name
 from ..model.variation import with_vectors
 from ..util.records import Frozen
-from ..util.text import number_in_words
+from ..util.text import number_in_words, slug
 from ..util.units import METRES
 from .candidates import Candidates
 from .frame import Scaled, snapped
@@ -455,6 +455,11 @@ def named(kinds: Iterable[str], taken: Container[str] = ()) -> list[str]:
             counts[kind] += 1
         made.append(f"{kind} {counts[kind]}")
     return made
+
+
+def stem_of(layout: Layout) -> str:
+    """What files of a layout are called without a suffix, such as "03_five_wires"."""
+    return f"{layout.number:02d}_{slug(layout.what, '_')}"
 
 
 # As a script ----------------------------------------------------------------------------

@@ -47,8 +47,8 @@ from .layers import (
 from .layouts import kinds_in_words
 from .possible import orthonormal, possible
 from .problem import Box, Problem
-from .rooms import Boxes, asides, hull_of
-from .search import Arrangement, Found, Part, Stock, recipes
+from .rooms import Boxes, are_apart, asides, hull_of
+from .search import Arrangement, Found, Part, Stock, recipes, symmetric_sets
 
 #: How far the forces of a limb's wires must pass by its hinge, and how much of the wrench that a
 #: limb holds must be in no other part of W that is held.
@@ -113,7 +113,11 @@ def _moved(found: Found, turn: FloatArray) -> Found:
 
 
 def limbs(
-    problem: Problem, frame: Scaled, sizes: Sizes, kinds: Sequence[str]
+    problem: Problem,
+    frame: Scaled,
+    sizes: Sizes,
+    kinds: Sequence[str],
+    asked: Group | None = None,
 ) -> Iterator[Arrangement]:
     """Layouts of limbs, and of plain wires for the forces of W, one of each kind before others.
 
@@ -122,13 +126,14 @@ def limbs(
         frame: The same in its own frame.
         sizes: What flexures may measure.
         kinds: Of the flexures; none without wires.
+        asked: Under which the layout is to be its own image; None where it need not be.
     """
     found = possible(frame.space)
     _, couples, pitched = found.limbs
     count = couples + pitched
     if "wire" not in kinds or not 0 < count <= problem.limits.bodies:
         return
-    search = _Search(frame, sizes, kinds, found.constraint.scaled, found.forces.scaled)
+    search = _Search(frame, sizes, kinds, found.forces.scaled, count, asked)
     wrenches = wrenches_of(found.constraint.scaled, found.forces.scaled, bool(pitched))
     is_first = True
     for is_hanging, limit in ((False, _SPENT), (True, 2 * _SPENT)):
@@ -287,8 +292,9 @@ class _Search:
         frame: The problem in its own frame.
         sizes: What flexures may measure.
         kinds: Of flexures.
-        constraint: (k, 6) orthonormal rows of W.
-        held: (f, 6) orthonormal rows of what wires hold of it.
+        held: (f, 6) orthonormal rows of what wires hold of W.
+        count: How many limbs.
+        asked: Under which a layout is to be its own image; None where it need not be.
     """
 
     def __init__(
@@ -296,12 +302,15 @@ class _Search:
         frame: Scaled,
         sizes: Sizes,
         kinds: Sequence[str],
-        constraint: FloatArray,
         held: FloatArray,
+        count: int,
+        asked: Group | None,
     ) -> None:
         """Nothing is sought yet."""
         self.frame, self.sizes, self.kinds = frame, sizes, kinds
-        self.constraint, self.held = constraint, held
+        self.held, self.asked = held, asked
+        # A single limb is to be its own image, several may be images of each other.
+        self.own = asked if count == 1 else None
         self.stage, self.ground = boxes_of(frame.stage), boxes_of(frame.ground)
         self.stocks = Stocks(frame, sizes)
 
@@ -310,7 +319,7 @@ class _Search:
     ) -> Iterator[Arrangement]:
         """Layouts whose bodies are in boxes that are given, or beside the stage."""
         if count > 1 and not self.frame.intermediate:
-            for group in _turns(self.frame.freedom, count):
+            for group in _turns(self.frame.freedom, count, self.asked):
                 for (boxes,) in self.places(1):
                     if self.stocks.spent > _TURNED:
                         break
@@ -343,7 +352,7 @@ class _Search:
                 return None
             chosen.append(limb)
         solid = [box for boxes in places for box in boxes]
-        return self.completed(chosen, solid, None)
+        return self.completed(chosen, solid, self.own)
 
     def next_limb(
         self,
@@ -383,7 +392,7 @@ class _Search:
             *(np.zeros((0, 6)), *of_pair, (*self.frame.keep_out, *solid, *beside), self.sizes)
         )
         through = points_of(boxes, _FINE)
-        for pair in itertools.islice(pairs(place, wrench, sector), _PAIRS):
+        for pair in itertools.islice(pairs(place, wrench, sector, self.own), _PAIRS):
             if not is_clear(pair, avoided, self.sizes.clearance):
                 continue
             candidates, first = pair.chosen.members[0]
@@ -391,6 +400,8 @@ class _Search:
             for axis in itertools.islice(
                 hinges(through, wrench, candidates.rows[first, 0]), _HINGES
             ):
+                if self.own is not None and not keeps(axis[None], self.own.turns):
+                    continue
                 stock = self.stocks.between(axis[None], *of_hinge, [*solid, *beyond])
                 if sector is not None:
                     stock = sector.stock(stock)
@@ -403,7 +414,10 @@ class _Search:
         made = recipes(len(stock.constraint), self.kinds)
         for recipe in sorted(made, key=lambda each: ("sheet" not in each, len(each))):
             if all(len(stock.candidates(kind)) for kind in set(recipe)):
-                found = self.stocks.sets_beside(stock, recipe, avoided, _STARTS)
+                if self.own is not None:
+                    found = symmetric_sets(stock.beside(avoided), self.own, recipe)
+                else:
+                    found = self.stocks.sets_beside(stock, recipe, avoided, _STARTS)
                 if found:
                     return found[0]
         return None
@@ -413,7 +427,7 @@ class _Search:
     ) -> Iterator[Arrangement]:
         """Layouts of limbs that are images of each other."""
         sector = Sector.around(hull_of(boxes), group, count, (self.stage, self.ground), self.sizes)
-        if sector is None:
+        if sector is None or not self.is_clear_turned(hull_of(boxes), sector.turns):
             return
         tried = 0
         for wrench in wrenches:
@@ -432,6 +446,13 @@ class _Search:
                     yield layout
                     return
 
+    def is_clear_turned(self, box: Box, turns: FloatArray) -> bool:
+        """Whether images of a body stay out of what is to be kept out of."""
+        corners = points_of((box,), 2)
+        images = (corners @ turn.T for turn in turns)
+        hulls = tuple(Box(image.min(axis=0), image.max(axis=0)) for image in images)
+        return are_apart(hulls, self.frame.keep_out, self.sizes.clearance)
+
     def completed(
         self, together: Sequence[Limb], solid: Sequence[Box], group: Group | None
     ) -> Arrangement | None:
@@ -449,7 +470,11 @@ class _Search:
             plain = None
             for recipe in recipes(len(self.held), self.kinds):
                 if all(len(stock.candidates(kind)) for kind in set(recipe)):
-                    plain = next(iter(self.stocks.sets_beside(stock, recipe, avoided)), None)
+                    made = []
+                    if group is not None:
+                        made = symmetric_sets(stock.beside(avoided), group, recipe)
+                    made = made or self.stocks.sets_beside(stock, recipe, avoided)
+                    plain = made[0] if made else None
                 if plain is not None:
                     break
             if plain is None:
@@ -472,25 +497,34 @@ def _complement(rows: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.svd(rows)[2][len(rows) :])
 
 
-def _turns(freedom: FloatArray, count: int) -> Iterator[Group]:
+def _turns(freedom: FloatArray, count: int, asked: Group | None) -> Iterator[Group]:
     """Groups of turns that keep a freedom, of which so many images are taken."""
-    for order in (3,) if count == 3 else (4, 3):
-        for axis in np.eye(3)[::-1]:
-            group = group_of(order, axis)
-            if keeps(freedom, group.turns):
-                yield group
+    if asked is not None:
+        made = [asked] if asked.order == count else []
+    else:
+        orders = (3,) if count == 3 else (4, 3)
+        made = [group_of(order, axis) for order in orders for axis in np.eye(3)[::-1]]
+    for group in made:
+        if keeps(freedom, group.turns):
+            yield group
 
 
 # One limb -------------------------------------------------------------------------------
 
 
-def pairs(place: Place, wrench: FloatArray, sector: Sector | None = None) -> Iterator[Found]:
+def pairs(
+    place: Place,
+    wrench: FloatArray,
+    sector: Sector | None = None,
+    group: Group | None = None,
+) -> Iterator[Found]:
     """Two wires of which one combination is a wrench, the stiffest first, in unlike directions.
 
     Args:
         place: Between which regions.
         wrench: (6,) of unit length.
         sector: In which they have to be, if they are to have images.
+        group: Under which they have to be their own images, if any.
     """
     is_couple = np.linalg.norm(wrench[:3]) <= TINY
     ends = _parallel(place, wrench[3:]) if is_couple else _skew(place, wrench)
@@ -513,6 +547,12 @@ def pairs(place: Place, wrench: FloatArray, sector: Sector | None = None) -> Ite
             side = 0 if place.here is sector.stage else 1
             clear &= sector.has(ends[:, k, side], np.zeros_like(ends[:, k, side]), side)
             clear &= sector.is_around(strips[:, None])
+    for turn in group.turns[1:] if group is not None else ():
+        image = ends @ turn.T
+        each = [
+            np.abs(image - other).max(axis=(1, 2, 3)) <= TINY for other in (ends, ends[:, ::-1])
+        ]
+        clear &= each[0] | each[1]
     order = [n for n in np.argsort(-np.round(stiffness / area, 6), kind="stable") if clear[n]]
     told: list[FloatArray] = []
     for n in order:

@@ -366,7 +366,8 @@ class Mover:
             if not fits[0]:
                 raise NoPlaceError("the leaves of a folded sheet do not reach its regions")
             ends.append(found[0] + off - (off @ way) * way)
-        return self._built(*ends, self.normal, width, place, fold, way[None])
+        start, end = ends
+        return self._built(start, end, self.normal, width, place, fold, way[None])
 
     def _edges(self, normal: FloatArray, way: FloatArray, width: float, place: Place) -> FloatArray:
         """(m, 1, 3) from the middle of a clamped end to its corners on one side."""

@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 from operator import add
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,8 +21,12 @@ from ..advice.constraint_quality import Hold
 from ..advice.spaces.screws import EXACT, ScrewSpace
 from ..analysis.freedoms import Freedom, together
 from ..analysis.naming import Line, line_of
+from ..analysis.places import listed
 from ..api import Analysis, analyse
+from ..core.arrays import FloatArray
 from ..show.drawing import Moving, drawing_of
+from ..show.notebook.output import SMALL, shown
+from ..show.notebook.output import table as notebook_table
 from ..show.page.assets import (
     FEW_SHAPES,
     LAYOUT_SCRIPTS,
@@ -47,16 +52,18 @@ from ..show.picture.files import fewer_colours
 from ..show.spaces import SpaceShape, SpaceShown, shape_of_hold, space_shown
 from ..show.writers import as_bytes
 from ..util.partial import attempted
-from ..util.text import harmless, number_in_words
-from .design import Designs, confirmed, found_in_words
+from ..util.text import harmless, number_in_words, slug
 from .explain import Explanation, nearby
-from .explain_files import sides_of
-from .files import slug, stem_of
-from .layouts import COORDINATES, Flexure, Layout, counted, declared
-from .problem import Problem
-from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, unit_rows
+from .explain_files import in_one_line, sides_of
+from .layouts import Flexure, Layout, plural, stem_of
+from .problem import KINDS, Problem
+from .reshape import became
+from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, stage_point, unit_rows
 
-#: A twist whose part along a coordinate is less than this of the largest does not move it.
+if TYPE_CHECKING:
+    from .design import Designs
+
+#: Less than this part of the largest twist, or of the size, is no motion.
 _STAYS = 1.0e-9
 
 
@@ -89,7 +96,7 @@ class Cards:
         if not designs.layouts:
             return without_layouts(designs, title)
         many = len(designs.layouts)
-        told = found_in_words(designs), confirmed(designs)
+        told = designs.found_in_words, designs.confirmed
         words = f"{title}: {number_in_words(many)} layout{'s' * (many > 1)}"
         return self._content(words, designs.explanation, designs.layouts, told, is_whole)
 
@@ -141,7 +148,7 @@ class Cards:
         data = {
             "key": key,
             "number": number,
-            "kind": slug(counted(layout.flexures)),
+            "kind": slug(kinds_of(layout)),
             "held": "over" if layout.over_constrained else "exact",
             "best": "best" if is_best else "other",
             "place": place,
@@ -162,7 +169,7 @@ class Cards:
         return (
             f'<li class="card layout" id="card-{number}"{data_of(data)}>'
             f'<div class="said"><h2><span class="number">{number}</span> {name}</h2>'
-            f"{badges(layout, is_best)}{numbers(layout)}</div>"
+            f"{badges(layout, is_best)}{numbers(layout)}{refined_words(layout)}</div>"
             f"{self._drawings[key]}{taken(layout, deck, is_whole)}{whole}</li>\n"
         )
 
@@ -186,6 +193,12 @@ class Cards:
         if not made:
             return f'<p class="note">{text(" ".join(missing))}</p>'
         return f'<div class="viewer">{made}</div>'
+
+
+def refined_words(layout: Layout) -> str:
+    """What refining made of a layout; nothing where it was not refined."""
+    said = became(layout)
+    return f'<p class="note">{text(f"Refined: {said}.")}</p>' if said else ""
 
 
 def page_of_deck(analysis: Analysis) -> str:
@@ -212,47 +225,78 @@ def without_layouts(designs: Designs, title: str) -> Content:
     return Content(f"{title}: no layout", body)
 
 
+def html_of(designs: Designs) -> str:
+    """What a notebook shows: what is wanted, and a table of the layouts with pictures."""
+    wanted = text(in_one_line(designs.explanation.lines[0]))
+    if not designs.layouts:
+        why = "" if designs.why_none is None else f": {text(designs.why_none.statement)}"
+        return f"<div><p>{wanted}</p><p><b>No layout</b>{why}</p></div>"
+    keys = ordered_columns(designs.layouts)
+    heads = ("", "layout", *(f"{SCORES[key].head} {SCORES[key].under}".strip() for key in keys))
+    best = pareto(designs.layouts)
+    rows = [
+        (
+            in_notebook(layout),
+            f"<b>{layout.number}</b>&nbsp; {text(layout.what)}" + _MARK * is_best,
+            *(text(cell(key, layout)) for key in keys),
+        )
+        for layout, is_best in zip(designs.layouts, best, strict=True)
+    ]
+    told = text(f"{designs.found_in_words} {designs.confirmed}")
+    star = text(_STAR) if any(best) and not all(best) else ""
+    table_ = notebook_table(heads, rows)
+    return f"<div><p>{wanted}</p>{table_}<p><small>{told} {star}</small></p></div>"
+
+
+def in_notebook(layout: Layout) -> str:
+    """A small picture of what the flexures hold, where it can be made."""
+    if not has_packages():
+        return ""
+
+    def drawn() -> str:
+        given = layout.model.data
+        *_, held = spaces_of(layout, drawing_of(given).size)
+        made = spaces_bytes(given, [held], layout.what, size=SMALL, plain=True)
+        return shown(made, SMALL, layout.what)
+
+    return attempted("The picture", drawn, "", None)
+
+
 # What is drawn
 
 
 def wanted_motions(layout: Layout, analysis: Analysis) -> Iterator[tuple[str, Moving]]:
-    """The wanted motions, each with its words; inner ones stay as they are.
-
-    The stage's coordinates are declared at the centre, so that the parts of a wanted twist are
-    the velocities of what is declared.
-    """
+    """The wanted motions, each with its words, made of what is declared."""
     problem = layout.problem
-    parts = dict(zip(declared(problem.freedom), stage_freedoms(layout, analysis), strict=False))
-    for motion in problem.wanted:
-        twist = dict(zip(COORDINATES, motion.twist.tolist(), strict=True))
-        most = max(abs(twist[name]) * scale_of(name, problem) for name in parts)
-        moved = [
-            (freedom, twist[name])
-            for name, freedom in parts.items()
-            if abs(twist[name]) * scale_of(name, problem) > _STAYS * most
-        ]
-        found = together(moved) if moved else None
+    at = stage_point(analysis.given, problem.body)
+    arm = problem.centre - analysis.given.arrays.node_value[:3, at.position]
+    free: list[Freedom] = []
+    twists: list[FloatArray] = []
+    for freedom in analysis.freedoms:
+        motion = freedom.motion
+        if motion is None:
+            continue
+        turned = motion.rotation[at.orientation]
+        moved = motion.displacement[at.position] + np.cross(turned, arm)
+        twist = np.concatenate((problem.size * turned, moved))
+        # Of folds, and of bodies between, the stage knows nothing.
+        if np.linalg.norm(twist) > _STAYS * problem.size:
+            free.append(freedom)
+            twists.append(twist)
+    for wanted in problem.wanted if free else ():
+        scaled = wanted.twist * problem.freedom.factors
+        shares = np.linalg.lstsq(np.transpose(twists), scaled, rcond=_STAYS)[0]
+        chosen = np.abs(shares) > _STAYS * np.abs(shares).max()
+        parts = [(free[k], float(shares[k])) for k in np.flatnonzero(chosen)]
+        found = together(parts)
         if found is not None:
-            yield harmless(motion.text), found
-
-
-def stage_freedoms(layout: Layout, analysis: Analysis) -> list[Freedom]:
-    """What is declared at the stage, in the order of `declared`."""
-    names = {f"{layout.problem.body} {name}" for name in declared(layout.problem.freedom)}
-    found = {each.label: each for each in analysis.freedoms if each.label in names}
-    wanted = (f"{layout.problem.body} {name}" for name in declared(layout.problem.freedom))
-    return [found[name] for name in wanted if name in found]
-
-
-def scale_of(coordinate: str, problem: Problem) -> float:
-    """By which a velocity along a coordinate compares with others."""
-    return problem.size if coordinate.startswith("r") else 1.0
+            yield harmless(wanted.text), found
 
 
 def spaces_of(layout: Layout, size: float) -> Iterator[SpaceShown]:
     """The wanted freedom, and what the flexures hold, in a drawing of a size [m]."""
     yield space_shown(layout.problem.freedom, "Freedom", "what is wanted", size)
-    holds = [held_by(flexure, layout.problem, size) for flexure in layout.flexures]
+    holds = [hold_shown(flexure, layout.problem, size) for flexure in layout.flexures]
     shape = reduce(add, holds, SpaceShape(is_freedom=False))
     yield SpaceShown("Constraints", shape, "what the flexures hold", np.zeros((0, 2, 3)))
 
@@ -276,7 +320,7 @@ def picture_of(layout: Layout, analysis: Analysis) -> bytes | None:
     return attempted("The picture", drawn, None, None)
 
 
-def held_by(flexure: Flexure, problem: Problem, size: float) -> SpaceShape:
+def hold_shown(flexure: Flexure, problem: Problem, size: float) -> SpaceShape:
     """What is drawn of what a flexure holds: a line of a wire, a plane of a sheet."""
     middle = flexure.ends.mean(axis=0)
     rows = np.linalg.qr(unit_rows(flexure, middle, problem.size).T)[0].T
@@ -333,7 +377,7 @@ def taken(layout: Layout, deck: str, is_whole: bool) -> str:
         f'<div class="text" data-file="{text(name)}"><p><b>{title}</b> <code>{text(name)}</code>'
         '<button type="button" class="copy" hidden>Copy</button>'
         '<button type="button" class="save" hidden>Save</button></p>'
-        f'<pre tabindex="0" aria-label="{title}"><code>{text(content)}</code></pre></div>'
+        f'<pre tabindex="0" aria-label="{title}"><code>{in_lines(content)}</code></pre></div>'
         for _, title, name, content in parts
     )
     solids = (
@@ -350,17 +394,40 @@ def taken(layout: Layout, deck: str, is_whole: bool) -> str:
     )
 
 
+def in_lines(content: str) -> str:
+    """A text of several lines as HTML."""
+    return "\n".join(map(text, content.splitlines()))
+
+
+def kinds_of(layout: Layout) -> str:
+    """Of which kinds its flexures are, such as "sheets and wires"."""
+    there = {flexure.kind for flexure in layout.flexures}
+    return listed([plural(kind) for kind in (*KINDS[1:], KINDS[0]) if kind in there] or ["none"])
+
+
+#: The mark of the Pareto set, and what it means.
+_MARK = " \N{BLACK STAR}"
+_STAR = (
+    f"{_MARK.strip()} No other layout is better in stiffness, drive, frequency or parts without "
+    "a loss."
+)
+
+
+def ordered_columns(layouts: Sequence[Layout]) -> list[str]:
+    """Keys of the columns of a table; that by which they are ordered first, as on phones alone."""
+    rank = layouts[0].problem.rank
+    return sorted(columns_of(layouts, rank), key=lambda key: key != rank[0])
+
+
 def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     """All layouts in a table, and in a chart whose axes are chosen where there are scripts."""
-    rank = layouts[0].problem.rank
-    # That by which they are ordered stands first; on a phone it stands alone.
-    keys = sorted(columns_of(layouts, rank), key=lambda key: key != rank[0])
+    keys = ordered_columns(layouts)
     heads = ("layout", *(f"{SCORES[key].head} {SCORES[key].under}" for key in keys))
     rows = (
         row(
             f'<a href="#card-{layout.number}"><span class="number">{layout.number}</span> '
             f"{text(layout.what)}</a>"
-            + ('<span class="star" title="Pareto set"> \N{BLACK STAR}</span>' if is_best else ""),
+            + (f'<span class="star" title="Pareto set">{_MARK}</span>' if is_best else ""),
             *(
                 f'<span class="head" aria-hidden="true">{text(head)}</span>'
                 f"<span>{text(cell(key, layout, unit=not SCORES[key].under.startswith('N/um')))}"
@@ -388,11 +455,7 @@ def compared(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     size = 1.0e3 * layouts[0].problem.size
     notes = [f"Turns are compared with displacements at L = {size:.4g} mm."]
     if any(best) and not all(best):
-        notes.insert(
-            0,
-            "\N{BLACK STAR} No other layout is better in stiffness, drive, frequency or parts "
-            "without a loss.",
-        )
+        notes.insert(0, _STAR)
     note = f'<p class="note">{text(" ".join(notes))}</p>'
     whole = f'<div class="scores">{table(heads, rows, kind="designs")}{note}</div>'
     return section("compared", "Compared", f'<div class="both">{chart}{whole}</div>')
@@ -431,7 +494,7 @@ def moving() -> str:
 
 def finder_of(layouts: Sequence[Layout], best: Sequence[bool]) -> str:
     """What chooses and sorts the cards: kinds, how they are held, ranges of scores."""
-    counts = Counter(counted(layout.flexures) for layout in layouts)
+    counts = Counter(map(kinds_of, layouts))
     kinds = [(slug(words), f"{words} ({count})") for words, count in counts.items()]
     over = sum(layout.over_constrained > 0 for layout in layouts)
     held = [("exact", "exactly constrained"), ("over", "over-constrained")]

@@ -237,7 +237,7 @@ def possible(freedom: ScrewSpace) -> Possible:
     by how much. One that is off by less than `DOUBTFUL` is taken as it is given, and
     `Possible.nearly` is the special one.
     """
-    rows = orthonormal(freedom.scaled)
+    rows = canonical(orthonormal(freedom.scaled))
     given = ScrewSpace(rows / freedom.factors, freedom.about, freedom.length, tolerance=EXACT)
     near = _special(given, NEAR)
     if near is not None:
@@ -262,7 +262,7 @@ def _special(given: ScrewSpace, limit: float) -> ScrewSpace | None:
         screws = vectors.T @ rows
         small = np.where(np.abs(values) < limit, values, 0.0)[:, None]
         rows = orthonormal(screws - small * np.roll(screws, 3, axis=1))
-    made = given.of_scaled(rows)
+    made = given.of_scaled(canonical(rows))
     is_other = _kind(made) != _kind(given)
     return made if is_other and given.sine_to(made) < 10.0 * limit else None
 

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..advice.spaces.words import Geometry
-from ..core.arrays import FloatArray
 from ..util.text import number_in_words
 from ..util.units import METRES
 from .explain import motions_in_words, places_of_wires
 from .layouts import plural
 from .possible import Possible
 from .problem import KINDS, Box, Limits, Problem, Region
+from .regions import all_around
 from .symmetry import mirror_possible, symmetry_possible
 
 #: Steps by which it is found how far a condition would have to give, and how far at most.
@@ -60,7 +60,7 @@ def reason_of(problem: Problem, found: Possible, exists: Callable[[Problem], boo
             said = (
                 f"In no place can {kinds} alone leave just this; with other kinds it is possible."
             )
-            return Reason("kinds", None, said)
+            return Reason("wires", None, said)
         return Reason("wires", None, _of_wires(geometry, found, limits.bodies))
     for condition, loosened in _loosened(problem):
         if exists(loosened):
@@ -90,24 +90,11 @@ def in_free_space(problem: Problem) -> Problem:
     return replace(
         problem,
         stage=Region((Box(middle - half, middle + half),)),
-        ground=shell(middle - half, middle + half, problem.size, problem.size / 2.0),
+        ground=all_around(middle - half, middle + half, problem.size),
         keep_out=(),
         intermediate=(),
         limits=free,
     )
-
-
-def shell(low: FloatArray, high: FloatArray, gap: float, thickness: float) -> Region:
-    """Six boxes all around a box, at a distance from it."""
-    inner, outer = (low - gap, high + gap), (low - gap - thickness, high + gap + thickness)
-    boxes = []
-    for axis in range(3):
-        first, last = outer[0].copy(), outer[1].copy()
-        last[axis] = inner[0][axis]
-        boxes.append(Box(outer[0], last))
-        first[axis] = inner[1][axis]
-        boxes.append(Box(first, outer[1]))
-    return Region(tuple(boxes))
 
 
 def _wide(limits: Limits, **new: object) -> Limits:
@@ -125,8 +112,9 @@ def _loosened(problem: Problem) -> list[tuple[str, Problem]]:
     problems = [(condition, replace(problem, limits=each)) for condition, each in made]
     if problem.keep_out:
         problems.append(("keep-out", replace(problem, keep_out=())))
-    if limits.clearance > 0.0:
-        problems.append(("clearance", replace(problem, limits=_wide(limits, clearance=0.0))))
+    # Middle lines may cross, as if there were no material.
+    none = -max(limits.diameter[1], limits.thickness[1])
+    problems.append(("clearance", replace(problem, limits=_wide(limits, clearance=none))))
     return problems
 
 
@@ -160,7 +148,7 @@ def _how_far(problem: Problem, condition: str, exists: Callable[[Problem], bool]
     def nearer(value: float) -> bool:
         return exists(replace(problem, limits=_wide(limits, clearance=value)))
 
-    return _bisected(limits.clearance, 0.0, nearer)
+    return _bisected(limits.clearance, 0.0, nearer) if nearer(0.0) else None
 
 
 def _bisected(bad: float, good: float, exists: Callable[[float], bool]) -> float:
@@ -184,6 +172,8 @@ def _statement(problem: Problem, condition: str, by: float | None) -> str:
 
     if condition == "keep-out":
         return "What is to be kept out of leaves no room; without it there is a layout."
+    if condition == "clearance" and by is None:
+        return "Every set of flexures that fits has some that run through each other."
     if by is None:
         return f"The limits of the {condition} leave no layout; wider ones do."
     if condition == "length":

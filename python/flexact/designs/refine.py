@@ -39,8 +39,9 @@ from .layouts import Layout
 from .measures import ASKED, Bound, Design, How, said
 from .optimum import Measured, Outcome, Parameter, SearchError, method_of, search
 from .refined import Refined
+from .reshape import reshaped
 from .scores import rank_given
-from .varied import Variation
+from .varied import Variation, first_words
 
 REST, END = "rest", "end of stroke"
 #: Beams into which a sheet is divided while it is searched.
@@ -170,6 +171,7 @@ def refine(
     first = None if source is None else source[1](source[2])
     units = METRES if first is None else first.data.units
     goal, maximised = tried(_goal, maximise, minimise) or (None, True)
+    at = at.replace("_", " ") if isinstance(at, str) else at
     if at not in (REST, END):
         wrong.append(f"at is {REST!r} or {END!r}, not {in_short(at)}")
     counts = {"starts": starts, "evaluations": evaluations, "seed": seed, "beams": beams}
@@ -195,6 +197,9 @@ def refine(
         least_growth = 1.0 if buckling is True else buckling
         bounds.append(tried(_bound, "buckling", least_growth, units, True))
     bounds += [] if size is None else tried(_sizes, size, units) or []
+    if not isinstance(limits, Iterable):
+        wrong.append(f"limits are texts such as 'first frequency >= 5 Hz', not {in_short(limits)}")
+        limits = ()
     more = [limits] if isinstance(limits, str) else limits
     bounds += [tried(_limit, each, units) for each in more]
     bounds = [each for each in bounds if each is not None]
@@ -267,7 +272,7 @@ def _of_layout(
     if wrong:
         raise RequestError(*wrong)
     how = {"starts": starts, "evaluations": evaluations}
-    made = load("flexact.designs.reshape").reshaped(
+    made = reshaped(
         of,
         rank=rank,
         method=method,
@@ -287,7 +292,15 @@ def _read_length(length: Quantity | None, first: Model | None, units: Units) -> 
     """
     if length is None:
         return 1.0 if first is None else first.data.size / 2.0
-    return _bound("size x", length, units).value
+    try:
+        value = units.read(length, "m")
+    except QuantityError as error:
+        raise RequestError(f"the length: {error}") from None
+    except (TypeError, ValueError, OverflowError):
+        value = math.nan
+    if isinstance(length, bool) or not (math.isfinite(value) and value > 0.0):
+        raise RequestError(f"the length is a finite number above 0, not {in_short(length)}")
+    return value
 
 
 #: Parameters, what makes a model of their values, and the values at the beginning.
@@ -504,7 +517,7 @@ def _stroke(
     try:
         coordinate = points.coordinate(*named)
     except (ModelError, ElasticError, TypeError) as error:
-        raise RequestError(str(error)) from None
+        raise RequestError(first_words(error)) from None
     if first.data.arrays.coordinate_class[coordinate.axis, coordinate.node] == Class.FIXED:
         raise RequestError(f"{points.words(coordinate)} is fixed and cannot drive")
     if stroke is None:
@@ -546,7 +559,7 @@ def _lasting(first: Model, point: object) -> object:
     try:
         return points.number(points.node(point))
     except (ModelError, ElasticError, TypeError) as error:
-        raise RequestError(str(error)) from None
+        raise RequestError(first_words(error)) from None
 
 
 def _require(design: Design, names: Iterable[str], is_at_end: bool, most: int) -> tuple[int, int]:
@@ -570,6 +583,9 @@ def _require(design: Design, names: Iterable[str], is_at_end: bool, most: int) -
             "how well it is assembled: release something (flexact.analyse(model).advice() tells "
             "what), or refine it as it is with over_constrained=True"
         )
+    names = list(names)
+    if flat := [each for each in names if model.data.planar and each in ("room", "size z")]:
+        raise RequestError(f"a planar model has no {listed(flat)}")
     needs = {need for name in names for need in ASKED[name].needs}
     if "mass" in needs:
         model.require_mass()
@@ -589,7 +605,7 @@ def _require(design: Design, names: Iterable[str], is_at_end: bool, most: int) -
         try:
             model.points.of(design.point)
         except (ModelError, TypeError) as error:
-            raise RequestError(str(error)) from None
+            raise RequestError(first_words(error)) from None
     if "section" in needs:
         sections = model.solvers[0].sections
         is_member = np.isin(

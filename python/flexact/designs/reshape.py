@@ -751,8 +751,5 @@ def refined_in_words(designs: Designs, width: int) -> Iterator[str]:
         was_there = "" if before.number == layout.number else f", was {before.number}"
         rows.append([f"layout {layout.number}{was_there}", *cells])
     yield table(rows, width, second=True)
-    for layout in some:
-        assert layout.refined is not None and layout.before is not None
-        how = "" if layout.flexures is not layout.before.flexures else "nothing better found, "
-        yield wrapped(f"Layout {layout.number}: {how}{_looked(layout.refined)}.", width)
-    yield wrapped("That none is better is not proven.", width)
+    told = [f"{_looked(each.refined)} for layout {each.number}" for each in some if each.refined]
+    yield wrapped(f"{'; '.join(told)}. That none is better is not proven.", width)

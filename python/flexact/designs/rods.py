@@ -10,8 +10,9 @@ All of the first three are notches to users.
 
 Their sizes follow from the limits of a problem. A notch is as thin as a sheet, as broad as a sheet,
 and circular, its radius ten times the thickness, if rods are long enough for that. A neck is as
-thick as a wire, and six times as long. The outer diameter of a bellows is the largest breadth of a
-sheet that leaves it room; its convolutions have the proportions of `flexact.model.bellows`.
+thick as a wire, and six times as long. The outer diameter of a bellows is the mean breadth of a
+sheet, or the least where that leaves no room; its convolutions have the proportions of
+`flexact.model.bellows`.
 
 What flexures hold is as stiff as all their pieces in a row, with what they release left to turn.
 """
@@ -386,7 +387,7 @@ def round_ends(directions: FloatArray, diameter: float) -> FloatArray:
 
 
 def bellows(place: Place, fineness: int = 3) -> Candidates:
-    """Bellows along directions of the couples of W, as wide as there is room for."""
+    """Bellows along directions of the couples of W."""
     points = points_of(place.here, fineness)
     turning = place.freedom[:, :3]
     free = np.eye(3)
@@ -403,7 +404,7 @@ def bellows(place: Place, fineness: int = 3) -> Candidates:
     many = len(ways)
     lines = np.repeat(points, many, axis=0), np.tile(ways, (len(points), 1))
     made = None
-    for diameter in breadths(place.sizes):
+    for diameter in breadths(place.sizes)[-2:]:
         _, starts, ends = reached(place, *lines, round_ends(lines[1], diameter))
         found = bellows_between(place, starts, ends, diameter)
         spanned = np.linalg.matrix_rank(found.rows[:, 0, 3:], 1.0e-6) if len(found) else 0

@@ -44,7 +44,7 @@ def stacks(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
     else:
         singles = proposed(frame, sizes)
     for chosen in itertools.permutations(singles, count):
-        if all(_are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
+        if all(are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
             yield chosen
 
 
@@ -65,10 +65,10 @@ def asides(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         singles = [
             boxes
             for boxes in _plates(frame, sizes, _NARROW, _DEPTHS)
-            if _are_apart(boxes, solid, sizes.clearance)
+            if are_apart(boxes, solid, sizes.clearance)
         ]
     for chosen in itertools.combinations(singles, count):
-        if all(_are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
+        if all(are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
             yield chosen
 
 
@@ -97,7 +97,7 @@ def proposed(frame: Scaled, sizes: Sizes) -> list[Boxes]:
         *_plates(frame, sizes, _WIDE, _DEPTHS[1:]),
     ]
     solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
-    return [boxes for boxes in made if _are_apart(boxes, solid, sizes.clearance)]
+    return [boxes for boxes in made if are_apart(boxes, solid, sizes.clearance)]
 
 
 def hull_of(boxes: Sequence[Box]) -> Box:
@@ -107,7 +107,7 @@ def hull_of(boxes: Sequence[Box]) -> Box:
     )
 
 
-def _are_apart(one: Boxes, other: Boxes, gap: float) -> bool:
+def are_apart(one: Boxes, other: Boxes, gap: float) -> bool:
     """Whether no box of one is nearer to one of the other than a gap."""
     gap = gap - 1.0e-9
     return not any(

@@ -275,7 +275,7 @@ def cheap_scores(
     Raises:
         FlexactError: the model has no stage, or nothing in it has a stiffness.
     """
-    at, stage = _one_beam(model.data), _stage(model.data, problem.body)
+    at, stage = _one_beam(model.data), stage_point(model.data, problem.body)
     by = _twist_of(at, stage, problem)
     wanted, basis = problem.freedom.scaled.T, across(problem)
     made: dict[str, float] = {}
@@ -312,7 +312,7 @@ def _one_beam(data: ModelData) -> Solution:
     return found
 
 
-def _stage(data: ModelData, body: str) -> Point:
+def stage_point(data: ModelData, body: str) -> Point:
     """The first point of the stage.
 
     Raises:
@@ -483,7 +483,7 @@ def thermal_centre(model: Model, problem: Problem, flexures: Sequence[Flexure]) 
 
     Where v + w x (p - centre) = 0; of the line where that is so, the point nearest to the centre.
     """
-    at, stage = _one_beam(model.data), _stage(model.data, problem.body)
+    at, stage = _one_beam(model.data), stage_point(model.data, problem.body)
     by = _twist_of(at, stage, problem)
     drift = _drift(at, stage, by, problem, flexures)
     turn, move = drift[:3] / problem.size, drift[3:]
@@ -573,7 +573,7 @@ class _Dear:
     def __init__(self, layout: Layout) -> None:
         self.layout, self.problem = layout, layout.problem
         self.data = layout.model.data
-        self.point = _stage(self.data, self.problem.body)
+        self.point = stage_point(self.data, self.problem.body)
 
     @cached_property
     def model(self) -> Elastic:

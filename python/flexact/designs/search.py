@@ -112,7 +112,7 @@ class Stock:
                 if len(made) >= _ENOUGH:
                     break
             assert made is not None
-            self._known[kind] = thinned(made, _MOST)
+            self._known[kind] = thinned(in_order(made), _MOST)
         return self._known[kind]
 
     def blocks(self, kind: str) -> Blocks:
@@ -151,6 +151,14 @@ class Stock:
             return False
         gram = every.T @ every / len(every)
         return bool(np.linalg.eigvalsh(gram)[0] > 1.0e-10)
+
+
+def in_order(candidates: Candidates) -> Candidates:
+    """The same in an order that follows from their places alone."""
+    if not len(candidates):
+        return candidates
+    keys = materials(candidates, 7)
+    return candidates.of(np.lexsort(keys.T[::-1]))
 
 
 def thinned(candidates: Candidates, most: int) -> Candidates:

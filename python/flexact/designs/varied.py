@@ -104,7 +104,7 @@ class Variation:
             try:
                 made.append(self._one(given))
             except (RequestError, ModelError, QuantityError) as error:
-                wrong.append(f"{in_short(given)}: {_first(error)}")
+                wrong.append(f"{in_short(given)}: {first_words(error)}")
         seen: dict[tuple[object, ...], str] = {}
         names: set[str] = set()
         for each in made:
@@ -178,9 +178,11 @@ class Variation:
             given = written if written in "xyz" else written.strip("()").split(",")
             try:
                 numbers = given if isinstance(given, str) else tuple(map(float, given))
-                axis = np.array(direction(numbers, "the axis of an angle"))
+                axis = np.array(direction(numbers, "axis of an angle"))
             except ValueError as error:
-                raise RequestError(f"{in_short(written)} is no axis: {_first(error)}") from None
+                raise RequestError(
+                    f"{in_short(written)} is no axis: {first_words(error)}"
+                ) from None
             axis = axis / np.linalg.norm(axis)
         is_turn = what == "angle"
         low, high = bounds_of(bounds, self.data.units, "rad" if is_turn else "m")
@@ -418,7 +420,7 @@ def _alike(what: str) -> str:
     return {"diameter": "thickness"}.get(what, what.removeprefix("shift "))
 
 
-def _first(error: Exception) -> str:
+def first_words(error: Exception) -> str:
     """What an error says, without the heading that a model's error has."""
     if isinstance(error, ModelError) and error.diagnostics:
         first = error.diagnostics[0]

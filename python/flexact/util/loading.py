@@ -27,12 +27,15 @@ def load(name: str, *, for_good: bool = False) -> ModuleType:
             gc.enable()
 
 
-#: What models offer and rooms above them do: the one place where names point up.
+#: What models and layouts offer and what is above them does: the one place where names point up.
 FEATURES = {
     "show": ("flexact.api", "show_model"),
     "html": ("flexact.show.notebook.output", "html_of_model"),
     "scatter": ("flexact.sweeps.scatter", "scatter_of"),
     "flexures": ("flexact.apps.convert.flexure_table", "table_of_flexures"),
+    "designs": ("flexact.designs.page", "html_of"),
+    "refined": ("flexact.designs.reshape", "refined_designs"),
+    "refined_in_words": ("flexact.designs.reshape", "refined_in_words"),
     "at_rest": ("flexact.costs.at_rest", "json_of"),
     "at_rest_in_words": ("flexact.costs.at_rest", "at_rest_in_words"),
 }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 
@@ -59,6 +60,11 @@ def spelled(error: UnicodeError) -> tuple[str, int]:
 def file_name(name: str) -> str:
     """The last part of a path: where a deck lies is nobody's concern."""
     return os.path.basename(name.replace("\\", "/"))
+
+
+def slug(words: str, between: str = "-") -> str:
+    """Words in small letters and digits alone, as a file or a class of a page may be called."""
+    return re.sub(r"[^a-z0-9]+", between, words.lower()).strip(between)
 
 
 def in_short(given: object) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``flexact watch``: the page of a deck, a script or a STEP file, renewed whenever it is saved."""
+"""``flexact watch``: the page of a deck, a script, CAD or a problem, renewed with each save."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ...util.interruption import unwinding
 from ...util.text import harmless
 from ..convert.cad.reader import require_step
 from ..watch.cad import is_step
-from ..watch.scene import SCRIPT, Answer, Broken
+from ..watch.scene import SCRIPT, Answer, Broken, is_problem
 from ..watch.watch import Watch
 from .decks import ACCURACY, DECISION, report
 from .parser import Verb, argument
@@ -42,7 +42,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
     path = chosen.deck
     if path == STDIN:
         raise BatchError("what comes from stdin is not saved anew; name a file to watch")
-    is_own = path.lower().endswith(SCRIPT) or is_step(path)
+    is_own = path.lower().endswith(SCRIPT) or is_step(path) or is_problem(path)
     deck = DeckFile(path, Path(path)) if is_own else one_deck(chosen)
     path = deck.path
     try:
@@ -61,7 +61,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
         """Say what has changed, or what is wrong."""
         if isinstance(answer, Broken):
             complain(harmless_lines(answer.words))
-            words = "cannot be analysed"
+            words = answer.in_short
         elif answer.problems:
             complain(harmless_lines(answer.problems))
         say(f"{time.strftime('%H:%M:%S')} {name}: {words}")
@@ -85,12 +85,16 @@ def harmless_lines(text: str) -> str:
 VERB = Verb(
     run=watch,
     description=(
-        "Serve the page of a deck, of what a Python script shows, or of the mechanism in a STEP "
-        "file, to the browser of this machine, and renew it whenever the file is saved. Ctrl-C "
-        "ends it."
+        "Serve the page of a deck, of what a Python script shows, of the mechanism in a STEP file, "
+        "or of the layouts for a design problem, to the browser of this machine, and renew it "
+        "whenever the file is saved. Ctrl-C ends it."
     ),
     examples=(
         ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
+        (
+            "A design problem, with layouts as they are found",
+            "flexact watch input_decks/designs/mirror_hinge.toml",
+        ),
         ("CAD, with what is said of its parts", "flexact watch guide.step"),
         ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
     ),
@@ -98,8 +102,8 @@ VERB = Verb(
         argument(
             "deck",
             metavar="FILE",
-            help="a deck, a script (*.py): its last .show(), else its last model or analysis, or "
-            "a STEP file (*.step, *.stp)",
+            help="a deck, a script (*.py): its last .show(), else its last model or analysis; a "
+            "STEP file (*.step, *.stp), or a design problem (*.toml, *.json)",
         ),
         argument("--port", type=port, metavar="N", help="the port of this machine (a free one)"),
         NO_BROWSER,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Design problems that are watched: layouts as they are found, then all of them with their pages."""
+"""Design problems that are watched: layouts as they are found, then all, with their pages."""
 
 from __future__ import annotations
 

@@ -142,7 +142,7 @@ class Session:
 
     # The file as it is saved
 
-    def renewed(self, answer: Answer) -> str:
+    def renewed(self, answer: Shown | Broken) -> str:
         """Show what came of the file, with all edits; what has changed, in words."""
         with self._lock:
             self._number += 1

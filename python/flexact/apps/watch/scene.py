@@ -209,12 +209,14 @@ class Broken:
         body: What stands within the body of a page that has nothing else to show.
         words: As the terminal has them.
         files: As in `Shown`.
+        in_short: What cannot be done.
     """
 
     errors: str
     body: str
     words: str
     files: tuple[str, ...]
+    in_short: str = "cannot be analysed"
 
 
 Answer = Shown | Laid | Broken
@@ -368,7 +370,7 @@ class Stage:
         before = self.scene
         saved = time.strftime("%H:%M:%S")
         if isinstance(answer, Broken):
-            words = "cannot be analysed"
+            words = answer.in_short
             scene = replace(
                 before,
                 title=f"{self._name}: {words}",

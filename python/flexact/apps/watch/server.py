@@ -57,7 +57,8 @@ def live_page(scene: Scene, start: str, key: str, *, of_layouts: bool = False) -
         f'<template class="live-broken">{scene.broken}</template>'
         f'<div class="live-scene">{scene.body}</div>'
     )
-    scripts, styles = _SCRIPTS, ("style.css", "live.css", "switches.css")
+    scripts: tuple[str, ...] = _SCRIPTS
+    styles: tuple[str, ...] = ("style.css", "live.css", "switches.css")
     if of_layouts:
         scripts, styles = _OF_LAYOUTS, (*LAYOUT_STYLES, "live.css")
     return filled(scene.title, body, scripts, styles, connects=True)

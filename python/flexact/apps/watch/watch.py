@@ -211,8 +211,10 @@ class Watch:
                     return
                 self._saved.also(answer.files)
                 try:
-                    is_laid = isinstance(answer, Laid)
-                    words = (self.stage.put if is_laid else self.session.renewed)(answer)
+                    if isinstance(answer, Laid):
+                        words = self.stage.put(answer)
+                    else:
+                        words = self.session.renewed(answer)
                 except Exception as error:
                     # One that cannot be shown shall not end the watch.
                     answer = _unshown(f"unforeseen {type(error).__name__}: {error}", self.path)

@@ -309,8 +309,11 @@ def answer_of(
     except Exception as error:
         words = str(error) if isinstance(error, ProblemsError) else why(error)
         files = files if script is None else script.files()
-        body = broken_content(error, path).body
-        return Broken(errors_part(error, path), body, words, files)
+        errors = errors_part(error, path)
+        if is_problem(path):
+            body = broken_content(error, path, what="Problem", verb="read").body
+            return Broken(errors, body, words, files, "cannot be read")
+        return Broken(errors, broken_content(error, path).body, words, files)
 
 
 @cache

@@ -74,13 +74,16 @@ _SHORT = 40
 _LONGEST = 400
 
 
-def deck_part(raw: bytes, diagnostics: Sequence[Diagnostic], is_written: bool = False) -> str:
+def deck_part(
+    raw: bytes, diagnostics: Sequence[Diagnostic], is_written: bool = False, what: str = "Deck"
+) -> str:
     """A deck's text.
 
     Args:
         raw: The deck.
         diagnostics: What is to be told about it.
         is_written: Whether the deck was written by Flexact, for a model made in Python.
+        what: What it is.
     """
     at: dict[int, list[Diagnostic]] = defaultdict(list)
     for item in diagnostics:
@@ -104,11 +107,12 @@ def deck_part(raw: bytes, diagnostics: Sequence[Diagnostic], is_written: bool = 
     summary = f"{len(lines)} line{'s' * (len(lines) != 1)}"
     return section(
         "deck",
-        "Deck",
+        what,
         "".join(_told(item) for item in at[0]),
         note,
         f"<details{opened}><summary>{summary}</summary>"
-        f'<div class="deck" role="group" aria-label="deck" tabindex="0">{shown}</div></details>',
+        f'<div class="deck" role="group" aria-label="{what.lower()}" tabindex="0">{shown}</div>'
+        "</details>",
     )
 
 
@@ -472,7 +476,7 @@ def content_of(
     *,
     has_origin: bool = True,
     is_short: bool = False,
-    room: int = MOST_SHAPES,
+    room: int | None = None,
     missing: Sequence[str] = (),
     before: tuple[Result, str] | None = None,
     misaligned: dict[str, Any] | None = None,
@@ -509,7 +513,7 @@ def content_of(
         around = [mesh.triangles.reshape(-1, 3) for mesh in solids]
         frames = frames_of(*(drawing_of(each.given) for each in shown), around=around)
         every = zip(shown, frames, (spaces, None), strict=False)
-        most = FEW_SHAPES if is_short else room
+        most = FEW_SHAPES if is_short else room or MOST_SHAPES
         datas = [viewer_data(each, frame, space, most) for each, frame, space in every]
         for each, frame, data in zip(shown, frames, datas, strict=True):
             if scenery is not None:
@@ -603,31 +607,35 @@ def _beside(
     )
 
 
-def broken_content(error: Exception, name: str) -> Content:
+def broken_content(
+    error: Exception, name: str, *, what: str = "Deck", verb: str = "analysed"
+) -> Content:
     """What the page of a deck holds that cannot be analysed: why.
 
     Args:
         error: Why: with diagnostics, or a sentence.
         name: The deck's file name.
+        what: What it is, where it is no deck.
+        verb: What cannot be done with it.
     """
     name = file_name(name)
     words = reason_in_words(error)
     raw, told = b"", ""
     if isinstance(error, ProblemsError):
         raw = error.source.text if error.source is not None else b""
-        told = deck_part(raw, error.diagnostics)
+        told = deck_part(raw, error.diagnostics, what=what)
     body = (
         head(
             *BROKEN,
-            VerdictInWords("Cannot be analysed", words),
+            VerdictInWords(f"Cannot be {verb}", words),
             f'<span class="name">{text(name)}</span>',
         ),
         '<main class="plain">',
         told,
-        origin_part(raw, name, None, False) if raw else "",
+        origin_part(raw, name, None, False) if raw and what == "Deck" else "",
         "</main>",
     )
-    return Content(f"{name}: cannot be analysed", "\n".join(body))
+    return Content(f"{name}: cannot be {verb}", "\n".join(body))
 
 
 def reason_in_words(error: Exception) -> str:

@@ -201,8 +201,8 @@ const Live = (() => {
       this.bar.classList.toggle("alone", Boolean(broken) && !isKept);
       errors.hidden = !isKept;
       errors.innerHTML = isKept ? broken : "";
-      const words = isKept ? "cannot be analysed; below is the last good scene"
-        : broken ? "cannot be analysed" : changed;
+      const wrong = typeof Layouts === "object" ? "cannot be read" : "cannot be analysed";
+      const words = isKept ? `${wrong}; below is the last good scene` : broken ? wrong : changed;
       this.part("live-words").textContent = saved ? `${saved} ${words || "watching"}` : "";
       this.part("live-which").textContent = which || "";
     }

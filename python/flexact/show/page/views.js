@@ -18,7 +18,7 @@ const Views = (() => {
       }),
       restore: (view) => {
         if (toolbar && view.toolbar) toolbar.restore(view.toolbar);
-        viewers.forEach(({ choices }, k) => choices.restore(view.picked[k] || {}));
+        viewers.forEach(({ choices }, k) => choices.restore((view.picked || [])[k] || {}));
         if (viewers.length && view.looks) viewers[0].stage.lookAgain(view.looks);
         for (const each of details()) each.open = each.open || view.open.includes(key(each));
         window.scrollTo(...view.scroll);
