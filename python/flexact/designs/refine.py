@@ -280,8 +280,8 @@ def _of_layout(
         progress=progress,
         **{name: value for name, value in how.items() if value is not None},
     )
-    found: Refined = replace(made.refined, layout=made)
-    return found
+    assert made.refined is not None
+    return replace(made.refined, layout=made)
 
 
 def _read_length(length: Quantity | None, first: Model | None, units: Units) -> float:
