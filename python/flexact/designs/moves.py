@@ -63,6 +63,8 @@ _TRIAL = 0.01
 _NO_FORCE, _JUMP = 1.0e-3, 0.2
 #: What leads from a line to no other one, and how far two materials that are alike are apart.
 _FLAT, _SAME = 1.0e-9, 1.0e-6
+#: A leaf of a folded sheet is this part of the least length at least, to have a state.
+_LEAF = 0.1
 #: What is no radius of a notch, in its thickness.
 _LEAST_ROUND = 3.0
 
@@ -444,7 +446,7 @@ class Mover:
             made = rods_between(bare, one, other, along, width, self.form, middle)
         elif self.form == "folded sheet":
             assert at is not None and axes is not None
-            loose = replace(place.sizes, length=(TINY, np.inf))
+            loose = replace(place.sizes, length=(_LEAF * place.sizes.length[0], np.inf))
             made = folded_between(replace(bare, sizes=loose), one, at[None], other, axes[:1], width)
         elif self.form in ("sheet", "waisted sheet"):
             waist = None

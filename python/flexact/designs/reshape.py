@@ -65,6 +65,9 @@ _DEPENDENT = 1.0e3
 _STEPS, _HALVED = 12, 5
 #: How far a degree is followed if it alone leads out of the regions at once.
 _LITTLE, _LEAST_REACH = 1.0e-3, 0.1
+#: A degree of which one way is shorter than this part of the other has the other alone; else it has
+#: this part at least.
+_AT_BOUND, _FROM_BOUND = 0.05, 0.25
 #: A range of less than this part is none.
 _NO_RANGE = 1.0e-6
 #: A freedom that is off the wanted one by more is another one.
@@ -259,6 +262,12 @@ class Shape:
                 if below + above < _LITTLE:
                     # From a corner of a region two shifts may lead on where one does not.
                     below = above = _LEAST_REACH
+                # A method begins at a bound or away from it: what is near it would be moved there.
+                far = max(below, above)
+                below, above = (
+                    0.0 if way < _AT_BOUND * far else max(way, _FROM_BOUND * far)
+                    for way in (below, above)
+                )
                 scale = size if degree.unit == "m" else 1.0
                 name = f"{degree.words} of {self._words(orbit)}"
                 yield Parameter(name, -below * scale, above * scale, degree.unit, 0.0)
