@@ -154,7 +154,7 @@ class Designs(Frozen):
     def refined(
         self,
         *numbers: int,
-        starts: int = 2,
+        starts: int = 1,
         evaluations: int = 200,
         method: str = "auto",
         seed: int = 0,
@@ -569,6 +569,9 @@ def described(designs: Designs, width: int) -> Iterator[str]:
     yield ""
     yield designs.table(width)
     yield wrapped(designs.confirmed, width)
+    if any(layout.refined for layout in designs.layouts):
+        yield ""
+        yield from feature("refined_in_words")(designs, width)
     for remark in designs.problem.remarks:
         yield wrapped(f"Remark: {remark}.", width)
 
@@ -599,8 +602,8 @@ def answer_of(designs: Designs) -> dict[str, Any]:
 
 
 def layout_json(layout: Layout) -> dict[str, Any]:
-    """A layout as the JSON has it."""
-    return {
+    """A layout as the JSON has it; `refined` where it was."""
+    made: dict[str, Any] = {
         "number": layout.number,
         "what": layout.what,
         "kind": layout.kind,
@@ -615,6 +618,19 @@ def layout_json(layout: Layout) -> dict[str, Any]:
         "symmetry": layout.symmetry,
         "alike": layout.alike,
     }
+    told = layout.refined
+    if told is not None and layout.before is not None:
+        made["refined"] = {
+            "score": told.objective.replace(" ", "_"),
+            "was": layout.before.number,
+            "before": told.before,
+            "after": told.value,
+            "evaluations": len(told.evaluations),
+            "failing": told.failing,
+            "interrupted": told.is_interrupted,
+            "values": told.values,
+        }
+    return made
 
 
 def flexure_json(flexure: Flexure) -> dict[str, Any]:

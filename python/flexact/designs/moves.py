@@ -3,10 +3,10 @@
 
 All of it is in the frame of a problem, in parts of its size. Lines of W are the zeros of q on W; at
 a line c the directions d with c'Qd = 0 are tangent to them, and from c + d back to a line it goes
-along Q c, by the smaller root of a quadratic equation, all within W. Where Q c is zero, as in a flat
-family, the directions with Q d = 0 stay. Planes are those in which the freedom leaves all lines
-(theorem 2), found anew where a sheet is moved to. So a flexure that was moved is exact with the
-others as it was before, unless lines become dependent.
+along Q c, by the smaller root of a quadratic equation, all within W. Where Q c is zero, as in a
+flat family, the directions with Q d = 0 stay. Planes are those in which the freedom leaves all
+lines (theorem 2), found anew where a sheet is moved to. So a flexure that was moved is exact with
+the others as it was before, unless lines become dependent.
 
 Where a flexure begins and ends along its line follows from the regions as in `candidates.reached`,
 for a least length that may be asked for.
@@ -56,13 +56,15 @@ _OF_LINES = ("wire", "strut", "folded sheet")
 WIDE = ("sheet", "waisted sheet", "folded sheet", "notch", "rod", "bellows")
 STRAIGHT = ("wire", "strut", "sheet", "waisted sheet", "notch", "rod", "bellows")
 #: How far places and angles are moved at most, in parts of the size and radians.
-_FAR, _TURNED = 4.0, 0.8
+_FAR, _TURNED = 1.5, 0.8
 #: How far something is moved to see what it does.
 _TRIAL = 0.01
 #: A force of less is a couple; of a plane, by how much it may turn in a trial.
 _NO_FORCE, _JUMP = 1.0e-3, 0.2
 #: What leads from a line to no other one, and how far two materials that are alike are apart.
 _FLAT, _SAME = 1.0e-9, 1.0e-6
+#: A leaf of a folded sheet is this part of the least length at least, to have a state.
+_LEAF = 0.1
 #: What is no radius of a notch, in its thickness.
 _LEAST_ROUND = 3.0
 
@@ -93,10 +95,18 @@ class Mover:
         place: Between which regions it is, with sizes as they are at rest; None where its ends
             stay.
         kept: (n, 3, 3) turns and mirrors that it is to be its own image under.
+        least: The length that it has at least at rest.
+
+    Attributes:
+        off: How far it is, at rest, from where it would be by the regions alone.
     """
 
     def __init__(
-        self, flexure: Candidates, place: Place | None, kept: Sequence[FloatArray] = ()
+        self,
+        flexure: Candidates,
+        place: Place | None,
+        kept: Sequence[FloatArray] = (),
+        least: float = 0.0,
     ) -> None:
         """Find its degrees."""
         self.rest, self.form, self.place = flexure, flexure.kind, place
@@ -107,6 +117,7 @@ class Mover:
             each[0] for each in (flexure.normal, flexure.via, flexure.axes)
         )
         self.degrees: tuple[Degree, ...] = ()
+        self.off, self._least = 0.0, least
         self._off: tuple[FloatArray, FloatArray] = (np.zeros(3), np.zeros(3))
         if place is None:
             return
@@ -123,6 +134,7 @@ class Mover:
         # Images, and what is longer than it need be, lie otherwise along their lines.
         there = self._made(np.zeros(self._count), self.width, 0.0, place)
         self._off = self.first - there.ends[0, 0], self.last - there.ends[0, 1]
+        self.off = round(float(np.abs(self._off).max()), 6)
         self._which = [k for k in range(self._count) if self._is_degree(k, kept)]
         self.degrees = tuple(every[k] for k in self._which)
 
@@ -139,10 +151,8 @@ class Mover:
             NoPlaceError: it cannot be there.
         """
         if self.place is None:
-            return self._built(
-                *(self.first, self.last, self.normal, width, place),
-                *(self.via[0] if len(self.via) else None, self.axes),
-            )
+            at = self.via[0] if len(self.via) else None
+            return self._built(self.first, self.last, self.normal, width, place, at, self.axes)
         every = np.zeros(self._count)
         every[self._which] = moves
         return self._made(every, width, least, place)
@@ -238,7 +248,7 @@ class Mover:
             "notch": self._about_notch,
             "bellows": self._beside,
         }[self.form]
-        return make(moves, width, max(least, place.sizes.length[0]), place)
+        return make(moves, width, max(least, self._least, place.sizes.length[0]), place)
 
     def _moved_line(self, moves: FloatArray) -> tuple[FloatArray, FloatArray]:
         """A point of a line of W, and its direction."""
@@ -358,7 +368,8 @@ class Mover:
             if not fits[0]:
                 raise NoPlaceError("the leaves of a folded sheet do not reach its regions")
             ends.append(found[0] + off - (off @ way) * way)
-        return self._built(*ends, self.normal, width, place, fold, way[None])
+        start, end = ends
+        return self._built(start, end, self.normal, width, place, fold, way[None])
 
     def _edges(self, normal: FloatArray, way: FloatArray, width: float, place: Place) -> FloatArray:
         """(m, 1, 3) from the middle of a clamped end to its corners on one side."""
@@ -435,7 +446,7 @@ class Mover:
             made = rods_between(bare, one, other, along, width, self.form, middle)
         elif self.form == "folded sheet":
             assert at is not None and axes is not None
-            loose = replace(place.sizes, length=(TINY, np.inf))
+            loose = replace(place.sizes, length=(_LEAF * place.sizes.length[0], np.inf))
             made = folded_between(replace(bare, sizes=loose), one, at[None], other, axes[:1], width)
         elif self.form in ("sheet", "waisted sheet"):
             waist = None

@@ -57,6 +57,7 @@ from .explain import Explanation, nearby
 from .explain_files import in_one_line, sides_of
 from .layouts import Flexure, Layout, plural, stem_of
 from .problem import KINDS, Problem
+from .reshape import became
 from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, stage_point, unit_rows
 
 if TYPE_CHECKING:
@@ -171,7 +172,7 @@ class Cards:
         return (
             f'<li class="card layout" id="card-{number}"{data_of(data)}>'
             f'<div class="said"><h2><span class="number">{number}</span> {name}</h2>'
-            f"{badges(layout, is_best)}{numbers(layout)}</div>"
+            f"{badges(layout, is_best)}{numbers(layout)}{refined_words(layout)}</div>"
             f"{self._drawings[key]}{taken(layout, deck, is_whole)}{whole}</li>\n"
         )
 
@@ -195,6 +196,12 @@ class Cards:
         if not made:
             return f'<p class="note">{text(" ".join(missing))}</p>'
         return f'<div class="viewer">{made}</div>'
+
+
+def refined_words(layout: Layout) -> str:
+    """What refining made of a layout; nothing where it was not refined."""
+    said = became(layout)
+    return f'<p class="note">{text(f"Refined: {said}.")}</p>' if said else ""
 
 
 def page_of_deck(layout: Layout, analysis: Analysis) -> str:

@@ -39,6 +39,8 @@ from .layouts import Layout
 from .measures import ASKED, Bound, Design, How, said
 from .optimum import Measured, Outcome, Parameter, SearchError, method_of, search
 from .refined import Refined
+from .reshape import reshaped
+from .scores import rank_given
 from .varied import Variation, first_words
 
 REST, END = "rest", "end of stroke"
@@ -55,7 +57,7 @@ Goal = str | Callable[[State], float]
 
 def refine(
     of: Model | Analysis | Layout | str | os.PathLike[str] | Build,
-    vary: Iterable[str] | Mapping[str, object],
+    vary: Iterable[str] | Mapping[str, object] | None = None,
     *,
     maximise: Goal | None = None,
     minimise: Goal | None = None,
@@ -72,8 +74,8 @@ def refine(
     length: Quantity | None = None,
     over_constrained: bool | int = False,
     start: Mapping[str, float] | None = None,
-    starts: int = 3,
-    evaluations: int = 400,
+    starts: int | None = None,
+    evaluations: int | None = None,
     beams: int = BEAMS,
     method: str = "auto",
     seed: int = 0,
@@ -91,13 +93,17 @@ def refine(
 
         flexact.refine(build, vary={"H": (0.02, 0.15), "t": (0.2e-3, 1e-3)}, ...)
 
+    A layout of `flexact.design` needs nothing else: `flexact.refine(layout)` varies its sizes and
+    places within the limits of its problem, so that it stays exactly constrained, for the score by
+    which layouts are ordered, or another one of them; the new layout is `layout` of what is given.
+
     Ctrl-C ends the search, and gives the best so far. The same seed looks at the same designs.
 
     Args:
         of: A model, a layout, an analysis, the path of a deck, or a function that makes a model of
             the parameters, `build(H=..., t=...)`.
         vary: What is varied, and between which bounds: of a model texts (`designs.varied`), of a
-            function two numbers by name, as it takes them.
+            function two numbers by name, as it takes them; of a layout nothing, or as of a model.
         maximise: What is to be large: "first frequency", "first parasitic frequency" (the drive
             locked), "worst stiffness", "drive stiffness", "stiffness x" to "stiffness rz", ... of
             `flexact.designs.refine.ASKED`, also with underscores; or a function of the state
@@ -124,8 +130,8 @@ def refine(
             without misalignment alone.
         start: Where a function's parameters begin; by default in the middle of their logarithms. A
             model begins as it is.
-        starts: From how many places it is searched.
-        evaluations: How many designs are looked at, at most, in all.
+        starts: From how many places it is searched: three; of a layout without `vary` one.
+        evaluations: How many designs are looked at, at most, in all: 400; likewise 200.
         beams: Into how many beams a sheet is divided while searching; the best is measured with
             8 and 16 as well.
         method: "auto": COBYQA, or COBYLA of a scipy before 1.14; "differential evolution",
@@ -140,6 +146,18 @@ def refine(
         ElasticError: it has no stiffness, mass, drive, or section where that is needed; or it is
             under-constrained, or over-constrained beyond what is permitted.
     """
+    if vary is None:
+        further: dict[str, object] = {"stroke": stroke, "drive": drive, "stress": stress}
+        further |= {"force": force, "moment": moment, "buckling": buckling, "size": size}
+        further |= {"limits": tuple(limits) or None, "point": point, "length": length}
+        further |= {"over_constrained": over_constrained or None, "start": start}
+        further |= {"at": None if at == REST else at}
+        needs = [name for name, value in further.items() if value is not None]
+        return _of_layout(
+            of, needs, maximise, minimise, starts, evaluations, method, seed, progress
+        )
+    starts = 3 if starts is None else starts
+    evaluations = 400 if evaluations is None else evaluations
     wrong: list[str] = []
 
     def tried(make: Callable[..., Any], *given: Any) -> Any:
@@ -182,8 +200,8 @@ def refine(
     if not isinstance(limits, Iterable):
         wrong.append(f"limits are texts such as 'first frequency >= 5 Hz', not {in_short(limits)}")
         limits = ()
-    further = [limits] if isinstance(limits, str) else limits
-    bounds += [tried(_limit, each, units) for each in further]
+    more = [limits] if isinstance(limits, str) else limits
+    bounds += [tried(_limit, each, units) for each in more]
     bounds = [each for each in bounds if each is not None]
     keys = [each.key for each in bounds]
     if twice := [key for key in dict.fromkeys(keys) if keys.count(key) > 1]:
@@ -218,6 +236,52 @@ def refine(
         seed=int(seed),
         progress=progress,
     )
+
+
+def _of_layout(
+    of: object,
+    needs: Sequence[str],
+    maximise: Goal | None,
+    minimise: Goal | None,
+    starts: int | None,
+    evaluations: int | None,
+    method: str,
+    seed: int,
+    progress: Progress | None,
+) -> Refined:
+    """A layout, by what keeps it exactly constrained; `needs` are what goes with `vary` alone.
+
+    Raises:
+        RequestError: it is no layout, or something else is asked for that is for others.
+    """
+    if not isinstance(of, Layout):
+        raise RequestError('say what is varied, such as vary=["thickness of sheet *: 0.2..1 mm"]')
+    wrong = [f"{listed(list(needs))} is for what has vary"] if needs else []
+    rank = None
+    if maximise is not None or minimise is not None:
+        goal = minimise if maximise is None else maximise
+        if (maximise is None) == (minimise is None) or not isinstance(goal, str):
+            wrong.append("of a layout one score is maximised or minimised, by its name")
+        else:
+            rank = rank_given(f"{'higher' if maximise is not None else 'lower'}:{goal}")
+    for what, count in {"starts": starts, "evaluations": evaluations, "seed": seed}.items():
+        if count is not None and (isinstance(count, bool) or not isinstance(count, int)):
+            wrong.append(f"{what} is a whole number, not {in_short(count)}")
+        elif count is not None and count < (what != "seed"):
+            wrong.append(f"{what} is a whole number from {int(what != 'seed')}, not {count}")
+    if wrong:
+        raise RequestError(*wrong)
+    how = {"starts": starts, "evaluations": evaluations}
+    made = reshaped(
+        of,
+        rank=rank,
+        method=method,
+        seed=seed,
+        progress=progress,
+        **{name: value for name, value in how.items() if value is not None},
+    )
+    assert made.refined is not None
+    return replace(made.refined, layout=made)
 
 
 def _read_length(length: Quantity | None, first: Model | None, units: Units) -> float:

@@ -11,7 +11,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +29,9 @@ from ..util.text import USUAL, number_in_words, table, wrapped
 from ..util.units import Units
 from .measures import ASKED, Bound, said
 from .optimum import Evaluation, Parameter, most_frequent
+
+if TYPE_CHECKING:
+    from .layouts import Layout
 
 #: A limit that is used by more than this is active, and so is a bound that is as near as that.
 _ACTIVE, _AT_BOUND = 0.995, 1.0e-3
@@ -62,6 +65,7 @@ class Refined(Frozen):
         is_interrupted: Whether Ctrl-C ended it.
         at: In which state it was measured, in words.
         units: Of the model.
+        layout: The new layout, where one of `flexact.design` was refined without `vary`.
     """
 
     model: Model
@@ -84,6 +88,7 @@ class Refined(Frozen):
     is_interrupted: bool
     at: str
     units: Units
+    layout: Layout | None = None
 
     @property
     def failing(self) -> int:

@@ -3,9 +3,10 @@
 
 Varied are the thickness of sheets, the diameter of wires and the breadths of sheets where the
 limits of a problem leave a range; how long flexures are at least; and where each is, by what keeps
-it within W (`moves`), so that the layout stays exactly constrained. Flexures that are images of each
-other are moved together, by one of them. What is to be better is the score by which layouts are
-ordered. Regions, lengths and clearances are limits of the search; the best is analysed at the end.
+it within W (`moves`), so that the layout stays exactly constrained. Flexures that are images of
+each other are moved together, by one of them. What is to be better is the score by which layouts
+are ordered. Regions, lengths and clearances are limits of the search; the best is analysed at the
+end. Of layouts with bodies between the sizes alone are varied.
 
 All of it is in the frame of the problem, so that a problem that is turned or scaled gives the same.
 """
@@ -25,6 +26,7 @@ from ..core.progress import Progress
 from ..costs.request import RequestError
 from ..util.loading import load
 from ..util.records import Frozen
+from ..util.text import table, wrapped
 from ..util.units import METRES
 from .candidates import Candidates, Place
 from .choice import Chosen
@@ -52,7 +54,7 @@ from .scores import (
 from .search import Arrangement, Found, Part, key_of, turns_that_keep
 
 #: How many designs of a layout are looked at, and from how many places.
-EVALUATIONS, STARTS = 200, 2
+EVALUATIONS, STARTS = 200, 1
 #: How far a limit is used that is kept, at most, so that one at its edge leaves room for rounding.
 _KEPT, _WITHIN = 0.9999, 0.99
 #: What is beyond a limit by less is so by rounding.
@@ -61,6 +63,11 @@ _ROUNDING = 1.0e-9
 _DEPENDENT = 1.0e3
 #: Into how many steps the way of a degree is divided to find where it ends, and how often halved.
 _STEPS, _HALVED = 12, 5
+#: How far a degree is followed if it alone leads out of the regions at once.
+_LITTLE, _LEAST_REACH = 1.0e-3, 0.1
+#: A degree of which one way is shorter than this part of the other has the other alone; else it has
+#: this part at least.
+_AT_BOUND, _FROM_BOUND = 0.05, 0.25
 #: A range of less than this part is none.
 _NO_RANGE = 1.0e-6
 #: A freedom that is off the wanted one by more is another one.
@@ -136,7 +143,7 @@ class Shape:
         self._away = {(i, j): self._apart(rest, i, j) for i, j in combinations(range(len(rest)), 2)}
         self._out = self._outside(rest, here)
         self.parameters: tuple[Parameter, ...] = ()
-        self.parameters = tuple(self._parameters(here))
+        self.parameters = tuple(self._parameters(here, rest))
         if not self.parameters:
             raise RequestError(
                 "nothing of the layout can be varied: the limits leave no range of sizes, and no "
@@ -200,16 +207,33 @@ class Shape:
         for i in range(len(rest)):
             if i in seen:
                 continue
-            there = {i: np.eye(3)}
+            made_of = {}
+            for first in {i, *(to[i] for to in images)}:
+                still = [turn for turn, to in zip(kept, images, strict=True) if to[first] == first]
+                is_free = flexures[i].between == ("stage", "ground")
+                least = self._shortest(rest[i].kind, rest)
+                made_of[first] = Mover(rest[first], here if is_free else None, still, least)
+            # That which is as its regions say; its images may be deeper in theirs.
+            first = min(made_of, key=lambda each: (made_of[each].off, each))
+            there = {first: np.eye(3)}
             for turn, to in zip(kept, images, strict=True):
-                there.setdefault(to[i], turn)
+                there.setdefault(to[first], turn)
             seen |= set(there)
-            still = [turn for turn, to in zip(kept, images, strict=True) if to[i] == i]
-            is_free = flexures[i].between == ("stage", "ground")
-            mover = Mover(rest[i], here if is_free else None, still)
-            yield _Orbit(i, tuple(there.items()), mover)
+            yield _Orbit(first, tuple(there.items()), made_of[first])
 
-    def _parameters(self, here: Place) -> Iterator[Parameter]:
+    def _shortest(self, form: str, rest: Sequence[Candidates]) -> float:
+        """The length of the shortest flexure of a form between stage and ground."""
+        pairs = zip(rest, self.layout.flexures, strict=True)
+        return min(
+            (
+                float(lengths_of(each)[0])
+                for each, was in pairs
+                if each.kind == form and was.between == ("stage", "ground")
+            ),
+            default=0.0,
+        )
+
+    def _parameters(self, here: Place, rest: Sequence[Candidates]) -> Iterator[Parameter]:
         """What is varied, between bounds: sizes, least lengths, then places."""
         limits, size = self.problem.limits, self.problem.size
         flexures = self.layout.flexures
@@ -226,7 +250,7 @@ class Shape:
         for form in dict.fromkeys(o.mover.form for o in self.orbits if o.mover.place is not None):
             if form in STRAIGHT:
                 own = [o.mover for o in self.orbits if o.mover.form == form and o.mover.place]
-                shortest = min(float(lengths_of(each.rest)[0]) for each in own)
+                shortest = self._shortest(form, rest)
                 longest = max(self._longest(each, here) for each in own)
                 if _is_range(shortest, longest):
                     name = f"least length of {plural(form)}"
@@ -234,11 +258,19 @@ class Shape:
         for orbit in self.orbits:
             mover = orbit.mover
             for k, degree in enumerate(mover.degrees):
-                low, high = (-self._reach(orbit, k, -1.0, here), self._reach(orbit, k, 1.0, here))
-                if high - low > 1.0e-4:
-                    scale = size if degree.unit == "m" else 1.0
-                    name = f"{degree.words} of {self._words(orbit)}"
-                    yield Parameter(name, low * scale, high * scale, degree.unit, 0.0)
+                below, above = (self._reach(orbit, k, sense, here) for sense in (-1.0, 1.0))
+                if below + above < _LITTLE:
+                    # From a corner of a region two shifts may lead on where one does not.
+                    below = above = _LEAST_REACH
+                # A method begins at a bound or away from it: what is near it would be moved there.
+                far = max(below, above)
+                below, above = (
+                    0.0 if way < _AT_BOUND * far else max(way, _FROM_BOUND * far)
+                    for way in (below, above)
+                )
+                scale = size if degree.unit == "m" else 1.0
+                name = f"{degree.words} of {self._words(orbit)}"
+                yield Parameter(name, -below * scale, above * scale, degree.unit, 0.0)
 
     def _words(self, orbit: _Orbit) -> str:
         name = self.layout.flexures[orbit.first].name
@@ -526,7 +558,7 @@ def _finished(
     rank: tuple[str, bool],
     seed: int,
 ) -> Layout:
-    """The best that was found, analysed with its proof; the layout as it was without a better one."""
+    """The best that was found, analysed with its proof; without a better one as it was."""
     layout, (key, less) = shape.layout, rank
     problem, units = layout.problem, METRES
     sense = 1.0 if less else -1.0
@@ -597,8 +629,8 @@ def refined_designs(
 ) -> Designs:
     """The same layouts, some of them refined, in their new order and numbered anew.
 
-    One that became the same as another one is left out. Where Ctrl-C ends the search of one, those
-    after it stay as they are.
+    One that became the same as another one is left out, unless it was asked for. Where Ctrl-C ends
+    the search of one, those after it stay as they are.
 
     Args:
         designs: The layouts.
@@ -649,7 +681,8 @@ def refined_designs(
         raise RequestError(not_so[0].partition(": ")[2])
     kept: list[Layout] = []
     for layout in ranked(layouts.values(), designs.problem.rank):
-        if not (layout.refined and any(_became(layout, other) for other in kept)):
+        is_one = layout.refined and not numbers
+        if not (is_one and any(_became(layout, other) for other in kept)):
             kept.append(layout)
     return replace(
         designs,
@@ -680,19 +713,52 @@ def became(layout: Layout) -> str:
     told, before = layout.refined, layout.before
     if told is None or before is None:
         return ""
-    key = next(key for key, score in SCORES.items() if score.words == told.objective)
-    looked = f"{len(told.evaluations)} designs looked at"
-    if told.failing:
-        looked += f", {told.failing} of them without a state"
-    if told.is_interrupted:
-        looked += ", interrupted"
     if layout.flexures is before.flexures:
-        return f"nothing better was found; {looked}"
+        return f"nothing better was found; {_looked(told)}"
     said = []
-    for each in dict.fromkeys((key, *COLUMNS)):
-        if each in layout.scores and each in before.scores and each not in _FIXED:
-            was, now = (cell(each, one, unit=False) for one in (before, layout))
-            unit = shown_unit(each, layout.problem)[0]
-            change = f"{was} became {now}" if was != now else f"{now} as before"
-            said.append(f"{SCORES[each].words} {change} {unit}".rstrip())
-    return f"{'; '.join(said)}; {looked}"
+    for key in _told(layout):
+        was, now = (cell(key, one, unit=False) for one in (before, layout))
+        change = f"{was} became {now}" if was != now else f"{now} as before"
+        unit = shown_unit(key, layout.problem)[0]
+        said.append(f"{SCORES[key].words} {change} {unit}".rstrip())
+    return f"{'; '.join(said)}; {_looked(told)}"
+
+
+def _told(layout: Layout) -> list[str]:
+    """The scores of which it is told what became of them: that which was to be better first."""
+    assert layout.refined is not None and layout.before is not None
+    key = layout.refined.objective.replace(" ", "_")
+    every = [each for each in dict.fromkeys((key, *COLUMNS)) if each not in _FIXED]
+    return [each for each in every if each in layout.scores and each in layout.before.scores]
+
+
+def _looked(told: Refined) -> str:
+    """How many designs were looked at."""
+    said = f"{len(told.evaluations)} designs looked at"
+    if told.failing:
+        said += f", {told.failing} of them without a state"
+    return f"{said}, interrupted" if told.is_interrupted else said
+
+
+def refined_in_words(designs: Designs, width: int) -> Iterator[str]:
+    """A table of the layouts that were refined beside what they were, and how it was done."""
+    some = [layout for layout in designs.layouts if layout.refined and layout.before]
+    keys = [key for key in SCORES if any(key in _told(layout) for layout in some)]
+    rows = [["refined", *(SCORES[key].head for key in keys)], ["", *("" for _ in keys)]]
+    rows[1][1:] = [SCORES[key].under for key in keys]
+    for layout in some:
+        before = layout.before
+        assert before is not None
+        cells = []
+        for key in keys:
+            was, now = (
+                cell(key, one, unit=not SCORES[key].under.startswith("N/um"))
+                for one in (before, layout)
+            )
+            unit = shown_unit(key, designs.problem)[0]
+            cells.append(now if was == now else f"{was.removesuffix(f' {unit}')} to {now}")
+        was_there = "" if before.number == layout.number else f", was {before.number}"
+        rows.append([f"layout {layout.number}{was_there}", *cells])
+    yield table(rows, width, second=True)
+    told = [f"{_looked(each.refined)} for layout {each.number}" for each in some if each.refined]
+    yield wrapped(f"{'; '.join(told)}. That none is better is not proven.", width)

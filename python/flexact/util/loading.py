@@ -35,6 +35,7 @@ FEATURES = {
     "flexures": ("flexact.apps.convert.flexure_table", "table_of_flexures"),
     "designs": ("flexact.designs.page", "html_of"),
     "refined": ("flexact.designs.reshape", "refined_designs"),
+    "refined_in_words": ("flexact.designs.reshape", "refined_in_words"),
     "at_rest": ("flexact.costs.at_rest", "json_of"),
     "at_rest_in_words": ("flexact.costs.at_rest", "at_rest_in_words"),
 }

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from pathlib import Path
 from typing import Any
 
 from ...deck.rendering import ProblemsError, render_problems
-from ...designs.design import layouts_of
+from ...designs.design import Designs, layouts_of
 from ...designs.explain import explain
 from ...designs.explain_files import EXPLANATIONS
 from ...designs.files import DESIGNS, LAYOUTS, write_decks
@@ -19,7 +20,7 @@ from ...model.reading import read
 from ...show.writers import write
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
-from ...util.interruption import unwinding
+from ...util.interruption import Stopped, unwinding
 from ...util.outputs import plan_file, plan_files
 from ...util.text import harmless
 from .parser import Verb, argument
@@ -65,6 +66,13 @@ def _designed(chosen: argparse.Namespace, problem: Problem) -> ExitCode:
             bar.show_work("looking for layouts", 0.5)
 
         designs = layouts_of(problem, show)
+    number = chosen.apply
+    if number is not None and designs.layouts and number > len(designs):
+        raise BatchError(f"there is no layout {number}: there are {len(designs)}")
+    if chosen.refine and designs.layouts:
+        designs = _refined(designs, chosen)
+        if number is not None:
+            number = next(each.number for each in designs if each.refined)
     if chosen.json:
         give(designs.to_json())
     if not designs.layouts:
@@ -76,21 +84,31 @@ def _designed(chosen: argparse.Namespace, problem: Problem) -> ExitCode:
                 write(target, DESIGNS.contents(designs, target))
             _written(target, chosen)
         return ExitCode.DECK_ERROR
-    if (target is None or chosen.apply is None) and not chosen.json:
+    if (target is None or chosen.apply is None or chosen.refine) and not chosen.json:
         say(f"{designs.describe(text_width())}\n")
     if target is None:
         return ExitCode.ANALYSED
     with unwinding():
-        if chosen.apply is not None:
-            if chosen.apply > len(designs):
-                raise BatchError(f"there is no layout {chosen.apply}: there are {len(designs)}")
-            layout = designs[chosen.apply - 1]
-            write(target, LAYOUTS.contents(layout, target))
+        if number is not None:
+            write(target, LAYOUTS.contents(designs[number - 1], target))
         elif _is_folder(target):
             write_decks(designs, target)
         else:
             write(target, DESIGNS.contents(designs, target))
     return _written(target, chosen)
+
+
+def _refined(designs: Designs, chosen: argparse.Namespace) -> Designs:
+    """The layouts with some refined; Ctrl-C keeps the best so far."""
+    numbers = () if chosen.apply is None else (chosen.apply,)
+    made = None
+    try:
+        with Bar(designs.problem.title, chosen.problem) as bar, unwinding():
+            made = designs.refined(*numbers, progress=bar.show_work)
+    except Stopped as stopped:
+        if made is None or stopped.number != signal.SIGINT:
+            raise
+    return made
 
 
 def _plan(chosen: argparse.Namespace, given: DeckFile) -> None:
@@ -104,8 +122,9 @@ def _plan(chosen: argparse.Namespace, given: DeckFile) -> None:
         if getattr(chosen, name):
             raise BatchError(f"--{name} is for a deck; a problem says it itself")
     target: Path | None = chosen.output
-    if chosen.explain and chosen.apply is not None:
-        raise BatchError("--explain finds no layouts: leave it out, or --apply")
+    for name in ("apply", "refine"):
+        if chosen.explain and getattr(chosen, name):
+            raise BatchError(f"--explain finds no layouts: leave it out, or --{name}")
     if target is None:
         if chosen.apply is not None:
             raise BatchError("--apply writes a layout: say where, with -o FILE.dat")
@@ -166,6 +185,10 @@ VERB = Verb(
             "The deck of the second layout",
             "flexact design input_decks/designs/mirror_hinge.toml --apply 2 -o results/hinge.dat",
         ),
+        (
+            "Better sizes and places of the first three",
+            "flexact design input_decks/designs/mirror_hinge.toml --refine",
+        ),
     ),
     arguments=(
         argument(
@@ -196,6 +219,12 @@ VERB = Verb(
             metavar="K",
             help="write layout K to the file of -o: a deck (.dat), a script (.py), its page "
             "(.html), solids (.step, .3mf, .stl, .glb), or a picture",
+        ),
+        argument(
+            "--refine",
+            action="store_true",
+            help="better sizes and places, within the limits, of the first three layouts, or of "
+            "that of --apply; by the score by which they are ordered",
         ),
         argument("--body", metavar="NAME", help="of a deck, the body that is to move"),
         argument(
