@@ -185,13 +185,15 @@ def motions_of(
     """The motions about the centre; those that depend on each other are wrong.
 
     A screw of hardly any pitch is taken as a rotation, and one of an enormous pitch as a
-    translation, with a remark.
+    translation, with a remark. Of several motions the pitch of one decides nothing by itself: what
+    counts is the space of all, of which `possible` tells whether it is nearly special.
     """
     made: list[Motion] = []
+    least = _NEARLY_ROTATION if len(lines) == 1 else 0.0
     for each in lines:
         point = centre if each.point is None else each.point
         kind, part = each.kind, abs(each.pitch) / size
-        if kind is ScrewKind.SCREW and not _NEARLY_ROTATION < part < 1.0 / _NEARLY_ROTATION:
+        if kind is ScrewKind.SCREW and not least < part < 1.0 / _NEARLY_ROTATION:
             said = Motion.of(kind, each.direction, point, each.pitch, centre, each.text).text
             near = ScrewKind.ROTATION if part < 1.0 else ScrewKind.TRANSLATION
             told = f"{part:.2g} times L, {entries.units.said(size, 'm')}"
