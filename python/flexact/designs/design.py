@@ -572,6 +572,11 @@ def described(designs: Designs, width: int) -> Iterator[str]:
     if any(layout.refined for layout in designs.layouts):
         yield ""
         yield from feature("refined_in_words")(designs, width)
+    if designs.refused:
+        many = f"{number_in_words(designs.refused)} more"
+        yield wrapped(
+            f"Remark: the analysis did not confirm {many}, which are not shown: please tell us.", width
+        )
     for remark in designs.problem.remarks:
         yield wrapped(f"Remark: {remark}.", width)
 
@@ -593,6 +598,7 @@ def answer_of(designs: Designs) -> dict[str, Any]:
         ],
         "candidates": designs.candidates,
         "found": designs.found,
+        "refused": designs.refused,
         "seconds": round(designs.seconds, 3),
     }
     if designs.why_none is not None:
