@@ -169,6 +169,17 @@ def test_layouts_are_written(at: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert len(said.answer["layouts"]) == 2 and "written to again.json" in said.err
 
 
+def test_refined_layouts_are_told(at: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What the search found is what the layout has, analysed and scored anew."""
+    pytest.importorskip("scipy")
+    answer = Said(capsys, "stage.toml", "-n", "1", "--refine", "--json").answer
+    assert_valid_as(ANSWER, answer)
+    (layout,) = answer["layouts"]
+    told = layout["refined"]
+    assert told["was"] == 1 and told["score"] == answer["rank_by"] == "worst_stiffness"
+    assert told["before"] <= told["after"] == pytest.approx(layout["scores"]["worst_stiffness"])
+
+
 def test_the_same_question_has_the_same_answer(
     at: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -205,6 +216,7 @@ def test_options_take_the_place_of_what_a_problem_says(
         (("stage.toml", "--kinds", "wires, springs"), "springs"),
         (("stage.toml", "--symmetry", "5-fold about w"), "5-fold about w"),
         (("stage.toml", "-n", "0"), "0"),
+        (("stage.toml", "--explain", "--refine"), "--refine"),
         ((), "PROBLEM"),
     ],
 )
