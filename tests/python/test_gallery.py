@@ -10,6 +10,7 @@ import importlib.util
 import re
 import runpy
 import sys
+from collections import Counter
 from pathlib import Path
 from types import ModuleType
 
@@ -160,3 +161,48 @@ def test_its_page_is_what_the_program_says(name: str, as_stored: AsStored) -> No
 
 def test_the_list_names_every_mechanism() -> None:
     assert (GALLERY / "README.md").read_text(encoding="utf-8") == tool().contents()
+
+
+# Machines from sentences
+
+#: What FACT's chart and textbooks have for each freedom: a sheet and two wires of which the lines
+#: meet the axis; three bipods; three parallel wires; five wires of a linear complex; of three
+#: translations wires alone hold none, so that three limbs hold a couple each.
+MACHINES = {
+    "mirror_hinge": (1, {"sheet": 1, "wire": 2}, 0),
+    "lens_mount": (0, {"wire": 6}, 0),
+    "xy_theta_stage": (3, {"wire": 3}, 0),
+    "screw_motion": (1, {"wire": 5}, 0),
+    "remote_centre": (1, {"sheet": 1, "wire": 2}, 0),
+    "xyz_delta": (3, {"notch": 3, "wire": 6}, 3),
+}
+
+
+@pytest.mark.dear(2)
+@pytest.mark.parametrize("name", MACHINES)
+def test_a_sentence_becomes_the_machine_that_its_page_shows(name: str, as_stored: AsStored) -> None:
+    made = tool()
+    designs = made.designs_of(name)
+    freedom, kinds, bodies = MACHINES[name]
+    first = designs[0]
+    assert Counter(flexure.kind for flexure in first.flexures) == kinds
+    assert len(first.bodies) == bodies
+    analysis = analyse(read_text(first.model.to_deck()))
+    assert (analysis.under_constrained, analysis.over_constrained) == (0, 0)
+    assert analysis.degrees_of_freedom == freedom
+    stored = made.MACHINES_PAGE
+    parts = made.machines_parts(stored.read_text(encoding="utf-8"))
+    part = made.machine(name, designs)
+    if as_stored.renew:
+        parts[name] = part
+        stored.write_text(made.machines_page(parts.values()), encoding="utf-8")
+    assert masked(parts[name]) == masked(part)
+    folder = stored.parent / stored.stem
+    assert {f"{name}.png", f"{name}_spaces.png"} <= {path.name for path in folder.iterdir()}
+
+
+def test_the_page_of_machines_has_all_problems() -> None:
+    made = tool()
+    assert {path.stem for path in made.PROBLEMS.iterdir()} == set(made.MACHINES) == set(MACHINES)
+    page = made.MACHINES_PAGE.read_text(encoding="utf-8")
+    assert made.machines_page(made.machines_parts(page).values()) == page

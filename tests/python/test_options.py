@@ -31,6 +31,7 @@ _VALUES = {
         "GX,GY,GZ": ("0,0,1", "0,0,2"),
         "KELVIN,ALPHA": ("1,1e-5", "2,1e-5"),
     },
+    **{"SCORE": ("parts", "room"), "KINDS": ("wire", "sheet"), "SYMMETRY": ("any", "none")},
     # Older names, which help leaves out.
     **{"--format": ("vtu", "vtk"), "--tolerance": ("1e-9", "1e-8")},
 }

@@ -16,14 +16,14 @@ import numpy as np
 from ..analysis.naming import filled
 from ..analysis.places import listed
 from ..core.progress import Progress
+from ..deck.rendering import model_error
 from ..model.model import Model
 from ..util.errors import FlexactError
 from ..util.loading import feature
 from ..util.records import Frozen, cached_property
 from ..util.text import USUAL, number_in_words, wrapped
-from ..util.units import METRES
 from .candidates import Place, Sizes, boxes_of
-from .explain import Explanation, explain, explained_json, nearby
+from .explain import Explanation, explain, explained_json, nearby_json
 from .frame import Scaled, rounded, scaled
 from .held import Held, held_by
 from .images import Group, group_of, groups
@@ -43,7 +43,7 @@ from .possible import Possible, possible
 from .problem import Problem
 from .reading import problem_of, problem_of_deck, problem_of_file, problem_of_keywords
 from .reasons import Reason, reason_of
-from .scores import cheap_scores, pareto, rank_by, ranked, table_of
+from .scores import DEAR, cheap_scores, dear_scores, pareto, rank_by, ranked, table_of
 from .search import (
     HOLDS,
     Arrangement,
@@ -63,6 +63,8 @@ from .search import (
 _STARTS, _FEWER = 12, 6
 #: Of each kind of layouts so many are scored at most.
 _OF_A_KIND = 10
+#: So many are sought where fewer are asked for, so that the best of them is a good one.
+_SOUGHT = 6
 #: Of how many recipes symmetric layouts are sought by themselves; with fewer kinds than so many
 #: layouts with bodies between are sought where none are needed, but have their place.
 _SYMMETRIC, _FEW_KINDS = 2, 3
@@ -288,8 +290,18 @@ def layouts_of(problem: Problem, show: Callable[[Layout], None] | None = None) -
     Args:
         problem: The problem.
         show: Told of each layout as soon as it is verified and scored.
+
+    Raises:
+        ModelError: what holds the stage already stops something that is wanted; or layouts are to
+            be ordered by a frequency, and the stage has no mass.
     """
     begun = time.perf_counter()
+    if problem.rank[0].endswith("frequency") and not problem.mass:
+        raise model_error(
+            "no-mass",
+            f"without a mass of the stage there is no {problem.rank[0].replace('_', ' ')}",
+            "give its mass and its inertia, or another rank",
+        )
     found = possible(problem.freedom)
     search = _Search(problem, scaled(problem), show)
     search.run()
@@ -333,7 +345,7 @@ class _Search:
     def run(self) -> None:
         """Find layouts of each kind, first the best of each; the next ones where few are found."""
         waiting: list[tuple[str, Iterator[Arrangement]]] = []
-        count = self.problem.count
+        count = max(self.problem.count, _SOUGHT)
         # Sets come with the stiffest first; by another score the best may be a later one.
         most = count + 2 if self.problem.rank[0] == "worst_stiffness" else 3 * count
         for kind, arrangements in self.sources():
@@ -384,7 +396,6 @@ class _Search:
         problem, stock = self.problem, self.stock
         count, limits = len(stock.constraint), problem.limits
         if not count:
-            yield "nothing", iter([Arrangement("nothing", ())])
             return
         asked = asked_group(problem, self.frame)
         found = possible(problem.freedom)
@@ -475,7 +486,14 @@ class _Search:
         for place in range(_OF_A_KIND):
             round_ = [each[place] for each in orders if len(each) > place]
             chosen += ranked(round_, problem.rank)
-        chosen = list(ranked(chosen[: problem.count], problem.rank))
+        chosen = chosen[: problem.count]
+        if problem.rank[0] in DEAR:
+            # What takes long is found of those that are shown.
+            key = problem.rank[0]
+            dear = [layout.scores | dear_scores(layout, [key])[0] for layout in chosen]
+            pairs = zip(chosen, dear, strict=True)
+            chosen = [replace(layout, scores=scores) for layout, scores in pairs]
+        chosen = list(ranked(chosen, problem.rank))
         return tuple(replace(layout, number=k) for k, layout in enumerate(chosen, start=1))
 
 
@@ -579,7 +597,7 @@ def answer_of(designs: Designs) -> dict[str, Any]:
     }
     if designs.why_none is not None:
         made["none"] = designs.why_none._asdict()
-        made["nearby"] = [statement for _, statement in nearby(found, typed, units=METRES)]
+        made["nearby"] = nearby_json(found, typed)
     return made
 
 

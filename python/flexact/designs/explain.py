@@ -18,6 +18,7 @@ from ..advice.spaces.words import Geometry, space_in_words
 from ..analysis.naming import Line, Pieces, filled, line_of, plain
 from ..analysis.places import axis_words, listed
 from ..core.arrays import FloatArray
+from ..util.loading import VERSION
 from ..util.records import Frozen, cached_property
 from ..util.text import number_in_words
 from ..util.units import METRES, Units
@@ -326,6 +327,9 @@ def _smaller(freedom: ScrewSpace, typed: ArrayLike) -> list[ScrewSpace]:
 
 # JSON -----------------------------------------------------------------------------------
 
+#: Raised where a name of the JSON is taken away, renamed, or means something else.
+FORMAT = 1
+
 
 def kinds_json(found: Possible) -> Entries:
     """The least number of each kind of flexure, of layers and limbs; null where none does it."""
@@ -351,6 +355,8 @@ def _pair(pair: tuple[int, int] | None) -> list[int] | None:
 def explained_json(found: Possible, typed: ArrayLike = ()) -> Entries:
     """What a freedom takes: the head of what `flexact design --json` prints."""
     return {
+        "format": FORMAT,
+        "flexact": VERSION,
         "wanted": {
             **of_space(found.freedom),
             "principal_screws": [
@@ -370,10 +376,13 @@ def explained_json(found: Possible, typed: ArrayLike = ()) -> Entries:
         "signature_freedom": list(found.signature_freedom),
         "signature_constraint": list(found.signature_constraint),
         "extra": of_space(found.extra),
-        "nearby": []
-        if found.parallel
-        else [
-            {"statement": statement, "dimension": space.dimension, "freedom": of_space(space)}
-            for space, statement in nearby(found, typed)
-        ],
+        "nearby": [] if found.parallel else nearby_json(found, typed),
     }
+
+
+def nearby_json(found: Possible, typed: ArrayLike = ()) -> list[Entries]:
+    """The freedoms near one that wires can leave."""
+    return [
+        {"statement": statement, "dimension": space.dimension, "freedom": of_space(space)}
+        for space, statement in nearby(found, typed)
+    ]

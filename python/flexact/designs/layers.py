@@ -344,7 +344,7 @@ def _arrangement(bodies: Sequence[Boxes], found: Sequence[Found]) -> Arrangement
 
 def names_of_bodies(count: int) -> list[str]:
     """What bodies between are called."""
-    return ["between"] if count == 1 else [f"between {k}" for k in range(1, count + 1)]
+    return ["body"] if count == 1 else [f"body {k}" for k in range(1, count + 1)]
 
 
 def layers_in_words(recipes_: Sequence[tuple[str, ...]]) -> str:

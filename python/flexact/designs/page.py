@@ -63,6 +63,9 @@ from .scores import OBJECTIVES, SCORES, cell, columns_of, pareto, shown_unit, st
 if TYPE_CHECKING:
     from .design import Designs
 
+#: Of more coordinates motions are drawn along their velocities: there are many layouts, and each
+#: would take seconds.
+_FOLLOWED = 60
 #: Less than this part of the largest twist, or of the size, is no motion.
 _STAYS = 1.0e-9
 
@@ -163,7 +166,7 @@ class Cards:
         whole = ""
         if is_whole:
             if key not in self._wholes:
-                self._wholes[key] = packed(as_bytes(page_of_deck(analysis)))
+                self._wholes[key] = packed(as_bytes(page_of_deck(layout, analysis)))
             kind = "application/octet-stream"
             whole = f'<script type="{kind}" class="whole">{self._wholes[key]}</script>'
         return (
@@ -183,7 +186,7 @@ class Cards:
             (frame,) = frames_of(drawing)
             spaces = list(spaces_of(layout, frame.size))
             moving = list(wanted_motions(layout, analysis))
-            data = motions_data(analysis.parts, frame, moving, spaces)
+            data = motions_data(analysis.parts, frame, moving, spaces, _FOLLOWED)
             several = data if len(data["movements"]) > 1 else {**data, "movements": []}
             choices = choices_part({**several, "spaces": []}, (), mark=f"{key}-")
             return f"{drawing_part(data, still, words, mark=f'{key}-')}{choices}"
@@ -201,12 +204,19 @@ def refined_words(layout: Layout) -> str:
     return f'<p class="note">{text(f"Refined: {said}.")}</p>' if said else ""
 
 
-def page_of_deck(analysis: Analysis) -> str:
-    """What the page of `flexact show` holds; why not, where it cannot be made."""
+def page_of_deck(layout: Layout, analysis: Analysis) -> str:
+    """What the page of `flexact view` holds; why not, where it cannot be made.
+
+    The stage's degrees of freedom move, which come first: those of necks and folds, of which there
+    may be dozens, take long to be followed.
+    """
     missing: list[str] = []
+    moving = max(layout.problem.freedom.dimension, 1)
 
     def made() -> str:
-        return content_of(analysis, has_origin=False, room=FEW_SHAPES).body
+        return content_of(
+            analysis, has_origin=False, room=FEW_SHAPES, moving=moving, follows=_FOLLOWED
+        ).body
 
     body = attempted("The page of the deck", made, "", missing)
     return body or f'<main class="plain"><p>{text(" ".join(missing))}</p></main>'

@@ -46,6 +46,8 @@ def reason_of(problem: Problem, found: Possible, exists: Callable[[Problem], boo
         exists: Whether a problem has a layout; asked for this one with fewer conditions.
     """
     limits = problem.limits
+    if not found.needed:
+        return Reason("wires", None, "Every motion is wanted: nothing has to hold the stage.")
     geometry = Geometry(METRES, problem.size)
     if problem.symmetry not in ("any", "none"):
         free = replace(problem, symmetry="any")

@@ -310,6 +310,12 @@ def turns_that_keep(freedom: FloatArray, arrangement: Arrangement) -> tuple[int,
             for turn in group.turns[1:]:
                 if not any(np.abs(turn - other).max() < 1.0e-9 for other in kept):
                     kept.append(turn)
+    # Products keep it as well: with a mirror a third of a turn has three of them.
+    basic = kept[1:] if sets else []
+    for one, other in ((one, other) for one in kept for other in basic):
+        product = one @ other
+        if not any(np.abs(product - each).max() < 1.0e-9 for each in kept):
+            kept.append(product)
     return len(kept), found
 
 

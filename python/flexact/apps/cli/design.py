@@ -19,7 +19,7 @@ from ...designs.reading import problem_of_deck, problem_of_file
 from ...model.reading import read
 from ...show.writers import write
 from ...util.decks import DeckFile
-from ...util.errors import BatchError
+from ...util.errors import BatchError, FlexactError
 from ...util.interruption import Stopped, unwinding
 from ...util.outputs import plan_file, plan_files
 from ...util.text import harmless
@@ -35,16 +35,23 @@ _INSTEAD = ("kinds", "symmetry", "rank", "count")
 
 def design_layouts(chosen: argparse.Namespace) -> ExitCode:
     """Find layouts for the problem that was asked for, say and write them."""
-    target: Path | None = chosen.output
-    given = DeckFile(chosen.problem, Path(chosen.problem).with_suffix(""))
-    _plan(chosen, given)
+    _plan(chosen, DeckFile(chosen.problem, Path(chosen.problem).with_suffix("")))
     try:
-        problem = _problem(chosen)
+        return _designed(chosen, _problem(chosen))
     except ProblemsError as error:
         width = columns_of(sys.stderr)
         name = error.name or harmless(chosen.problem)
         complain(render_problems(error.problems, name, error.source, width))
         return ExitCode.OTHER
+    except BatchError:
+        raise
+    except FlexactError as error:
+        raise BatchError(str(error)) from error
+
+
+def _designed(chosen: argparse.Namespace, problem: Problem) -> ExitCode:
+    """What the freedom of a problem takes, or its layouts."""
+    target: Path | None = chosen.output
     if chosen.explain:
         made = explain(problem)
         if target is not None:

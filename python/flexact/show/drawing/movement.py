@@ -69,7 +69,7 @@ def _carried(chord: FloatArray, now: FloatArray, turns: FloatArray) -> FloatArra
 
 
 #: More coordinates than these are not followed: it would take seconds.
-_MOST_COORDINATES = 300
+MOST_COORDINATES = 300
 
 
 def follow(motion: Velocities, shares: FloatArray, size: float) -> tuple[list[Pose], float] | None:
@@ -320,8 +320,8 @@ class Movement(Frozen):
         return Pose(position, turned)
 
 
-def move(drawing: Drawing, motion: Moving) -> Movement:
-    """The poses of a motion on both sides of the reference.
+def move(drawing: Drawing, motion: Moving, most: int = MOST_COORDINATES) -> Movement:
+    """The poses of a motion on both sides of the reference; of more coordinates by velocities.
 
     They lie on a path on which the deformations that the motion holds stay zero, or so small
     that nobody sees them, where there is one and the model is not large. The larger of the two
@@ -329,7 +329,7 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
     """
     far, part = amplitude_of(drawing, motion.displacement, motion.rotation)
     scale = reach = scale_of(drawing, motion.displacement, motion.rotation, far)
-    sides, deviation = _swung(motion, reach, drawing.size)
+    sides, deviation = _swung(motion, reach, drawing.size, most)
     for _ in range(_MOST_FITS):
         # By how much poses are too near to the reference, to be as far as they may.
         largest, turned = reach_of(drawing, [side[-1] for side in sides])
@@ -338,7 +338,7 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
         if abs(factor - 1.0) < _FITS:
             break
         reach *= factor
-        fitted, there = _swung(motion, reach, drawing.size)
+        fitted, there = _swung(motion, reach, drawing.size, most)
         if np.isinf(there) and np.isfinite(deviation):
             # The path ends before.
             break
@@ -348,11 +348,13 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
     return Movement(scale, deviation, poses, part=part, natural=natural)
 
 
-def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
+def _swung(
+    motion: Moving, reach: float, size: float, most: int
+) -> tuple[list[tuple[Pose, ...]], float]:
     """The poses to both sides, up to the motion times `reach`; the deviation."""
     shares = reach * np.arange(1, _STEPS + 1) / _STEPS
     analysed = motion.analysed
-    followed = is_followed(analysed.data, _MOST_COORDINATES)
+    followed = is_followed(analysed.data, most)
     if followed:
         sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
         found = [side for side in sides if side is not None and side[1] <= _UNSEEN]

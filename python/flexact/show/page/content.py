@@ -43,6 +43,7 @@ from ...util.loading import VERSION, feature
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
 from ..drawing import drawing_of
+from ..drawing.movement import MOST_COORDINATES
 from ..writers import as_bytes
 from .assets import (
     FEW_SHAPES,
@@ -477,6 +478,8 @@ def content_of(
     has_origin: bool = True,
     is_short: bool = False,
     room: int | None = None,
+    moving: int = MOST_MODES,
+    follows: int = MOST_COORDINATES,
     missing: Sequence[str] = (),
     before: tuple[Result, str] | None = None,
     misaligned: dict[str, Any] | None = None,
@@ -491,6 +494,8 @@ def content_of(
         has_origin: Whether it is told of what it was made, and how it is made again.
         is_short: Whether tables and deck are folded away, as among other things.
         room: Bytes that a movement takes, if it can.
+        follows: Motions of models with more coordinates are drawn along their velocities.
+        moving: Of declared degrees of freedom so many at most move in the drawing.
         missing: Sentences on what is left out already.
         before: The result of the mechanism before a step of the advice was done, which is drawn
             beside it, and the step in words.
@@ -513,8 +518,10 @@ def content_of(
         around = [mesh.triangles.reshape(-1, 3) for mesh in solids]
         frames = frames_of(*(drawing_of(each.given) for each in shown), around=around)
         every = zip(shown, frames, (spaces, None), strict=False)
-        most = FEW_SHAPES if is_short else room or MOST_SHAPES
-        datas = [viewer_data(each, frame, space, most) for each, frame, space in every]
+        size = FEW_SHAPES if is_short else room or MOST_SHAPES
+        datas = [
+            viewer_data(each, frame, space, size, moving, follows) for each, frame, space in every
+        ]
         for each, frame, data in zip(shown, frames, datas, strict=True):
             if scenery is not None:
                 place_scenery(data, each.parts, frame, scenery)

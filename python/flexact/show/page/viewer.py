@@ -38,6 +38,7 @@ from ..drawing import (
     stations,
     swing,
 )
+from ..drawing.movement import MOST_COORDINATES
 from ..drawing.presses import SECOND, Press, presses_in_words, presses_of
 from ..drawing.selection import way_of
 from ..spaces import SpaceShown, dashes, holds_shown, spaces_shown
@@ -166,12 +167,16 @@ def _fitting(every: Iterable[tuple[dict[str, Any], int]]) -> list[dict[str, Any]
 
 
 def movements(
-    analysis: Result, tracks: Tracks, missing: list[str]
+    analysis: Result,
+    tracks: Tracks,
+    missing: list[str],
+    most: int = MOST_MODES,
+    follows: int = MOST_COORDINATES,
 ) -> Iterator[tuple[dict[str, Any], int]]:
     """The motions, then the declared degrees of freedom, those that can be drawn; their bytes.
 
     What cannot be drawn is told in `missing`; of motions none is drawn behind it, as their
-    places are their numbers.
+    places are their numbers. Of declared degrees of freedom there are at most so many.
     """
     drawing = tracks.frame.drawing
 
@@ -179,7 +184,7 @@ def movements(
         found = way_of(shown) if isinstance(shown, Freedom) else shown
         if found is None:
             return None
-        movement = move(drawing, found)
+        movement = move(drawing, found, follows)
         largest, angle = reach_of(drawing, (movement.poses[0], movement.poses[-1]))
         share = largest / drawing.size
         far = "no displacements"
@@ -194,7 +199,7 @@ def movements(
     chosen: list[tuple[str, str, str, Moving | Freedom]] = [
         ("motion", f"Motion {k}", f"Motion {k}", each) for k, each in enumerate(motions, start=1)
     ]
-    for freedom in looked_at(analysis):
+    for freedom in looked_at(analysis)[:most]:
         words = plain(freedom_in_words(freedom))
         chosen.append(("freedom", words, f"Degree of freedom: {words}", freedom))
     without = None
@@ -396,13 +401,19 @@ def _swings(shaped: Shaped, tracks: Tracks) -> Iterator[tuple[dict[str, Any], in
 
 
 def motions_data(
-    parts: Parts, frame: Frame, motions: Sequence[tuple[str, Moving]], spaces: Sequence[SpaceShown]
+    parts: Parts,
+    frame: Frame,
+    motions: Sequence[tuple[str, Moving]],
+    spaces: Sequence[SpaceShown],
+    follows: int = MOST_COORDINATES,
 ) -> dict[str, Any]:
     """What a small viewer draws: motions, each with what it is called, and spaces; no stresses."""
     tracks = Tracks(frame, _SOME_PIECES, _SMALL)
     played = [
         {"kind": "wanted", "label": label, "title": label, "note": "", **tracks.movement(made)[0]}
-        for label, made in ((label, move(frame.drawing, motion)) for label, motion in motions)
+        for label, made in (
+            (label, move(frame.drawing, motion, follows)) for label, motion in motions
+        )
     ]
     return {
         **static_data(parts, frame, tracks.segments),
@@ -420,11 +431,17 @@ def motions_data(
 
 
 def viewer_data(
-    analysis: Result, frame: Frame, spaces: Spaces | None = None, room: int = MOST_SHAPES
+    analysis: Result,
+    frame: Frame,
+    spaces: Spaces | None = None,
+    room: int = MOST_SHAPES,
+    most: int = MOST_MODES,
+    follows: int = MOST_COORDINATES,
 ) -> dict[str, Any]:
     """All that is drawn of a result, with spaces of a body, and the first choices.
 
-    A movement has so many phases that it takes so many bytes, if it can. What cannot be drawn is
+    A movement has so many phases that it takes so many bytes, if it can, and of declared degrees
+    of freedom at most so many move. What cannot be drawn is
     told as "missing", sentences.
     """
     tracks = Tracks(frame, room=room)
@@ -444,7 +461,7 @@ def viewer_data(
         **static_data(analysis.parts, frame, tracks.segments),
         "reference": tracks.data(),
         "segments": tracks.segments,
-        "movements": _fitting(movements(analysis, tracks, missing)),
+        "movements": _fitting(movements(analysis, tracks, missing, most, follows)),
         "stresses": stresses(analysis, frame, missing),
         "spaces": shown + held,
         "held": attempted("What holds each body", lambda: held_data(analysis), [], missing),

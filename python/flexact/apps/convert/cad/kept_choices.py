@@ -107,10 +107,7 @@ def read_choices(step: Path) -> Kept:
 
 
 def _kept(raw: bytes, path: Path) -> Kept:
-    try:
-        toml = load("tomllib" if sys.version_info >= (3, 11) else "tomli")
-    except ImportError:
-        raise _wrong(path, "to be read it needs tomli: pip install tomli") from None
+    toml = load("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
         said: dict[str, Any] = toml.loads(raw.decode("utf-8-sig"))
     except (UnicodeDecodeError, RecursionError):
