@@ -170,7 +170,7 @@ def test_refine_takes_a_layout_and_another_score() -> None:
     assert "First parasitic frequency at rest" in told.describe()
     for given, said in (
         ({"stress": "300 MPa"}, "stress is for what has vary"),
-        ({"maximise": "parts"}, "parts does not change"),
+        ({"maximise": "parts"}, "places do not change parts"),
         ({"evaluations": 3}, "evaluations at least"),
         ({"starts": 0}, "a whole number from 1"),
     ):
