@@ -133,19 +133,22 @@ class Layout(Frozen):
 
 #: Coordinates of the stage, in the order of twists about the centre, (w, v).
 COORDINATES = ("rx", "ry", "rz", "x", "y", "z")
+#: With less rotation than this part of what moves most, by the size, a motion is none.
+_TURNS = 0.05
 
 
 def declared(freedom: ScrewSpace) -> tuple[str, ...]:
     """Coordinates of the stage that tell its motions apart, as many as there are.
 
-    Chosen one after the other, each that in which the motions that are left move it most.
+    Rotations are told by rotations, however far from the centre they are; then what is left by
+    displacements. Each time the coordinate is chosen in which what is left moves it most.
     """
     rows = np.array(freedom.scaled)
     names: list[str] = []
     while len(names) < freedom.dimension:
         sizes = np.round(np.linalg.norm(rows, axis=0), 9)
-        place = int(np.argmax(sizes[[3, 4, 5, 0, 1, 2]]))
-        column = (3, 4, 5, 0, 1, 2)[place]
+        turns = sizes[:3].max() >= _TURNS * sizes.max()
+        column = int(np.argmax(sizes[:3])) if turns else 3 + int(np.argmax(sizes[3:]))
         names.append(COORDINATES[column])
         along = rows[:, column] / np.linalg.norm(rows[:, column])
         rows = rows - np.outer(along, along @ rows)
