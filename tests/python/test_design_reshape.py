@@ -170,7 +170,7 @@ def test_refine_takes_a_layout_and_another_score() -> None:
     assert "First parasitic frequency at rest" in told.describe()
     for given, said in (
         ({"stress": "300 MPa"}, "stress is for what has vary"),
-        ({"maximise": "parts"}, "parts does not change"),
+        ({"maximise": "parts"}, "places do not change parts"),
         ({"evaluations": 3}, "evaluations at least"),
         ({"starts": 0}, "a whole number from 1"),
     ):
@@ -198,8 +198,8 @@ def test_the_command_tells_what_layouts_were(problem: Path, tmp_path: Path) -> N
     code, out = printed(str(problem), "--refine", "-o", str(tmp_path / "page.html"))
     assert code == 0
     assert "layout 1" in out
-    assert " to " in out
-    assert "Refined: worst stiffness" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "refined" in out
+    assert "Refined: " in (tmp_path / "page.html").read_text(encoding="utf-8")
     code, out = printed(str(problem), "--refine", "--apply", "2", "-o", str(tmp_path / "a.dat"))
     assert code == 0
     assert flexact.analyse(tmp_path / "a.dat").over_constrained == 0

@@ -132,8 +132,15 @@ class Mover:
         every = self._possible()
         self._count = len(every)
         # Images, and what is longer than it need be, lie otherwise along their lines.
-        there = self._made(np.zeros(self._count), self.width, 0.0, place)
-        self._off = self.first - there.ends[0, 0], self.last - there.ends[0, 1]
+        try:
+            if self.form == "folded sheet":
+                first, last = self._nearest(self.via[0], self.axes[0], self.width)
+            else:
+                first, last = self._made(np.zeros(self._count), self.width, 0.0, place).ends[0]
+        except NoPlaceError:
+            self.place = None
+            return
+        self._off = self.first - first, self.last - last
         self.off = round(float(np.abs(self._off).max()), 6)
         self._which = [k for k in range(self._count) if self._is_degree(k, kept)]
         self.degrees = tuple(every[k] for k in self._which)
@@ -362,14 +369,21 @@ class Mover:
         point, way = self._moved_line(np.array(shifts))
         way = way if way @ self.axes[0] > 0.0 else -way
         fold = point + ((self.via[0] - point) @ way + along) * way
+        start, end = (
+            found + off - (off @ way) * way
+            for found, off in zip(self._nearest(fold, way, width), self._off, strict=True)
+        )
+        return self._built(start, end, self.normal, width, place, fold, way[None])
+
+    def _nearest(self, fold: FloatArray, way: FloatArray, width: float) -> list[FloatArray]:
+        """Where the leaves of a folded sheet end: in its regions, nearest to the fold."""
         ends = []
-        for box, off in zip(self.boxes, self._off, strict=True):
+        for box in self.boxes:
             found, fits = nearest_in(fold[None], way[None], width / 2.0 * way[None], box)
             if not fits[0]:
                 raise NoPlaceError("the leaves of a folded sheet do not reach its regions")
-            ends.append(found[0] + off - (off @ way) * way)
-        start, end = ends
-        return self._built(start, end, self.normal, width, place, fold, way[None])
+            ends.append(found[0])
+        return ends
 
     def _edges(self, normal: FloatArray, way: FloatArray, width: float, place: Place) -> FloatArray:
         """(m, 1, 3) from the middle of a clamped end to its corners on one side."""

@@ -509,7 +509,7 @@ def reshaped(
     problem = layout.problem
     key, less = problem.rank if rank is None else rank
     if key in _FIXED:
-        raise RequestError(f"{SCORES[key].words} does not change with sizes and places")
+        raise RequestError(f"sizes and places do not change {SCORES[key].words}")
     if key not in layout.scores and key not in DEAR:
         raise RequestError(f"the layout has no {SCORES[key].words}, which is to be better")
     shape = Shape(layout)
@@ -760,5 +760,5 @@ def refined_in_words(designs: Designs, width: int) -> Iterator[str]:
         was_there = "" if before.number == layout.number else f", was {before.number}"
         rows.append([f"layout {layout.number}{was_there}", *cells])
     yield table(rows, width, second=True)
-    told = [f"{_looked(each.refined)} for layout {each.number}" for each in some if each.refined]
-    yield wrapped(f"{'; '.join(told)}. That none is better is not proven.", width)
+    told = [f"layout {each.number}, {_looked(each.refined)}" for each in some if each.refined]
+    yield wrapped(f"Refined: {'; '.join(told)}. That none is better is not proven.", width)
