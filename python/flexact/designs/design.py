@@ -575,7 +575,8 @@ def described(designs: Designs, width: int) -> Iterator[str]:
     if designs.refused:
         many = f"{number_in_words(designs.refused)} more"
         yield wrapped(
-            f"Remark: the analysis did not confirm {many}, which are not shown: please tell us.", width
+            f"Remark: the analysis did not confirm {many}, which are not shown: please tell us.",
+            width,
         )
     for remark in designs.problem.remarks:
         yield wrapped(f"Remark: {remark}.", width)
