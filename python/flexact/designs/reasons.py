@@ -6,11 +6,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial, reduce
 from typing import NamedTuple
 
 import numpy as np
 
 from ..advice.spaces.words import Geometry
+from ..analysis.places import listed
 from ..util.text import number_in_words
 from ..util.units import METRES
 from .explain import motions_in_words, places_of_wires
@@ -54,25 +56,37 @@ def reason_of(problem: Problem, found: Possible, exists: Callable[[Problem], boo
         if exists(free):
             return _of_symmetry(problem, found)
         problem = free
+    if (
+        not found.parallel
+        and limits.bodies < found.least_layers - 1
+        and "bellows" not in limits.kinds
+    ):
+        return Reason("wires", None, _of_wires(geometry, found, limits.bodies))
+    loosened = _loosened(problem)
+    if exists(reduce(lambda made, each: each[1](made), loosened, problem)):
+        for condition, without in loosened:
+            if exists(without(problem)):
+                # Where bodies are between, each look takes seconds.
+                by = _how_far(problem, condition, exists) if found.parallel else None
+                return Reason(condition, by, _statement(problem, condition, by))
+        names = [condition for condition, _ in loosened]
+        said = f"The limits of {listed(names)} leave no layout; none of them by itself."
+        return Reason(names[0], None, said)
     every = replace(limits, kinds=tuple(kind for kind in KINDS if kind != "bellows"))
-    others = exists(replace(problem, limits=every))
+    other = replace(problem, limits=every)
     if not exists(in_free_space(problem)):
-        kinds = " and ".join(plural(kind) for kind in limits.kinds)
-        if exists(in_free_space(replace(problem, limits=every))):
-            said = (
-                f"In no place can {kinds} alone leave just this; with other kinds it is possible."
-            )
+        kinds = listed([plural(kind) for kind in limits.kinds])
+        if set(every.kinds) != set(limits.kinds) and exists(in_free_space(other)):
+            said = f"In no place can {kinds} alone leave just this; flexures of other kinds can."
             return Reason("wires", None, said)
         return Reason("wires", None, _of_wires(geometry, found, limits.bodies))
-    for condition, loosened in _loosened(problem):
-        if exists(loosened):
-            by = _how_far(problem, condition, exists)
-            return Reason(condition, by, _statement(problem, condition, by))
-    along = places_of_wires(geometry, found.constraint)
-    more = "; with flexures of other kinds there are layouts" if others else ""
+    more = ""
+    if set(every.kinds) != set(limits.kinds) and exists(other):
+        more = "; with flexures of other kinds there are layouts"
     if not found.parallel:
         bodies = "Bodies between, and flexures to them, find no place within the regions and limits"
         return Reason("regions", None, f"{bodies}{more}.")
+    along = places_of_wires(geometry, found.constraint)
     return Reason(
         "regions",
         None,
@@ -103,21 +117,27 @@ def _wide(limits: Limits, **new: object) -> Limits:
     return replace(limits, **new)  # type: ignore[arg-type]
 
 
-def _loosened(problem: Problem) -> list[tuple[str, Problem]]:
-    """The problem without each of its conditions."""
+def _loosened(problem: Problem) -> list[tuple[str, Callable[[Problem], Problem]]]:
+    """Conditions, each with what takes it away from a problem."""
     limits, size = problem.limits, problem.size
     least, most = limits.length
-    made = [
-        ("length", _wide(limits, length=(min(least, 0.05 * size), most * _FARTHEST))),
-        ("width", _wide(limits, width=(limits.width[0] / _FARTHEST, limits.width[1]))),
-    ]
-    problems = [(condition, replace(problem, limits=each)) for condition, each in made]
-    if problem.keep_out:
-        problems.append(("keep-out", replace(problem, keep_out=())))
     # Middle lines may cross, as if there were no material.
     none = -max(limits.diameter[1], limits.thickness[1])
-    problems.append(("clearance", replace(problem, limits=_wide(limits, clearance=none))))
-    return problems
+    made: list[tuple[str, dict[str, object]]] = [
+        ("length", {"length": (min(least, 0.05 * size), most * _FARTHEST)}),
+        ("width", {"width": (limits.width[0] / _FARTHEST, limits.width[1])}),
+        ("clearance", {"clearance": none}),
+    ]
+    found: list[tuple[str, Callable[[Problem], Problem]]] = [
+        (condition, partial(_with_limits, **new)) for condition, new in made
+    ]
+    if problem.keep_out:
+        found.insert(2, ("keep-out", partial(replace, keep_out=())))
+    return found
+
+
+def _with_limits(problem: Problem, **new: object) -> Problem:
+    return replace(problem, limits=_wide(problem.limits, **new))
 
 
 def _how_far(problem: Problem, condition: str, exists: Callable[[Problem], bool]) -> float | None:

@@ -20,6 +20,7 @@ What flexures hold is as stiff as all their pieces in a row, with what they rele
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -123,11 +124,17 @@ def _bar(shape: Shape, starts: FloatArray, ends: FloatArray, material: Material)
     return _Piece((starts + ends) / 2.0, np.stack(made, axis=1))
 
 
-def _notched(contour: NotchContour, at: FloatArray) -> _Piece:
+@lru_cache(maxsize=256)
+def _compliance(contour: NotchContour) -> FloatArray:
+    """(6,) of a notch; the same few are asked for between all regions."""
     compliance = np.array(contour.compliance)
     # Between bars that are as broad as it, and much thicker, it cannot warp.
     compliance[3] = contour.held_torsion
-    return _Piece(at, np.broadcast_to(compliance, (len(at), 6)))
+    return compliance
+
+
+def _notched(contour: NotchContour, at: FloatArray) -> _Piece:
+    return _Piece(at, np.broadcast_to(_compliance(contour), (len(at), 6)))
 
 
 def _in_a_row(pieces: list[_Piece]) -> FloatArray:
