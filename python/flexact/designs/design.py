@@ -573,11 +573,8 @@ def described(designs: Designs, width: int) -> Iterator[str]:
         yield ""
         yield from feature("refined_in_words")(designs, width)
     if designs.refused:
-        many = f"{number_in_words(designs.refused)} more"
-        yield wrapped(
-            f"Remark: the analysis did not confirm {many}, which are not shown: please tell us.",
-            width,
-        )
+        more = f"{number_in_words(designs.refused)} more, which are not shown: please tell us"
+        yield wrapped(f"Remark: the analysis did not confirm {more}.", width)
     for remark in designs.problem.remarks:
         yield wrapped(f"Remark: {remark}.", width)
 
