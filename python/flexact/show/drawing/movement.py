@@ -19,6 +19,7 @@ from ...model.parts.condensing import Condensed
 from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
 from ...motion.stations import onward, settle
+from ...util.loading import load
 from ...util.records import Frozen
 from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
@@ -356,7 +357,9 @@ def _swung(
     analysed = motion.analysed
     followed = is_followed(analysed.data, most)
     if followed:
-        sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
+        # Matrices are so small that more threads would slow them down.
+        with load("threadpoolctl").threadpool_limits(1):
+            sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
         found = [side for side in sides if side is not None and side[1] <= _UNSEEN]
         if len(found) == len(sides):
             paths = [poses_with_inner_nodes(motion.condensed, poses) for poses, _ in found]
