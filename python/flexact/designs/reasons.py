@@ -129,14 +129,14 @@ def _loosened(problem: Problem) -> list[tuple[str, Callable[[Problem], Problem]]
         ("clearance", {"clearance": none}),
     ]
     found: list[tuple[str, Callable[[Problem], Problem]]] = [
-        (condition, partial(_with_limits, **new)) for condition, new in made
+        (condition, partial(_with_limits, new=new)) for condition, new in made
     ]
     if problem.keep_out:
         found.insert(2, ("keep-out", partial(replace, keep_out=())))
     return found
 
 
-def _with_limits(problem: Problem, **new: object) -> Problem:
+def _with_limits(problem: Problem, new: dict[str, object]) -> Problem:
     return replace(problem, limits=_wide(problem.limits, **new))
 
 
