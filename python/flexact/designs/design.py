@@ -337,6 +337,7 @@ class _Search:
         """Begin with none."""
         self.problem, self.frame, self.show = problem, frame, show
         self.held = held_by(problem)
+        self.asked = asked_group(problem, frame)
         self.stock = Stock(place_of(problem, frame, self.held))
         self.keys: set[object] = set()
         self.kinds: dict[str, list[Layout]] = {}
@@ -397,7 +398,7 @@ class _Search:
         count, limits = len(stock.constraint), problem.limits
         if not count:
             return
-        asked = asked_group(problem, self.frame)
+        asked = self.asked
         found = possible(problem.freedom)
         _, couples = found.bellows or (0, 0)
         made = recipes(count, limits.kinds, limits.over_constraint, couples)
@@ -469,7 +470,9 @@ class _Search:
             self.refused += not over
             return None
         order, kept = turns_that_keep(self.stock.place.freedom, arrangement)
-        parts = (counted(flexures), *between_words(arrangement), *symmetry_words(kept, self.frame))
+        # What was asked for is told, though a layout may have more.
+        told = symmetry_words([self.asked] if self.asked else kept, self.frame)
+        parts = (counted(flexures), *between_words(arrangement), *told)
         what = ", ".join(parts)
         return Layout(
             *(0, what, kind, problem, flexures, bodies, model),

@@ -69,14 +69,14 @@ class Explanation(Frozen):
         return json.dumps(explained_json(self.found, self.typed), allow_nan=False)
 
 
-def explain(problem: Problem, units: Units = METRES) -> Explanation:
+def explain(problem: Problem) -> Explanation:
     """What the wanted freedom of a problem takes."""
     wanted = tuple(motion.text for motion in problem.wanted)
     typed = np.array([motion.twist for motion in problem.wanted]).reshape(-1, 6)
     body = "the stage" if problem.base is None else problem.body
     return Explanation(
         *(possible(problem.freedom), problem.title, body, wanted, typed),
-        *(problem.stage.boxes, units),
+        *(problem.stage.boxes, problem.units),
     )
 
 

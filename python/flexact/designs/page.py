@@ -226,7 +226,10 @@ def without_layouts(designs: Designs, title: str) -> Content:
     """What the page holds where there is no layout: why, what is near it, what it would take."""
     why, explanation = designs.why_none, designs.explanation
     typed = [motion.twist for motion in designs.problem.wanted]
-    near = [line_of(statement) for _, statement in nearby(designs.possible, typed)]
+    near = [
+        line_of(statement)
+        for _, statement in nearby(designs.possible, typed, units=designs.problem.units)
+    ]
     head, *takes = explanation.lines
     told: list[Line] = list(near)
     told += [each for each in takes if each not in near]

@@ -15,6 +15,7 @@ from ..core.arrays import FloatArray
 from ..model.model import Model
 from ..model.sections import Material
 from ..util.records import Frozen, cached_property
+from ..util.units import METRES, Units
 
 #: Suffixes of files that hold a problem.
 SUFFIXES = (".toml", ".json", ".yaml", ".yml")
@@ -189,6 +190,7 @@ class Problem(Frozen):
         base: The model that the stage is of, where flexures hold it already; None without.
         body: What the stage is called in it.
         remarks: Sentences about what was taken where nothing was said, or not just as it was said.
+        units: In which lengths are told.
     """
 
     title: str
@@ -209,6 +211,7 @@ class Problem(Frozen):
     base: Model | None = None
     body: str = "stage"
     remarks: tuple[str, ...] = ()
+    units: Units = METRES
 
     @cached_property
     def freedom(self) -> ScrewSpace:

@@ -313,6 +313,7 @@ def _problem(
         base=base,
         body=held.subject.name if held is not None else body or "stage",
         remarks=tuple(entries.remarks),
+        units=entries.units,
     )
 
 

@@ -14,7 +14,6 @@ import numpy as np
 from ..advice.spaces.words import Geometry
 from ..analysis.places import listed
 from ..util.text import number_in_words
-from ..util.units import METRES
 from .explain import motions_in_words, places_of_wires
 from .layouts import plural
 from .possible import Possible
@@ -50,7 +49,7 @@ def reason_of(problem: Problem, found: Possible, exists: Callable[[Problem], boo
     limits = problem.limits
     if not found.needed:
         return Reason("wires", None, "Every motion is wanted: nothing has to hold the stage.")
-    geometry = Geometry(METRES, problem.size)
+    geometry = Geometry(problem.units, problem.size)
     if problem.symmetry not in ("any", "none"):
         free = replace(problem, symmetry="any")
         if exists(free):
@@ -190,7 +189,7 @@ def _statement(problem: Problem, condition: str, by: float | None) -> str:
     limits = problem.limits
 
     def said(value: float) -> str:
-        return METRES.said(value, "m", 2)
+        return problem.units.said(value, "m", 2)
 
     if condition == "keep-out":
         return "What is to be kept out of leaves no room; without it there is a layout."

@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -103,13 +103,18 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
     """Report why a deck failed: rendered on stderr, and as one JSON line on stdout if asked."""
     report_failure(deck, error)
     if as_json:
-        problems = problems_of(error)
-        records = [each.to_dict() for each in problems.kept if each.is_error]
-        failure = {"diagnostics": records, "errors": problems.errors}
-        # Loaded where it is wanted: a command that starts does not wait for it.
-        head = load("flexact.analysis.json").header(deck.name)
-        give(load("json").dumps({**head, "error": failure}))
+        give(load("json").dumps(failure_of(deck.name, error)))
     return outcome_of(deck, error)
+
+
+def failure_of(name: str, error: Exception) -> dict[str, Any]:
+    """Why a deck or a problem failed, as the JSON has it."""
+    problems = problems_of(error)
+    records = [each.to_dict() for each in problems.kept if each.is_error]
+    failure = {"diagnostics": records, "errors": problems.errors}
+    # Loaded where it is wanted: a command that starts does not wait for it.
+    head = load("flexact.analysis.json").header(name)
+    return {**head, "error": failure}
 
 
 def outcome_of(deck: DeckFile, error: Exception) -> Outcome:

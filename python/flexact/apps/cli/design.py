@@ -21,8 +21,10 @@ from ...show.writers import write
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import Stopped, unwinding
+from ...util.loading import load
 from ...util.outputs import plan_file, plan_files
 from ...util.text import harmless
+from .decks import failure_of
 from .parser import Verb, argument
 from .targets import number
 from .terminal import Bar, ExitCode, columns_of, complain, give, say, text_width
@@ -42,6 +44,8 @@ def design_layouts(chosen: argparse.Namespace) -> ExitCode:
         width = columns_of(sys.stderr)
         name = error.name or harmless(chosen.problem)
         complain(render_problems(error.problems, name, error.source, width))
+        if chosen.json:
+            give(load("json").dumps(failure_of(harmless(chosen.problem), error)))
         return ExitCode.OTHER
     except BatchError:
         raise
