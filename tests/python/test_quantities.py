@@ -72,6 +72,7 @@ _NEEDED: dict[str, dict[str, Any]] = {
     **{name: {"p": "a", "q": "b"} for name in ("wire", "truss", "beam")},
     **{name: {"p": "a", "axis": "z"} for name in ("hinge", "notch")},
     "rigid": {"p": "a", "q": "c"},
+    "bellows": {"p": "a", "q": "b", "diameter": 0.02},
     "body": {"points": ["a", "c"]},
     "cross_hinge": {"ground": ["a", "c"], "moving": ["d", "b"], "width": "y", **_SHEET},
     "parallel_guide": {"p": "a", "q": "b", "offset": (0.2, 0, 0), **_SHEET},

@@ -22,7 +22,7 @@ from ..step import Step
 from .flexures import added_in_words, sheets_for, wire_in_words, wires_for
 from .screws import ScrewSpace
 from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
-from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read_all, wanted_of
+from .wanted_motion import Aim, Wanted, Written, declared_of, not_wanted, read_all, wanted_of
 from .words import Geometry, space_in_words
 
 
@@ -87,7 +87,11 @@ def spaces_of(
         raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
     if isinstance(wanted, str):
         raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
-    told = [one for each in wanted for one in read_all(each, planar=result.given.planar)]
+    told: list[Written] = []
+    for each in wanted:
+        found = read_all(each, planar=result.given.planar)
+        # One motion is told as it was written, with its body.
+        told += [found[0]._replace(text=each)] if len(found) == 1 else found
     names = [each.body for each in told if each.body is not None]
     written = [each for each in told if each.kind is not ScrewKind.NONE]
     freed = Freed(result)
