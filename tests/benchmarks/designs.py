@@ -67,7 +67,6 @@ def refined(seed: int) -> tuple[int, int, float]:
         stroke=0.5,
         stress=300e6,
         moment=2.5,
-        over_constrained=True,
         seed=seed,
     )
     passed = [k for k, e in enumerate(found.evaluations, 1) if e.is_feasible and e.objective > 27.9]

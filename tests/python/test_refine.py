@@ -550,7 +550,11 @@ def test_charts_show_the_path_of_each_start(refined: flexact.Refined) -> None:
 # -- misuse --------------------------------------------------------------------------------------
 
 
-def test_over_constrained_designs_are_refused_unless_that_is_asked() -> None:
+def test_over_constrained_designs_are_refused_where_that_is_asked() -> None:
+    assert (
+        "Over-constrained by 1"
+        in flexact.refine(cross_hinge, BOX, **{**STROKE, "starts": 1, "evaluations": 6}).describe()
+    )
     with pytest.raises(ElasticError, match="over-constrained by 1, so that its numbers depend"):
         flexact.refine(cross_hinge, BOX, **{**STROKE, "over_constrained": False})
 

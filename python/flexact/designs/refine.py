@@ -72,7 +72,7 @@ def refine(
     limits: Iterable[str] = (),
     point: object = None,
     length: Quantity | None = None,
-    over_constrained: bool | int = False,
+    over_constrained: bool | int = True,
     start: Mapping[str, float] | None = None,
     starts: int | None = None,
     evaluations: int | None = None,
@@ -127,7 +127,7 @@ def refine(
         length: By which rotations compare with displacements in "worst stiffness" and "drive
             stiffness" [m]; by default half of the size of the model at the beginning.
         over_constrained: Whether a design may be, or by how much at most. Its numbers hold
-            without misalignment alone.
+            without misalignment alone, which is told.
         start: Where a function's parameters begin; by default in the middle of their logarithms. A
             model begins as it is.
         starts: From how many places it is searched: three; of a layout without `vary` one.
@@ -150,7 +150,8 @@ def refine(
         further: dict[str, object] = {"stroke": stroke, "drive": drive, "stress": stress}
         further |= {"force": force, "moment": moment, "buckling": buckling, "size": size}
         further |= {"limits": tuple(limits) or None, "point": point, "length": length}
-        further |= {"over_constrained": over_constrained or None, "start": start}
+        further |= {"over_constrained": None if over_constrained is True else over_constrained}
+        further |= {"start": start}
         further |= {"at": None if at == REST else at}
         needs = [name for name, value in further.items() if value is not None]
         return _of_layout(
