@@ -684,8 +684,9 @@ def folded(place: Place, fineness: int = 5) -> Candidates:
     made = []
     for breadth in breadths(place.sizes)[1:]:
         half = breadth / 2.0 * ways
-        begins = [nearest_in(folds, ways, half, box) for box in place.here]
-        ends = [nearest_in(folds, ways, half, box) for box in place.there]
+        least = place.sizes.length[0]
+        begins = [nearest_in(folds, ways, half, box, least) for box in place.here]
+        ends = [nearest_in(folds, ways, half, box, least) for box in place.there]
         for (start, ok), (end, there) in itertools.product(begins, ends):
             both = ok & there
             made.append(
@@ -702,9 +703,12 @@ def _corners(place: Place, starts: FloatArray) -> Iterator[FloatArray]:
 
 
 def nearest_in(
-    folds: FloatArray, ways: FloatArray, half: FloatArray, box: Box
+    folds: FloatArray, ways: FloatArray, half: FloatArray, box: Box, least: float = 0.0
 ) -> tuple[FloatArray, BoolArray]:
-    """(n, 3) nearest points of a box in planes across folds, and whether edges are in the box."""
+    """(n, 3) nearest points of a box in planes across folds, and whether edges are in the box.
+
+    Where the nearest one is nearer than is asked for, the leaf goes on into the box.
+    """
     found = np.clip(folds, box.low, box.high)
     low, high = box.low + np.abs(half), box.high - np.abs(half)
     if (box.high - box.low).max() <= TINY:
@@ -714,6 +718,11 @@ def nearest_in(
     for _ in range(30):
         found = found - ((found - folds) * ways).sum(-1, keepdims=True) * ways
         found = np.clip(found, np.minimum(low, high), high)
+    leaf = found - folds
+    lengths = np.linalg.norm(leaf, axis=1, keepdims=True)
+    deeper = folds + leaf * (least / np.maximum(lengths, TINY))
+    inside = ((deeper >= low - SLACK) & (deeper <= high + SLACK)).all(axis=1, keepdims=True)
+    found = np.where((lengths < least) & inside, deeper, found)
     off = np.abs(((found - folds) * ways).sum(-1))
     return found, fits & (off <= TINY / 10.0)
 
