@@ -25,6 +25,7 @@ from ..advice.spaces.screws import (
 )
 from ..core.arrays import FloatArray
 from ..util.records import Frozen, cached_property
+from ..util.rotations import unit
 
 #: A freedom that is nearer to a special one (parts of the characteristic length, or rad) is taken
 #: for it, and one that is nearer than the second is told to be near it.
@@ -345,7 +346,7 @@ def _bases(freedom: ScrewSpace, typed: ArrayLike) -> Iterator[FloatArray]:
     rows, count = freedom.scaled, freedom.dimension
     wanted = np.array(typed).reshape(-1, 6) * freedom.factors
     # What is taken for special is a little off what was typed.
-    wanted = unit_rows((wanted @ rows.T) @ rows)
+    wanted = unit((wanted @ rows.T) @ rows)
     if len(wanted) == count and len(orthonormal(wanted)) == count:
         yield wanted
     free, lined = parted(rows, freedom.tolerance)
@@ -354,11 +355,6 @@ def _bases(freedom: ScrewSpace, typed: ArrayLike) -> Iterator[FloatArray]:
     draws = np.random.default_rng(0)
     for _ in range(_RANDOM):
         yield np.linalg.qr(draws.normal(size=(count, count)))[0] @ rows
-
-
-def unit_rows(rows: FloatArray) -> FloatArray:
-    """Rows of unit length."""
-    return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True))
 
 
 def _cuts(count: int, parts: int) -> Iterator[tuple[tuple[int, ...], ...]]:

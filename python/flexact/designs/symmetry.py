@@ -21,7 +21,7 @@ from ..core.arrays import FloatArray, floats
 from ..util.records import Frozen
 from ..util.rotations import matrix_of, unit
 from ..util.text import number_in_words
-from .possible import Possible, orthonormal, possible, q_of, unit_rows
+from .possible import Possible, orthonormal, possible, q_of
 
 #: How many sets of lines are drawn of each kind, and how often one draws for a line.
 _SETS, _DRAWS = 16, 60
@@ -211,7 +211,7 @@ def _spans(
             for _ in range(orbit.size):
                 rows.append(made)
                 made = made @ image.T
-        every = unit_rows(np.concatenate((held.scaled[:0], *rows)))
+        every = unit(np.concatenate((held.scaled[:0], *rows)))
         if int(np.sum(np.linalg.svd(every, compute_uv=False) > _DEPENDENT)) == held.dimension:
             return True
     return False
