@@ -154,9 +154,7 @@ def test_three_images_of_a_wire_are_a_set() -> None:
     frame = scaled(given)
     place = place_of(given, frame)
     group = images.group_of(3, frame.turn @ np.array([0.0, 0.0, 1.0]))
-    sets = images.orbits(
-        group, candidates.wires(place, 5), place.constraint, place, place.sizes.clearance
-    )
+    sets = images.orbits(group, candidates.wires(place, 5), place)
     three = next(each for each in sets if each.members.shape[1] == 3)
     for members in three.members[:20]:
         ends = three.candidates.ends[members]

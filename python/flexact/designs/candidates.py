@@ -323,8 +323,13 @@ def with_special(freedom: FloatArray, points: FloatArray, boxes: Sequence[Box]) 
 
 def distinct_rows(rows: FloatArray) -> FloatArray:
     """Rows without repetitions, in their order."""
+    return rows[first_of_alike(rows)]
+
+
+def first_of_alike(rows: FloatArray) -> IndexArray:
+    """Where rows are that do not repeat one before."""
     _, first = np.unique(np.round(rows, 9) + 0.0, axis=0, return_index=True)
-    return rows[np.sort(first)]
+    return np.sort(first)
 
 
 # From region to region ----------------------------------------------------------------
@@ -610,9 +615,7 @@ def sheets_between(
     waist: int | None,
 ) -> Candidates:
     """Sheets with these middles of their clamped ends."""
-    both = np.concatenate((starts, ends, normals), axis=1)
-    _, first = np.unique(np.round(both, 9) + 0.0, axis=0, return_index=True)
-    first = np.sort(first)
+    first = first_of_alike(np.concatenate((starts, ends, normals), axis=1))
     starts, ends, normals = starts[first], ends[first], normals[first]
     along, lengths = _along(starts, ends)
     across = np.cross(normals, along)

@@ -116,17 +116,13 @@ def materials(candidates: Candidates, digits: int = 6) -> FloatArray:
     return np.round(np.concatenate([part for part in parts if part.size], axis=1), digits) + 0.0
 
 
-def orbits(
-    group: Group, candidates: Candidates, constraint: FloatArray, place: Place, clearance: float
-) -> list[Blocks]:
+def orbits(group: Group, candidates: Candidates, place: Place) -> list[Blocks]:
     """Sets of flexures that are images of each other, by how many there are in each.
 
     Args:
         group: Of the images.
         candidates: Of which one of each set is taken.
-        constraint: (k, 6) orthonormal rows of W.
-        place: The regions.
-        clearance: Between surfaces.
+        place: The regions, W, and the clearance.
     """
     if not len(candidates):
         return []
@@ -134,10 +130,14 @@ def orbits(
     fits = np.ones(len(candidates), dtype=bool)
     for image in images[1:]:
         fits &= is_within(image, place)
-    keys = np.stack([materials(image) for image in images], axis=1)
     made = []
-    # A set is one whichever of its members is looked at.
-    different = [list(dict.fromkeys(map(tuple, each.tolist()))) for each in keys]
+    # The first image of each material, and a set is one whichever of its members is looked at.
+    keys = np.stack([materials(image) for image in images], axis=1).tolist()
+    different: list[dict[tuple[float, ...], int]] = []
+    for each in keys:
+        different.append({})
+        for k, key in enumerate(map(tuple, each)):
+            different[-1].setdefault(key, k)
     firsts: dict[object, int] = {}
     for n, each in enumerate(different):
         firsts.setdefault(tuple(sorted(each)), n)
@@ -147,19 +147,13 @@ def orbits(
         of_size = np.flatnonzero(fits & alone & (sizes == size))
         if not of_size.size:
             continue
-        # Which images are the distinct ones.
-        which = np.array(
-            [
-                [list(map(tuple, keys[n].tolist())).index(key) for key in different[n]]
-                for n in of_size
-            ]
-        ).reshape(-1, size)
+        which = np.array([list(different[n].values()) for n in of_size])
         together = joined([_picked(images, of_size, which[:, k]) for k in range(size)])
         members = np.arange(len(of_size))[:, None] + len(of_size) * np.arange(size)
-        clear = _apart(together, members, clearance)
+        clear = _apart(together, members, place.sizes.clearance)
         members = members[clear]
         if len(members):
-            made.append(blocks_of_sets(together, members, constraint))
+            made.append(blocks_of_sets(together, members, place.constraint))
     return made
 
 

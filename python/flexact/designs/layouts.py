@@ -26,7 +26,7 @@ from ..util.units import METRES
 from .candidates import Candidates
 from .frame import Scaled, snapped
 from .held import Held, Joined, held_by
-from .problem import KINDS, Problem
+from .problem import KINDS, Problem, values_of
 from .rods import SHOWN_AS, Call, form_of, notch_calls, strut_calls
 from .search import Arrangement
 
@@ -321,9 +321,7 @@ def flexures_of(
     problem: Problem, frame: Scaled, arrangement: Arrangement
 ) -> tuple[tuple[Flexure, ...], tuple[tuple[str, FloatArray], ...]]:
     """Flexures and bodies of an arrangement, with true lengths, places as one would type them."""
-    thickness, diameter = (
-        math.sqrt(low * high) for low, high in (problem.limits.thickness, problem.limits.diameter)
-    )
+    thickness, diameter = map(middle_of, (problem.limits.thickness, problem.limits.diameter))
     found: list[tuple[tuple[object, ...], Flexure]] = []
     for part in arrangement.parts:
         for candidates, k in part.found.chosen.members:
@@ -331,8 +329,8 @@ def flexures_of(
             # Within a part those that hold most come first, then by their places in the frame.
             place = np.round(candidates.ends[k].ravel(), 6) + 0.0
             kind = flexure.kind
-            found.append(((KINDS.index(kind) % len(KINDS) == 0, kind, *(-place).tolist()), flexure))
-    order = [arrangement.parts[0].between] + [part.between for part in arrangement.parts[1:]]
+            found.append(((kind == "wire", kind, *(-place).tolist()), flexure))
+    order = [part.between for part in arrangement.parts]
     found.sort(key=lambda each: (order.index(each[1].between), each[0]))
     taken = {part_name(name) for name in problem.base.element_names} if problem.base else set()
     names = named((flexure.form for _, flexure in found), taken)
@@ -470,13 +468,9 @@ def stem_of(layout: Layout) -> str:
 
 def script_of(layout: Layout) -> str:
     """A script that makes the model of a layout."""
-    problem, material = layout.problem, layout.problem.material
-    values = {
-        key: getattr(material, key)
-        for key in ("name", "E", "G", "density", "strength", "fatigue", "expansion")
-        if getattr(material, key) not in (None, "")
-    }
-    made = ", ".join(f"{key}={value!r}" for key, value in values.items())
+    problem = layout.problem
+    values = values_of(problem.material).items()
+    made = ", ".join(f"{key}={value!r}" for key, value in values)
     lines = ["import flexact", "", f"material = flexact.Material({made})"]
     held = held_by(problem)
     if held is None:

@@ -109,7 +109,7 @@ def _moved(found: Found, turn: FloatArray) -> Found:
         (moved(candidates.of(np.array([k])), turn), 0) for candidates, k in found.chosen.members
     )
     chosen = Chosen(members, found.chosen.stiffness, found.chosen.sigma)
-    return Found(found.recipe, found.group, chosen)
+    return Found(found.recipe, chosen)
 
 
 def limbs(
@@ -563,7 +563,7 @@ def pairs(
         if len(made) == 2:
             sigma = float(1.0 / np.linalg.norm(shares[n]))
             chosen = Chosen(((made, 0), (made, 1)), float(stiffness[n]), sigma)
-            yield Found(("wire", "wire"), None, chosen)
+            yield Found(("wire", "wire"), chosen)
 
 
 def _parallel(place: Place, normal: FloatArray) -> FloatArray:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -229,7 +229,7 @@ class Problem(Frozen):
     def to_dict(self) -> dict[str, Any]:
         """The problem as a file has it, all in SI; it reads back as the same problem."""
         key, less = self.rank
-        limits, material = self.limits, self.material
+        limits = self.limits
         made: dict[str, Any] = {
             "title": self.title,
             "wanted": [each.to_dict(self.centre, self.size) for each in self.wanted],
@@ -250,11 +250,7 @@ class Problem(Frozen):
                 "bodies": limits.bodies,
             },
             "symmetry": self.symmetry,
-            "material": {
-                key: value
-                for key in ("name", "E", "G", "density", "strength", "fatigue", "expansion")
-                if (value := getattr(material, key)) not in (None, "")
-            },
+            "material": values_of(self.material),
             "mass": self.mass,
             "inertia": _least_of(self.inertia),
             "rank": f"{'lower' if less else 'higher'}:{key}",
@@ -263,6 +259,12 @@ class Problem(Frozen):
         if self.base is not None:
             made |= {"deck": self.base.to_deck(), "body": self.body}
         return made
+
+
+def values_of(material: Material) -> dict[str, Any]:
+    """What is known of a material, as a table or a call of `flexact.Material` has it, all in SI."""
+    values = {each.name: getattr(material, each.name) for each in fields(material)}
+    return {name: value for name, value in values.items() if value not in (None, "")}
 
 
 def _one_or_two(pair: tuple[float, float]) -> float | list[float]:

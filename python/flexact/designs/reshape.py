@@ -368,7 +368,7 @@ class Shape:
         return Arrangement(
             self.layout.kind,
             tuple(
-                Part(between, Found((), None, Chosen(tuple(members), 0.0, 0.0)))
+                Part(between, Found((), Chosen(tuple(members), 0.0, 0.0)))
                 for between, members in parts.items()
             ),
             self.layout.bodies,

@@ -42,6 +42,7 @@ from .candidates import (
     clear_of_boxes,
     couples,
     distinct_rows,
+    first_of_alike,
     forces,
     joined,
     lines_for,
@@ -307,9 +308,7 @@ def rods_between(
     sizes = place.sizes
     thickness, least = sizes.thickness, sizes.length[0]
     reach, height = reach_of(thickness, least), height_of(thickness, least)
-    both = np.concatenate((starts, ends, np.abs(axes)), axis=1)
     at = (starts + ends) / 2.0 if at is None else at
-    _, first = np.unique(np.round(both, 9) + 0.0, axis=0, return_index=True)
     lengths = np.linalg.norm(ends - starts, axis=1)
     if kind == "notch":
         # Bars beside a notch are there, or are not.
@@ -317,7 +316,8 @@ def rods_between(
         fits = ((bars > thickness) | (np.abs(bars) < _NO_BAR)).all(axis=0)
     else:
         fits = lengths >= 4.0 * reach / _NOTCHED
-    first = np.sort(first)[fits[np.sort(first)]]
+    first = first_of_alike(np.concatenate((starts, ends, np.abs(axes)), axis=1))
+    first = first[fits[first]]
     starts, ends, axes, at, lengths = (each[first] for each in (starts, ends, axes, at, lengths))
     along = (ends - starts) / lengths[:, None]
     bar = Shape(CrossSection.RECT, height, breadth)

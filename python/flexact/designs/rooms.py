@@ -9,7 +9,7 @@ lengths are in parts of the size of the problem.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -37,15 +37,8 @@ def stacks(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         sizes: What flexures may measure.
         count: How many bodies.
     """
-    if frame.intermediate:
-        singles: list[Boxes] = [
-            (box,) for box in _parts(frame.intermediate, count, sizes.clearance)
-        ]
-    else:
-        singles = proposed(frame, sizes)
-    for chosen in itertools.permutations(singles, count):
-        if all(are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
-            yield chosen
+    singles = _given(frame, sizes, count) or proposed(frame, sizes)
+    return _apart(itertools.permutations(singles, count), sizes)
 
 
 def asides(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...]]:
@@ -56,26 +49,29 @@ def asides(frame: Scaled, sizes: Sizes, count: int) -> Iterator[tuple[Boxes, ...
         sizes: What flexures may measure.
         count: How many bodies.
     """
-    if frame.intermediate:
-        singles: list[Boxes] = [
-            (box,) for box in _parts(frame.intermediate, count, sizes.clearance)
-        ]
-    else:
-        solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
-        singles = [
-            boxes
-            for boxes in _plates(frame, sizes, _NARROW, _DEPTHS)
-            if are_apart(boxes, solid, sizes.clearance)
-        ]
-    for chosen in itertools.combinations(singles, count):
+    singles = _given(frame, sizes, count)
+    if not singles:
+        singles = _clear(_plates(frame, sizes, _NARROW, _DEPTHS), frame, sizes)
+    return _apart(itertools.combinations(singles, count), sizes)
+
+
+def _apart(choices: Iterable[tuple[Boxes, ...]], sizes: Sizes) -> Iterator[tuple[Boxes, ...]]:
+    """Those of which no body is in another one."""
+    for chosen in choices:
         if all(are_apart(*pair, sizes.clearance) for pair in itertools.combinations(chosen, 2)):
             yield chosen
 
 
-def _parts(boxes: Sequence[Box], count: int, gap: float) -> list[Box]:
-    """At least so many boxes: given ones, the longest cut in two with a gap until they suffice."""
-    parts = list(boxes)
-    while len(parts) < count:
+def _clear(places: Iterable[Boxes], frame: Scaled, sizes: Sizes) -> list[Boxes]:
+    """Those that are clear of stage, ground and what is to be kept out of."""
+    solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
+    return [boxes for boxes in places if are_apart(boxes, solid, sizes.clearance)]
+
+
+def _given(frame: Scaled, sizes: Sizes, count: int) -> list[Boxes]:
+    """At least so many given boxes, the longest cut in two until they suffice; none if none are."""
+    parts, gap = list(frame.intermediate), sizes.clearance
+    while parts and len(parts) < count:
         lengths = [float((box.high - box.low).max()) for box in parts]
         box = parts.pop(int(np.argmax(lengths)))
         axis = int(np.argmax(box.high - box.low))
@@ -85,7 +81,7 @@ def _parts(boxes: Sequence[Box], count: int, gap: float) -> list[Box]:
             Box(box.low, box.high - (box.high[axis] - middle + gap / 2.0) * across),
             Box(box.low + (middle + gap / 2.0 - box.low[axis]) * across, box.high),
         ]
-    return parts
+    return [(box,) for box in parts]
 
 
 def proposed(frame: Scaled, sizes: Sizes) -> list[Boxes]:
@@ -96,8 +92,7 @@ def proposed(frame: Scaled, sizes: Sizes) -> list[Boxes]:
         *_plates(frame, sizes, _WIDE[1:], _DEPTHS[:1]),
         *_plates(frame, sizes, _WIDE, _DEPTHS[1:]),
     ]
-    solid = (*boxes_of(frame.stage), *boxes_of(frame.ground), *frame.keep_out)
-    return [boxes for boxes in made if are_apart(boxes, solid, sizes.clearance)]
+    return _clear(made, frame, sizes)
 
 
 def hull_of(boxes: Sequence[Box]) -> Box:

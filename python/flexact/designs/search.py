@@ -46,10 +46,9 @@ _MOST_IMAGES, _IMAGE_STARTS = 240, 6
 
 
 class Found(NamedTuple):
-    """A set of flexures, its recipe, and the group that it was made symmetric by."""
+    """A set of flexures, and its recipe."""
 
     recipe: tuple[str, ...]
-    group: Group | None
     chosen: Chosen
 
 
@@ -126,7 +125,7 @@ class Stock:
         key = kind, group.turns.tobytes()
         if key not in self._orbits:
             few = thinned(self.candidates(kind), _MOST_IMAGES)
-            sets = orbits(group, few, self.constraint, self.place, self.place.sizes.clearance)
+            sets = orbits(group, few, self.place)
             self._orbits[key] = {each.members.shape[1]: each for each in sets}
         return self._orbits[key]
 
@@ -240,15 +239,15 @@ def sets_of(stock: Stock, recipe: tuple[str, ...], starts: int) -> list[Found]:
     slots = [stock.blocks(kind) for kind in recipe]
     if not all(len(slot) for slot in slots) or not stock.spans(recipe):
         return []
+    found = _chosen(stock, slots, starts)
+    return sorted((Found(recipe, each) for each in found), key=_stiffness)
+
+
+def _chosen(stock: Stock, slots: list[Blocks], starts: int) -> Iterator[Chosen]:
+    """Sets of one of each slot that are clear of what is there already."""
     allowed = {id(slot): stock.allowed(slot) for slot in slots}
-    found = chosen_sets(
-        slots,
-        len(stock.constraint),
-        stock.clearances,
-        [allowed[id(slot)] for slot in slots],
-        starts,
-    )
-    return sorted((Found(recipe, None, each) for each in found), key=_stiffness)
+    clear = [allowed[id(slot)] for slot in slots]
+    return chosen_sets(slots, len(stock.constraint), stock.clearances, clear, starts)
 
 
 def _stiffness(found: Found) -> float:
@@ -271,14 +270,7 @@ def symmetric_sets(stock: Stock, group: Group, recipe: tuple[str, ...]) -> list[
     for choice in itertools.islice(itertools.product(*by_kind), 4):
         slots = [slot for each in choice for slot in each]
         slots.sort(key=lambda slot: -slot.rows.shape[1])
-        found = chosen_sets(
-            slots,
-            len(stock.constraint),
-            stock.clearances,
-            [stock.allowed(slot) for slot in slots],
-            _IMAGE_STARTS,
-        )
-        made += [Found(recipe, group, each) for each in found]
+        made += [Found(recipe, each) for each in _chosen(stock, slots, _IMAGE_STARTS)]
     return sorted(made, key=_stiffness)
 
 
