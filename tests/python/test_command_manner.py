@@ -186,6 +186,40 @@ def test_verbose_says_what_is_done(capsys: pytest.CaptureFixture[str]) -> None:
     assert "The condition number" not in short and "Rank decision" in out and err == ""
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["analyse"], "decomposed by svd in "),
+        (["analyse", "--fast"], "by sparse (--fast: --method sparse, a proof where it costs"),
+        (["analyse", "--certain"], "by svd (--certain: --method auto, --prove) in "),
+        (["table", "--fast"], "with 4 beams a sheet (--fast: --beams 4) in "),
+        (["table", "--certain"], "with auto beams a sheet (--certain: --beams auto) in "),
+    ],
+)
+def test_verbose_says_on_one_line_what_the_trade_cost_and_gives(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([words[0], SIX, "-v", *words[1:]]) == 0
+    err = capsys.readouterr().err
+    gives = "proven" if words[0] == "analyse" else "with uncertainties"
+    gives = "uncertainty not known" if "4 beams" in said else gives
+    (line,) = [line for line in err.splitlines() if said in line]
+    assert re.search(rf" in \S+ s and \d+ MB at most: {gives}$", line)
+
+
+@pytest.mark.parametrize(
+    ("word", "options"),
+    [("--fast", ["--method", "sparse"]), ("--certain", ["--prove"])],
+)
+def test_a_word_for_the_trade_is_the_options_that_it_sets(
+    word: str, options: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["analyse", SIX, "--json", word]) == 0
+    by_word = capsys.readouterr().out
+    assert main(["analyse", SIX, "--json", *options]) == 0
+    assert capsys.readouterr().out == by_word
+
+
 def test_rows() -> None:
     assert columns("\u6f22e\u0301") == 3
     assert wrapped("aa bb cc", 5, " ") == "aa bb\n cc"

@@ -168,6 +168,12 @@ def test_of_two_files_none_is_dropped(
         ("analyse --json --log spacar", "choose"),
         ("analyse --json --summary", "choose"),
         ("picture -o a.svg --motion 1 --freedom 1", "not allowed with"),
+        ("analyse --fast --certain", "--fast and --certain contradict"),
+        ("analyse --certain --no-prove", "--certain and --no-prove contradict"),
+        # Also where both say the same.
+        ("report -o a.html --method sparse --fast", "--method and --fast contradict"),
+        ("advise --certain --prove", "--certain and --prove contradict"),
+        ("cost --fast --beams 4", "--fast and --beams contradict"),
     ],
 )
 def test_what_contradicts_itself_is_refused(

@@ -57,6 +57,14 @@ def available() -> float:
     return min(_of_machine(), address_space(), memory_left_of_group())
 
 
+def peak() -> int:
+    """Most bytes of memory that this process has held so far; 0 where the system does not tell."""
+    if sys.platform == "win32":
+        return 0
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most if sys.platform == "darwin" else 1024 * most
+
+
 def address_space(limits: dict[int, float] | None = None, root: Path = _ROOT) -> float:
     """Bytes that the limits of this process (`ulimit -v`, `ulimit -d`) leave it.
 

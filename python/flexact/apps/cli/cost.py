@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import time
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.text import harmless
-from .decks import UNITS, opened, report_problems, take
+from .decks import UNITS, opened, report_problems, say_trade, take, trades
 from .parser import Argument, Verb, argument
 from .scatter import ARGUMENTS, scatter_asked
 from .targets import asked_in_a_line, give_answer, number, one_deck, outputs_of
@@ -71,6 +72,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     files = outputs_of(deck, chosen, require)
 
     def step(deck: DeckFile) -> Outcome:
+        begun = time.perf_counter()
         with Bar(deck.name, deck.path) as bar:
             model = opened(deck, bar, chosen)
             report_problems(model)
@@ -88,6 +90,8 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                 for target in files:
                     bar.show_work("writing", 1.0)
                     made.save(target)
+        gives = "with uncertainties" if chosen.beams == "auto" else "uncertainty not known"
+        say_trade(deck, chosen, f"costed with {chosen.beams} beams a sheet", begun, gives)
         words = describe if scatter is None else scatter.describe
         give_answer(
             *(deck, chosen, files),
@@ -195,6 +199,7 @@ VERB = Verb(
             metavar="auto|N",
             help="beams a sheet; auto: 8 and 16, extrapolated, with the uncertainty",
         ),
+        *trades("beams"),
         argument(
             "--bodies",
             action="store_true",

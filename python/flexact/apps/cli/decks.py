@@ -37,7 +37,7 @@ from ...util.quantities import Quantity, QuantityError, as_typed, quantity
 from ...util.text import columns as text_columns
 from ...util.text import harmless
 from ...util.units import units_of
-from .parser import Argument, Group, argument
+from .parser import Argument, Group, SetSeveral, argument
 from .terminal import (
     Bar,
     ExitCode,
@@ -262,6 +262,61 @@ def tolerance(text: str) -> float:
     return value
 
 
+#: What one word for the trade of speed for accuracy sets of each option, and how that is said. A
+#: proof costs a fifth at most, and without it zeros are judged with more digits, which may take
+#: longer (docs/benchmarks.md).
+TRADES: dict[str, dict[str, tuple[Any, str]]] = {
+    "--fast": {
+        "method": ("sparse", "--method sparse"),
+        "prove": (None, "a proof where it costs little"),
+        "beams": ("4", "--beams 4"),
+    },
+    "--certain": {
+        "method": (METHODS[0], f"--method {METHODS[0]}"),
+        "prove": (True, "--prove"),
+        "beams": ("auto", "--beams auto"),
+    },
+}
+
+
+def trades(*options: str) -> tuple[Argument, ...]:
+    """The words for the trade of speed for accuracy, for a verb that has some of the options."""
+    return tuple(
+        argument(
+            word,
+            action=SetSeveral,
+            nargs=0,
+            dest="trade",
+            default=(),
+            const={option: settings[option] for option in options},
+            help=f"sets {', '.join(settings[option][1] for option in options)}",
+        )
+        for word, settings in TRADES.items()
+    )
+
+
+def say_trade(
+    deck: DeckFile, chosen: argparse.Namespace, work: str, begun: float, gives: str
+) -> None:
+    """Say on one line what work cost and what it gives, where all is to be said.
+
+    Args:
+        deck: The deck.
+        chosen: The options, with the word for the trade and what that set.
+        work: What was done.
+        begun: When, by `time.perf_counter`.
+        gives: How sure or accurate the answer is.
+    """
+    if not is_verbose():
+        return
+    word, *settings = chosen.trade or ("",)
+    by = f" ({word}: {', '.join(settings)})" if word else ""
+    peak = memory.peak()
+    kept = f" and {peak / 1e6:.0f} MB at most" if peak else ""
+    seconds = time.perf_counter() - begun
+    complain(f"{harmless(deck.name)}: {work}{by} in {seconds:.2g} s{kept}: {gives}")
+
+
 METHOD = argument("--method", choices=METHODS, default=METHODS[0], help="how D(c) is decomposed")
 DECISION = Group(
     "how the rank is decided",
@@ -280,6 +335,7 @@ DECISION = Group(
             default=None,
             help="whether to prove the rank in exact arithmetic (where it costs little)",
         ),
+        *trades("method", "prove"),
     ),
 )
 #: To what the workshop makes the parts and puts them together.
@@ -393,13 +449,12 @@ def read_and_analysed(deck: DeckFile, chosen: argparse.Namespace, bar: Bar) -> R
     report_problems(model)
     read = time.perf_counter()
     result = analysed(deck, model, chosen, bar)
-    if is_verbose():
-        a = result.given.arrays
-        complain(
-            f"{harmless(deck.name)}: read in {read - begun:.2g} s: {a.node_number.size} nodes, "
-            f"{a.element_number.size} elements; D(c) {result.rows} x {result.columns} decomposed "
-            f"by {result.method} in {time.perf_counter() - read:.2g} s: {result.certainty.value}"
-        )
+    a = result.given.arrays
+    work = (
+        f"read in {read - begun:.2g} s: {a.node_number.size} nodes, {a.element_number.size} "
+        f"elements; D(c) {result.rows} x {result.columns} decomposed by {result.method}"
+    )
+    say_trade(deck, chosen, work, read, certainty_word(result))
     return result
 
 

@@ -162,6 +162,28 @@ class OnOff(argparse.BooleanOptionalAction):
         super().__call__(parser, namespace, values, option_string)
 
 
+class SetSeveral(argparse.Action):
+    """Sets several options by one name, beside which they are refused.
+
+    Its `const` holds what each of them is set to, and how that is said; what is stored is the name
+    and what is said.
+    """
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        """Set them."""
+        for dest, (value, _) in self.const.items():
+            # Also where the other option says the same.
+            require_once(parser, namespace, dest, (option_string, value), option_string)
+            setattr(namespace, dest, value)
+        setattr(namespace, self.dest, (option_string, *(said for _, said in self.const.values())))
+
+
 _UNKNOWN = re.compile(r"unrecognized arguments: (.*)", re.DOTALL)
 _CHOICE = re.compile(r"argument (\S+): invalid choice: '(.*)' \(choose from (.*)\)", re.DOTALL)
 #: Other messages of argparse, and what is said in their place.

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import json
 import re
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.quantities import Quantity, QuantityError, as_typed
-from .decks import UNITS, opened, report_problems, take
+from .decks import UNITS, opened, report_problems, say_trade, take, trades
 from .parser import Group, Verb, argument
 from .targets import (
     DECK,
@@ -69,6 +70,7 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
         raise BatchError(str(error)) from None
 
     def step(deck: DeckFile) -> Outcome:
+        begun = time.perf_counter()
         with Bar(deck.name, deck.path) as bar:
             data = opened(deck, bar, chosen)
             report_problems(data)
@@ -107,6 +109,8 @@ def table_deck(chosen: argparse.Namespace) -> ExitCode:
                     )
                 for target in files:
                     made.save(target)
+        gives = "with uncertainties" if chosen.beams == "auto" else "uncertainty not known"
+        say_trade(deck, chosen, f"tabulated with {chosen.beams} beams a sheet", begun, gives)
         both = warm.to_dict() if warm else None
         give_answer(
             *(deck, chosen, files),
@@ -212,6 +216,7 @@ VERB = Verb(
         argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates"),
         argument("--held", choices=HELD, default=HELD[0], help="held deformations"),
         argument("--beams", default="auto", metavar="auto|N", help="beams a sheet; auto: 8 and 16"),
+        *trades("beams"),
         argument("--json", action="store_true", help="one JSON object on stdout"),
         argument(
             *("-o", "--output"),

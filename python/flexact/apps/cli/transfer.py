@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import time
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,7 @@ from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.quantities import QuantityError, as_typed
-from .decks import UNITS, opened, report_problems, take
+from .decks import UNITS, opened, report_problems, say_trade, take, trades
 from .parser import Verb, argument
 from .targets import asked_in_a_line, give_answer, number, one_deck, outputs_of
 from .terminal import Bar, ExitCode, Outcome, text_width
@@ -36,6 +37,7 @@ def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
     files = outputs_of(deck, chosen, TRANSFERS.require)
 
     def step(deck: DeckFile) -> Outcome:
+        begun = time.perf_counter()
         with Bar(deck.name, deck.path) as bar:
             model = opened(deck, bar, chosen)
             report_problems(model)
@@ -45,6 +47,8 @@ def transfer_deck(chosen: argparse.Namespace) -> ExitCode:
                 for target in files:
                     bar.show_work("writing", 1.0)
                     made.save(target)
+        work = f"transferred with {chosen.beams} beams a sheet"
+        say_trade(deck, chosen, work, begun, "uncertainty not known")
         give_answer(
             *(deck, chosen, files),
             table=lambda: csv_text(made),
@@ -198,6 +202,7 @@ VERB = Verb(
             help="beams a sheet; auto: 16",
         ),
         UNITS,
+        *trades("beams"),
         argument("--json", action="store_true", help="one JSON object on stdout"),
         argument(
             *("-o", "--output"),
