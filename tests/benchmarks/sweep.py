@@ -62,13 +62,18 @@ def seconds(work: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
+def matrices_of(model: flexact.Model, positions: np.ndarray) -> np.ndarray:
+    """The scaled D(c) of each variant."""
+    return np.array([scaled_jacobian(with_positions(model.data, p))[0] for p in positions])
+
+
 def by_numpy(model: flexact.Model, count: int) -> float:
     """Singular values alone, of matrices that are there already; their making is not counted."""
     taken = 0.0
     positions = positions_of(model, count)
     for first in range(0, count, CHUNK):
         part = positions[first : first + CHUNK]
-        ready = np.array([scaled_jacobian(with_positions(model.data, p))[0] for p in part])
+        ready = matrices_of(model, part)
         taken += seconds(lambda ready=ready: np.linalg.svd(ready, compute_uv=False))
     return taken
 

@@ -55,7 +55,7 @@ PEERS = tuple(
 _BOTH_ORDERINGS = 10_000
 #: Self-stresses that grow with the size are not asked of the peers, which cannot hold them.
 _MANY_STRESSES = ("T", "O")
-_ROUNDS = 3
+_ROUNDS = 2
 #: No further round starts after so long [s].
 _PATIENCE = 5.0
 #: Longest time of a contestant [s].
@@ -80,6 +80,8 @@ class Outcome:
     residual: float
     method: str
     certainty: str
+    values: str
+    """Which singular values it gives: all, or the smallest."""
     nearly: tuple[int, int] | None
     truth: tuple[int, int] | None
 
@@ -229,6 +231,7 @@ def _outcome(
         first["residual"],
         first.get("method", contestant),
         first.get("certainty", ""),
+        first.get("values", "all"),
         None if nearly is None else (nearly[0], nearly[1]),
         truth,
     )

@@ -41,7 +41,7 @@ def grid(rows: int, columns: int) -> str:
     return model.to_deck()
 
 
-def times(browser: Browser, text: str) -> list[float]:
+def times(browser: Browser, text: str, saves: int = SAVES) -> list[float]:
     """Seconds from the save to the picture, of some saves that change the verdict."""
     with tempfile.TemporaryDirectory() as folder:
         deck = Path(folder) / "deck.dat"
@@ -52,7 +52,7 @@ def times(browser: Browser, text: str) -> list[float]:
             browser.driver.get(watched.address)
             time.sleep(3.0)
             found = []
-            for number in range(SAVES):
+            for number in range(saves):
                 browser.run(_LISTEN)
                 saved = time.time()
                 deck.write_text(text if number % 2 else changed)

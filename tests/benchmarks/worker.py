@@ -25,6 +25,7 @@ from matrix import Columns, scaled_jacobian
 from numpy.typing import NDArray
 
 import flexact
+from flexact.analysis.verdict_words import certainty_word
 from flexact.core.arrays import Basis
 
 _T = TypeVar("_T")
@@ -86,7 +87,8 @@ def _by_flexact(case: Case, matrix: Columns, method: str) -> dict[str, Any]:
     found |= {"motions": analysis.under_constrained, "stresses": analysis.over_constrained}
     nearly = analysis.nearly
     found["nearly"] = None if nearly is None else list(nearly)
-    return found | {"method": analysis.method, "certainty": analysis.certainty.value}
+    found |= {"values": analysis.singular_values_given}
+    return found | {"method": analysis.method, "certainty": certainty_word(analysis)}
 
 
 def _scaled(basis: Basis, scale: NDArray[np.float64]) -> Basis:
