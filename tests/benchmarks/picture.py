@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of the trade: time against size by family, and error against size, by method."""
+"""The picture of the trade: time, memory, certainty and error by method, family and size."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import matplotlib
 matplotlib.use("svg")
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from trade import NAMES, PEERS, Outcome, best_peer
@@ -35,8 +36,16 @@ _TEXT = "#808080"
 _LEAST = 1e-17
 
 
-def draw(found: list[Outcome], errors: list[dict[str, Any]], path: Path) -> None:
-    """Five panels of times and one of errors, on a transparent ground."""
+def draw(
+    found: list[Outcome],
+    errors: list[dict[str, Any]],
+    beams: dict[int | str, tuple[float, float, float]],
+    path: Path,
+) -> None:
+    """Times and memories by family, and errors, on a transparent ground.
+
+    A point is filled where the rank is proven or numerically certain.
+    """
     matplotlib.rcParams.update(
         {
             "font.family": "sans-serif",
@@ -51,15 +60,16 @@ def draw(found: list[Outcome], errors: list[dict[str, Any]], path: Path) -> None
             "ytick.color": _TEXT,
         }
     )
-    figure, panels = plt.subplots(2, 3, figsize=(10, 6.2))
-    times = list(panels.flat)[:5]
-    limits = _decades([one.columns for one in found]), _decades([one.seconds for one in found])
-    for axes, family in zip(times, ("T", "O", "B", "C", "Tb"), strict=True):
-        _times(axes, [one for one in found if one.family == family], family)
-        axes.set(xlim=limits[0], ylim=limits[1])
-    for axes in panels[:, 0]:
-        axes.set_ylabel("time [s]")
+    figure, panels = plt.subplots(4, 3, figsize=(10, 12))
+    for first, last, of in ((0, 5, "seconds"), (6, 11, "memory")):
+        limits = [_decades([x for x in of_all if x > 0]) for of_all in _numbers(found, of)]
+        for axes, family in zip(list(panels.flat)[first:last], _FAMILIES, strict=True):
+            _by_size(axes, [one for one in found if one.family == family], family, of)
+            axes.set(xlim=limits[0], ylim=limits[1])
+    for row, words in enumerate(("time [s]", "time [s]", "memory [MB]", "memory [MB]")):
+        panels[row, 0].set_ylabel(words)
     _errors(panels.flat[5], [one for one in errors if one["kind"] == "small"])
+    _beams(panels.flat[11], beams)
     shown = [axes.get_legend_handles_labels() for axes in panels.flat]
     entries = {
         name: line for lines, names in shown for line, name in zip(lines, names, strict=True)
@@ -67,19 +77,53 @@ def draw(found: list[Outcome], errors: list[dict[str, Any]], path: Path) -> None
     names = [name for name in _STYLE if name in entries]
     lines = [entries[name] for name in names]
     figure.legend(lines, names, loc="lower center", ncols=len(names), frameon=False)
-    figure.tight_layout(rect=(0, 0.05, 1, 1))
+    figure.tight_layout(rect=(0, 0.03, 1, 1))
     figure.savefig(path, metadata={"Date": None}, transparent=True)
 
 
-def _times(axes: Axes, those: list[Outcome], family: str) -> None:
+_FAMILIES = ("T", "O", "B", "C", "Tb")
+#: By what a memory is divided to be shown.
+_SHOWN = {"seconds": 1.0, "memory": 1.0e6}
+
+
+def _numbers(found: list[Outcome], of: str) -> tuple[list[float], list[float]]:
+    return [one.columns for one in found], [getattr(one, of) / _SHOWN[of] for one in found]
+
+
+def _by_size(axes: Axes, those: list[Outcome], family: str, of: str) -> None:
     for name, style in _STYLE.items():
-        points = [(one.columns, one.seconds) for one in those if one.contestant == name]
+        points = [one for one in those if one.contestant == name]
         if name == "best bare SuiteSparse":
             sizes = sorted({one.size for one in those if one.contestant in PEERS})
             peers = (best_peer(those, family, size) for size in sizes)
-            points = [(one.columns, one.seconds) for one in peers if one is not None]
-        _line(axes, points, name, style)
+            points = [one for one in peers if one is not None]
+        # What is too little to be measured is no point.
+        points = [one for one in points if getattr(one, of) > 0]
+        _line(axes, list(zip(*_numbers(points, of), strict=True)), name, style)
+        doubtful = [one for one in points if one.certainty == "doubtful"]
+        if doubtful:
+            hollow = {**style, "markerfacecolor": "white", "linestyle": "none", "zorder": 6}
+            axes.plot(*_numbers(doubtful, of), **hollow)
     _log(axes, NAMES[family])
+
+
+def _beams(axes: Axes, beams: dict[int | str, tuple[float, float, float]]) -> None:
+    """Error against time by beams a sheet."""
+    taken, tolerance, frequency = zip(*beams.values(), strict=True)
+    for values, name, mark in ((tolerance, "tolerances", "o"), (frequency, "frequencies", "s")):
+        order = np.argsort(taken)
+        axes.plot(
+            np.array(taken)[order], np.array(values)[order], marker=mark, color=_TEXT, linewidth=1
+        )
+        _note(axes, name, (taken[0], values[0]), (6, 2))
+    for many, each in beams.items():
+        _note(axes, str(many), each[:2], (2, -10))
+    _log(axes, "cost by beams a sheet")
+    axes.set(xlabel="time [s]", ylabel="off by, at most")
+
+
+def _note(axes: Axes, text: str, at: tuple[float, float], off: tuple[int, int]) -> None:
+    axes.annotate(text, at, color=_TEXT, xytext=off, textcoords="offset points")
 
 
 def _errors(axes: Axes, errors: list[dict[str, Any]]) -> None:

@@ -18,25 +18,28 @@ from typing import Any
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from commands import (
-    analysis_against_svd,
-    carried_against_bare,
-    command_against_import,
-    parts_against_one,
-    reading_against_split,
-)
-from large_end import table as large_table
-from large_end import threads_table
+import scaling
+import waits
 from picture import draw
-from trade import METHODS, NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
+from trade import (
+    METHODS,
+    NAMES,
+    Outcome,
+    beams_trade,
+    best_peer,
+    errors_of_smallest,
+    fast_and_certain,
+    one_of,
+    outcomes,
+)
 
 ROOT = Path(__file__).parents[2]
 #: Where a quick run writes.
 QUICK = ROOT / "build" / "bench"
 PAGE = ROOT / "docs" / "benchmarks.md"
 PICTURE = ROOT / "docs" / "trade.svg"
-#: The tables stand between these two lines of the page.
-FIRST, LAST = "<!-- tables: make bench -->", "<!-- end of tables -->"
+#: A table stands between these two lines of the page.
+FIRST, LAST = "<!-- {}: make bench -->", "<!-- end of {} -->"
 #: Sizes that the table shows of each family; against dgesdd where it ran, else the best peer.
 _SHOWN = (1000, 3000, 100_000, 300_000)
 _METHODS = (*METHODS[1:], METHODS[0])
@@ -50,55 +53,46 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--quick", action="store_true", help="small sizes, written to build/bench")
     quick = parser.parse_args().quick
-    commands = _commands()
+    tables = {} if quick else {"waits": waits.table(), "sizes": scaling.sizes()}
+    tables["words"] = fast_and_certain()
     found = outcomes(_QUICK) if quick else outcomes()
     errors = errors_of_smallest(_CONDITIONED[1:3] if quick else _CONDITIONED)
-    large = [] if quick else [large_table(), threads_table()]
-    parts = [commands, _speed(found), *large, _accuracy(found, errors), _verdicts(found)]
-    text = "\n\n".join("\n".join(part) for part in parts) + "\n"
-    print(text)
+    tables["families"] = _speed(found)
+    tables["methods"] = [*_accuracy(found, errors), "", *_verdicts(found)]
+    print("\n\n".join("\n".join(table) for table in tables.values()))
     if quick:
         QUICK.mkdir(parents=True, exist_ok=True)
-        (QUICK / "tables.md").write_text(text)
+        text = "\n\n".join("\n".join(table) for table in tables.values())
+        (QUICK / "tables.md").write_text(f"{text}\n")
     else:
-        PAGE.write_text(_with_tables(PAGE.read_text(), text))
-    draw(found, errors, QUICK / "trade.svg" if quick else PICTURE)
+        page = PAGE.read_text()
+        for name, table in tables.items():
+            page = _with_table(page, name, table)
+        PAGE.write_text(page)
+    draw(found, errors, beams_trade(), QUICK / "trade.svg" if quick else PICTURE)
 
 
-def _with_tables(page: str, tables: str) -> str:
-    """The page with other tables."""
-    before, rest = page.split(FIRST)
-    return f"{before}{FIRST}\n\n{tables}\n{LAST}{rest.split(LAST)[1]}"
-
-
-def _commands() -> list[str]:
-    lines = ["| what | Flexact | other | ratio |", "|---|---|---|---|"]
-    for measure in (
-        analysis_against_svd,
-        command_against_import,
-        reading_against_split,
-        parts_against_one,
-        carried_against_bare,
-    ):
-        what, ours, other = measure()
-        times = f"{ours * 1e3:.3g} ms | {other * 1e3:.3g} ms"
-        lines.append(f"| {what} | {times} | {ours / other:.2f} |")
-        print(lines[-1], flush=True)
-    return lines
+def _with_table(page: str, name: str, table: list[str]) -> str:
+    """The page with another table of that name."""
+    first, last = FIRST.format(name), LAST.format(name)
+    before, rest = page.split(first)
+    text = "\n".join(table)
+    return f"{before}{first}\n\n{text}\n\n{last}{rest.split(last)[1]}"
 
 
 def _speed(found: list[Outcome]) -> list[str]:
     """`auto` against dgesdd where that ran, and else against the best peer."""
     lines = [
         "| family | size of D(c) | `auto` took | against | time | memory | counts | residual | "
-        "growth |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "growth | other methods, over `auto` |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for family in ("T", "O", "B", "C", "Tb"):
         shown = [one for size in _SHOWN if (one := one_of(found, family, size, "auto"))]
         for one in shown:
             growth = _growth(found, family) if one is shown[-1] else ""
-            lines.append(f"| {NAMES[family]} | {_against(one, found)} | {growth} |")
+            line = f"| {NAMES[family]} | {_against(one, found)} | {growth} |"
+            lines.append(f"{line} {_methods_over(one, found)} |")
     return lines
 
 
@@ -113,6 +107,17 @@ def _against(one: Outcome, found: list[Outcome]) -> str:
     name += ", motions alone" if other.stresses == -1 else ""
     ratio = f"{one.seconds / other.seconds:.2g}"
     return f"{size} | {time} | {name} | {ratio} | {memory} | {_counts(one)} | {one.residual:.0e}"
+
+
+def _methods_over(one: Outcome, found: list[Outcome]) -> str:
+    """Times of the other methods, and what they give less."""
+    words = []
+    for method in METHODS[1:]:
+        other = one_of(found, one.family, one.size, method)
+        if other is not None and method != one.method:
+            less = ", smallest values alone" if other.values != one.values == "all" else ""
+            words.append(f"`{method}` {other.seconds / one.seconds:.2g}{less}")
+    return "; ".join(words)
 
 
 def _time(seconds: float) -> str:
@@ -168,7 +173,7 @@ def _verdicts(found: list[Outcome]) -> list[str]:
     for name, those in (("Flexact", ours), ("dgesdd and the bare peers", theirs)):
         known = [one for one in those if one.right is not None]
         wrong = [one for one in known if not one.right]
-        sure = sum(one.certainty == "numerically certain" for one in wrong) if those is ours else ""
+        sure = sum(one.certainty != "doubtful" for one in wrong) if those is ours else ""
         right = len(known) - len(wrong)
         lines.append(f"| {name} | {len(known)} | {right} | {len(wrong)} | {sure} |")
     return lines

@@ -16,6 +16,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,9 @@ from exact_rank import rank_of_bars
 from families import FAMILIES, Case
 from matrix import scaled_jacobian
 
+import flexact
+from flexact.analysis.verdict_words import certainty_word
+from flexact.apps.cli.decks import TRADES
 from flexact.core.calls import METHODS
 
 HERE = Path(__file__).parent
@@ -265,3 +269,100 @@ def best_peer(found: list[Outcome], family: str, size: int) -> Outcome | None:
     those = [one for one in those if one.contestant in PEERS and one.right is not False]
     those = [one for one in those if one.motions >= 0 and one.stresses >= -1]
     return min(those, key=lambda one: one.seconds, default=None)
+
+
+#: Beams a sheet by the words for the trade.
+WORDS: dict[str, int | str] = {"default": "auto", "`--fast`": 4, "`--certain`": "auto"}
+#: Beams a sheet of which the cost is taken for true.
+_FINE = 32
+SIX = HERE.parents[1] / "input_decks" / "paper" / "six_folded_sheets.dat"
+FIVE = SIX.with_name("five_folded_sheets.dat")
+
+
+def fast_and_certain() -> list[str]:
+    """What each word costs and gives, in Markdown; times over those of the default, in turn."""
+    models = {
+        "35 x 35": flexact.read(FIVE),
+        "stages, n = 168": FAMILIES["B"](168).model,
+        "grid, n = 1,000": FAMILIES["T"](1000).model,
+        "grid, n = 30,000": FAMILIES["T"](30_000).model,
+    }
+    times = {name: _times_of_words(model) for name, model in models.items()}
+    stages = models["stages, n = 168"]
+    certainty = {
+        word: certainty_word(flexact.analyse(stages, **_told(word, 168))) for word in WORDS
+    }
+    errors = errors_of_smallest((("small", 168),))[0]["errors"]
+    costs = beams_trade()
+    heads = [*models, "smallest value, stages 1 nm apart", "rank, n = 168", "`cost`: time"]
+    heads += ["tolerances off by", "frequencies off by"]
+    lines = [f"| | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
+    for word, beams in WORDS.items():
+        cells = [f"{times[name][word]:.2g}" for name in models]
+        cells.append(f"{errors[_told(word, 168).get('method', 'auto')]:.0e} of itself")
+        cells.append(certainty[word])
+        taken, tolerance, frequency = costs[beams]
+        cells += [f"{taken / costs['auto'][0]:.2g}", f"{tolerance:.1%}", f"{frequency:.1e}"]
+        lines.append(f"| {word} | {' | '.join(cells)} |")
+        print(lines[-1], flush=True)
+    return lines
+
+
+def _told(word: str, columns: int) -> dict[str, Any]:
+    """What Python is told for a word: see `flexact.apps.cli.decks.TRADES`."""
+    if word == "default":
+        return {}
+    if word == "`--fast`":
+        return {"method": TRADES["--fast"]["method"][0]}
+    method, most = (TRADES["--certain"][option][0] for option in ("method", "most_columns"))
+    return {"prove": True} | ({"method": method} if columns <= most else {})
+
+
+def _times_of_words(model: flexact.Model) -> dict[str, float]:
+    """Processor time by word over that of the default, least of rounds in turn."""
+    taken: dict[str, list[float]] = {word: [] for word in WORDS}
+    begun = time.perf_counter()
+    while len(taken["default"]) < 2 or time.perf_counter() - begun < 1.0:
+        for word in WORDS:
+            start = time.process_time()
+            flexact.analyse(model, **_told(word, model.data.count.columns))
+            taken[word].append(time.process_time() - start)
+    return {word: min(each[1:]) / min(taken["default"][1:]) for word, each in taken.items()}
+
+
+@cache
+def beams_trade() -> dict[int | str, tuple[float, float, float]]:
+    """By beams a sheet: seconds, and by how much tolerances and frequencies are off at most.
+
+    What over-constraint costs six folded sheets, against 32 beams a sheet.
+    """
+    model = flexact.read(SIX)
+    true = dict(_numbers(flexact.cost(model, beams=_FINE).to_dict()))
+    made: dict[int | str, tuple[float, float, float]] = {}
+    for beams in (1, 2, 4, 8, 16, "auto"):
+        start = time.process_time()
+        found = dict(_numbers(flexact.cost(model, beams=beams).to_dict()))
+        taken = time.process_time() - start
+        off = {
+            kind: max(
+                abs(value / true[place] - 1.0)
+                for place, value in found.items()
+                if kind in place and "uncert" not in place and true.get(place)
+            )
+            for kind in ("tolerance", "frequenc")
+        }
+        made[beams] = (taken, off["tolerance"], off["frequenc"])
+        print(f"{beams} beams a sheet: {made[beams]}", flush=True)
+    return made
+
+
+def _numbers(tree: Any, place: str = "") -> Iterator[tuple[str, float]]:
+    """Numbers of a JSON by where they stand."""
+    if isinstance(tree, dict):
+        for name, each in tree.items():
+            yield from _numbers(each, f"{place}/{name}")
+    elif isinstance(tree, list):
+        for k, each in enumerate(tree):
+            yield from _numbers(each, f"{place}/{k}")
+    elif isinstance(tree, float):
+        yield place, tree

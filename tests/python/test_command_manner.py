@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from small_decks import BROKEN, write
 
+import flexact
 from flexact.apps.cli.main import main
 from flexact.util.text import columns, refitted, table, wrapped
 
@@ -191,7 +192,10 @@ def test_verbose_says_what_is_done(capsys: pytest.CaptureFixture[str]) -> None:
     [
         (["analyse"], "decomposed by svd in "),
         (["analyse", "--fast"], "by sparse (--fast: --method sparse, a proof where it costs"),
-        (["analyse", "--certain"], "by svd (--certain: --method auto, --prove) in "),
+        (
+            ["analyse", "--certain"],
+            "by jacobi (--certain: --method jacobi up to 400 columns of D(c), --prove) in ",
+        ),
         (["table", "--fast"], "with 4 beams a sheet (--fast: --beams 4) in "),
         (["table", "--certain"], "with auto beams a sheet (--certain: --beams auto) in "),
     ],
@@ -209,7 +213,7 @@ def test_verbose_says_on_one_line_what_the_trade_cost_and_gives(
 
 @pytest.mark.parametrize(
     ("word", "options"),
-    [("--fast", ["--method", "sparse"]), ("--certain", ["--prove"])],
+    [("--fast", ["--method", "sparse"]), ("--certain", ["--method", "jacobi", "--prove"])],
 )
 def test_a_word_for_the_trade_is_the_options_that_it_sets(
     word: str, options: list[str], capsys: pytest.CaptureFixture[str]
@@ -218,6 +222,23 @@ def test_a_word_for_the_trade_is_the_options_that_it_sets(
     by_word = capsys.readouterr().out
     assert main(["analyse", SIX, "--json", *options]) == 0
     assert capsys.readouterr().out == by_word
+
+
+def test_certain_takes_another_method_for_a_large_matrix(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    side = 16
+    model = flexact.Model(name="grid")
+    for i in range(side):
+        for j in range(side):
+            for k, m in ((i + 1, j), (i, j + 1)):
+                if k < side and m < side:
+                    model.wire((0.1 * i, 0.1 * j, 0), (0.1 * k, 0.1 * m, 0))
+    model.fix((0, 0, 0))
+    assert flexact.analyse(model).columns > 400
+    deck = write(tmp_path / "grid.dat", model.to_deck())
+    assert main(["analyse", "-v", "--certain", str(deck)]) == 0
+    assert "decomposed by sparse (--certain: " in capsys.readouterr().err
 
 
 def test_rows() -> None:

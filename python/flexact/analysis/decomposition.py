@@ -123,6 +123,8 @@ class Asked(NamedTuple):
     """Whether the rank is to be proven in exact arithmetic; None: where it costs little."""
     accuracy: Accuracy | None = None
     """To what the parts are made and put together; None: nothing is known of it."""
+    most_columns: int | None = None
+    """Of D(c) that the method is for; with more it is "auto". None: any number."""
 
 
 _PLAIN = Asked()
@@ -134,6 +136,7 @@ def asked_for(
     prove: bool | None = None,
     accuracy: AccuracyGiven | None = None,
     units: Units = METRES,
+    most_columns: int | None = None,
 ) -> Asked:
     """What an analysis is asked for, if there is such a thing; numbers are in the units.
 
@@ -157,7 +160,7 @@ def asked_for(
     if method not in calls.METHODS:
         choices = ", ".join(calls.METHODS)
         raise ValueError(f"there is no method {method!r}; choose from {choices}")
-    return Asked(method, tolerance, prove, known)
+    return Asked(method, tolerance, prove, known, most_columns)
 
 
 #: Nodes or elements, and modes, beyond which bodies and parts are not told one by one.
@@ -448,9 +451,12 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
     most = data.packed.nodes.size + data.packed.elements.size
     room = memory.allowance(memory.dense_needed(most, most))
 
+    is_beyond = asked.most_columns is not None and data.count.columns > asked.most_columns
+    method = "auto" if is_beyond else asked.method
+
     def work(stage: IntArray | None) -> RawAnalysis:
         return calls.analyse_model(
-            *(data.packed, asked.method, asked.tolerance, stage, room),
+            *(data.packed, method, asked.tolerance, stage, room),
             prove=asked.prove,
             as_stored=data.has_long_numbers,
         )

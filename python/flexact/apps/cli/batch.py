@@ -42,7 +42,7 @@ from ...util.outputs import STDOUT, OutputError, plan_files, write_together, wri
 from ...util.partial import why
 from ...util.records import cached_property
 from ...util.text import harmless
-from .decks import ACCURACY, DECISION, DECKS
+from .decks import ACCURACY, DECISION, DECKS, decision_of
 from .parser import Verb, argument
 from .targets import WORKERS, folder, mesh_argument, plan_table
 from .terminal import ExitCode, complain, drawn, is_watched, say
@@ -71,7 +71,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     decks = find_decks(chosen.decks)
     plan_table(table, decks)
     outputs = Outputs(decks, chosen.files, chosen.mesh or "vtu", chosen.report)
-    asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
+    asked = asked_for(*decision_of(chosen))
     work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, chosen.report is not None)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
     # One thread of BLAS, where the work is done in this process, as in those of a pool.
@@ -98,6 +98,7 @@ def _head(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> dict[str, An
             "--method": chosen.method,
             "--tolerance": chosen.zero_tolerance,
             "--prove": chosen.prove,
+            "--certain": getattr(chosen, "most_columns", None) and True,
             "--accuracy": chosen.accuracy and list(chosen.accuracy),
             "--mesh": chosen.mesh,
             **{f"--{name}": path and os.path.abspath(path) for name, path in folders.items()},

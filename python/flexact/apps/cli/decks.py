@@ -36,7 +36,7 @@ from ...util.partial import why
 from ...util.quantities import Quantity, QuantityError, as_typed, quantity
 from ...util.text import columns as text_columns
 from ...util.text import harmless
-from ...util.units import units_of
+from ...util.units import METRES, Units, units_of
 from .parser import Argument, Group, SetSeveral, argument
 from .terminal import (
     Bar,
@@ -262,6 +262,8 @@ def tolerance(text: str) -> float:
     return value
 
 
+#: Up to so many columns the method jacobi takes a tenth of a second.
+_QUICK = 400
 #: What one word for the trade of speed for accuracy sets of each option, and how that is said. A
 #: proof costs a fifth at most, and without it zeros are judged with more digits, which may take
 #: longer (docs/benchmarks.md).
@@ -272,7 +274,8 @@ TRADES: dict[str, dict[str, tuple[Any, str]]] = {
         "beams": ("4", "--beams 4"),
     },
     "--certain": {
-        "method": (METHODS[0], f"--method {METHODS[0]}"),
+        "method": ("jacobi", f"--method jacobi up to {_QUICK} columns of D(c)"),
+        "most_columns": (_QUICK, ""),
         "prove": (True, "--prove"),
         "beams": ("auto", "--beams auto"),
     },
@@ -288,8 +291,8 @@ def trades(*options: str) -> tuple[Argument, ...]:
             nargs=0,
             dest="trade",
             default=(),
-            const={option: settings[option] for option in options},
-            help=f"sets {', '.join(settings[option][1] for option in options)}",
+            const={o: settings[o] for o in options if o in settings},
+            help=f"sets {', '.join(s for o in options if (s := settings.get(o, ('', ''))[1]))}",
         )
         for word, settings in TRADES.items()
     )
@@ -335,7 +338,7 @@ DECISION = Group(
             default=None,
             help="whether to prove the rank in exact arithmetic (where it costs little)",
         ),
-        *trades("method", "prove"),
+        *trades("method", "most_columns", "prove"),
     ),
 )
 #: To what the workshop makes the parts and puts them together.
@@ -426,12 +429,18 @@ def report_problems(model: ModelData) -> None:
         complain(render_problems(model.problems, model.name, model.source, width))
 
 
+def decision_of(chosen: argparse.Namespace, units: Units = METRES) -> tuple[Any, ...]:
+    """How the rank is to be decided: arguments of `asked_for`."""
+    most = getattr(chosen, "most_columns", None)
+    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
+    return (*decision, units, most)
+
+
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
-    announce_wait(deck, model, chosen.method)
-    asked = asked_for(
-        chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy, model.units
-    )
+    asked = asked_for(*decision_of(chosen, model.units))
+    if asked.most_columns is None:
+        announce_wait(deck, model, asked.method)
     if asked.accuracy is not None and not chosen.beyond:
         asked.accuracy.require_within(model.size, model.units)
     return result_of(

@@ -181,7 +181,11 @@ class SetSeveral(argparse.Action):
             # Also where the other option says the same.
             require_once(parser, namespace, dest, (option_string, value), option_string)
             setattr(namespace, dest, value)
-        setattr(namespace, self.dest, (option_string, *(said for _, said in self.const.values())))
+        setattr(
+            namespace,
+            self.dest,
+            (option_string, *(said for _, said in self.const.values() if said)),
+        )
 
 
 _UNKNOWN = re.compile(r"unrecognized arguments: (.*)", re.DOTALL)

@@ -19,7 +19,7 @@ from ..convert.cad.reader import require_step
 from ..watch.cad import is_step
 from ..watch.scene import SCRIPT, Answer, Broken, is_problem
 from ..watch.watch import Watch
-from .decks import ACCURACY, DECISION, report
+from .decks import ACCURACY, DECISION, decision_of, report
 from .parser import Verb, argument
 from .targets import NO_BROWSER, one_deck
 from .terminal import ExitCode, complain, say
@@ -66,9 +66,10 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
             complain(harmless_lines(answer.problems))
         say(f"{time.strftime('%H:%M:%S')} {name}: {words}")
 
-    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     with unwinding():
-        watched = Watch(path, renewed, partial(print, end="", flush=True), chosen.port, decision)
+        watched = Watch(
+            path, renewed, partial(print, end="", flush=True), chosen.port, decision_of(chosen)
+        )
         with closing(watched):
             say(f"{name} is shown at {watched.server.address}")
             if not chosen.no_browser and not watched.opens():
