@@ -300,7 +300,7 @@ def fast_and_certain() -> list[str]:
     for word, beams in WORDS.items():
         cells = [f"{times[name][word]:.2g}" for name in models]
         cells.append(f"{errors[_told(word, 168).get('method', 'auto')]:.0e} of itself")
-        cells.append(certainty[word])
+        cells.append(rank[word])
         taken, tolerance, frequency = costs[beams]
         cells += [f"{taken / costs['auto'][0]:.2g}", f"{tolerance:.1%}", f"{frequency:.1e}"]
         lines.append(f"| {word} | {' | '.join(cells)} |")
