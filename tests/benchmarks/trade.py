@@ -289,7 +289,7 @@ def fast_and_certain() -> list[str]:
     }
     times = {name: _times_of_words(model) for name, model in models.items()}
     stages = models["stages, n = 168"]
-    certainty = {
+    rank = {
         word: certainty_word(flexact.analyse(stages, **_told(word, 168))) for word in WORDS
     }
     errors = errors_of_smallest((("small", 168),))[0]["errors"]
