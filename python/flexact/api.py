@@ -20,14 +20,8 @@ from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.diagnostics import Diagnostic
 from .deck.rendering import ProblemsError
-from .model.jacobian import jacobian
 from .model.model import Model
 from .model.reading import read
-from .show.mesh import to_meshio
-from .show.page import broken_page, page
-from .show.saving import save
-from .show.window import InWords, is_displayed, is_taken, open_page, page_path, write_page
-from .show.writers import as_bytes
 from .util.loading import load
 from .util.partial import attempted
 from .util.records import cached_property
@@ -36,6 +30,7 @@ if TYPE_CHECKING:
     import meshio
 
     from .advice.advice import Advice
+    from .model.jacobian import Jacobian
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,7 +57,7 @@ class Analysis(Result):
 
         A divided sheet or wire that is declared counts as one beam.
         """
-        whole = jacobian(Model.from_data(self.data))
+        whole: Jacobian = load("flexact.model.jacobian").jacobian(Model.from_data(self.data))
         row_of = {label: i for i, label in enumerate(whole.row_labels)}
         column_of = {label: i for i, label in enumerate(whole.column_labels)}
         rows = [row_of[label] for label in self.row_labels]
@@ -80,7 +75,8 @@ class Analysis(Result):
 
     def to_meshio(self) -> meshio.Mesh:
         """The mechanism with its motions and self-stresses as a mesh (`flexact.show.mesh`)."""
-        return to_meshio(self)
+        made: meshio.Mesh = load("flexact.show.mesh").to_meshio(self)
+        return made
 
     def save(
         self,
@@ -117,7 +113,7 @@ class Analysis(Result):
             "quantity": quantity,
             "view": view,
         }
-        save(self, Path(path), choice)
+        load("flexact.show.saving").save(self, Path(path), choice)
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Path | None:
         """Show the page of the result: in the browser, or in the notebook.
@@ -133,14 +129,18 @@ class Analysis(Result):
         Raises:
             FlexactError: The page cannot be written, or the path is not that of a page.
         """
-        if is_taken(self) or (path is None and is_displayed(self)):
+        window = load("flexact.show.window")
+        if window.is_taken(self) or (path is None and window.is_displayed(self)):
             return None
         if path is None:
             # The still picture of `save` takes a while, and is for browsers elsewhere.
-            return open_page(write_page(as_bytes(page(self)), self.name))
-        target = page_path(path)
-        self.save(target)
-        return open_page(target)
+            page = load("flexact.show.page").page(self)
+            target = window.write_page(load("flexact.show.writers").as_bytes(page), self.name)
+        else:
+            target = window.page_path(path)
+            self.save(target)
+        opened: Path = window.open_page(target)
+        return opened
 
     def advice(
         self, body: str | None = None, wanted: Sequence[str] = (), bodies: bool = False
@@ -281,14 +281,18 @@ def analyse(
 
 def show_model(model: Model, path: str | os.PathLike[str] | None = None) -> Path | None:
     """Analyse a model and show its page, or that of its errors; see `Model.show`."""
-    if is_taken(model):
+    window = load("flexact.show.window")
+    if window.is_taken(model):
         return None
     try:
         analysis = analyse(model)
     except (ProblemsError, AnalysisError) as error:
-        if path is None and is_displayed(InWords(error)):
+        if path is None and window.is_displayed(window.InWords(error)):
             return None
         name = model.name or "model"
-        target = None if path is None else page_path(path)
-        return open_page(write_page(as_bytes(broken_page(error, name)), name, target))
+        target = None if path is None else window.page_path(path)
+        page = load("flexact.show.page").broken_page(error, name)
+        written = window.write_page(load("flexact.show.writers").as_bytes(page), name, target)
+        opened: Path = window.open_page(written)
+        return opened
     return analysis.show(path)

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..analysis.calls import calls_of
 from ..analysis.mode_words import (
     conflict_in_words,
     internal_in_words,
@@ -40,6 +39,7 @@ from ..analysis.verdict_words import (
 )
 from ..analysis.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 from ..util.groups import grouped
+from ..util.loading import load
 from ..util.text import TIE, USUAL, harmless, table
 
 if TYPE_CHECKING:
@@ -458,7 +458,9 @@ def _line(result: Result, head: str, advice: Way) -> Line:
 def _note(result: Result, advice: Way, part: Part, first: bool) -> str:
     """How it is done with a part: in a deck by a statement, in Python by a call."""
     if result.given.source is None:
-        calls = calls_of(result, advice, part) if first else ()
+        calls: tuple[str, ...] = ()
+        if first:
+            calls = load("flexact.analysis.calls").calls_of(result, advice, part)
         return f"({', '.join(calls)})" if calls else ""
     if not advice.keywords:
         return ""

@@ -31,9 +31,8 @@ from ..analysis.ways import is_of_class, on_motions, rows_of
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, Role, role_table
 from ..deck.tokens import DeckComments
-from ..model.deformations import AT_P, AT_Q
 from ..model.editing import edited_to_the_letter
-from ..model.parts.forms import PLANAR, XZ
+from ..model.parts.forms import AT_P, AT_Q, PLANAR, XZ
 from ..model.parts.parts import Part, PartKind, natural, surplus_of
 from ..model.writing import dynamics_of, statements_of
 from ..util.errors import FlexactError

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from enum import Enum
 from itertools import chain
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..analysis.change import Change
 from ..analysis.decomposition import Asked
@@ -15,8 +15,10 @@ from ..analysis.naming import Pieces, counts_in_words, plain, sentence_of
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import Verdict
 from ..deck.rendering import model_error
-from ..model.model import Model
 from ..util.records import Frozen, cached_property
+
+if TYPE_CHECKING:
+    from ..model.model import Model
 
 
 class Purpose(str, Enum):

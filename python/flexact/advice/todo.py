@@ -7,6 +7,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,7 +17,9 @@ from ..analysis.verdict import Verdict
 from ..util.loading import load
 from ..util.partial import attempted
 from ..util.text import TIE, harmless
-from .step import Step
+
+if TYPE_CHECKING:
+    from .step import Step
 
 #: Of a D(c) with more multiplications than this a step takes more than some 0.3 s to find; of
 #: more than this so does a repair of few statements.

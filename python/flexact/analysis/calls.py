@@ -12,13 +12,12 @@ import numpy as np
 from ..core.elements import Class, Member, NodeKind, Role
 from ..deck.rendering import ModelError
 from ..model.data import ModelData
-from ..model.deformations import AT_Q
 from ..model.draft import ROUNDING
-from ..model.model import Model
 from ..model.parts.condensing import condensed
-from ..model.parts.forms import is_member
+from ..model.parts.forms import AT_Q, is_member
 from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
+from ..util.loading import load
 from .change import Change
 from .decomposition import Decomposition
 from .locate import positions_near
@@ -141,14 +140,15 @@ def calls_of_change(result: Decomposition, change: Change, method: str) -> list[
 
 def made(given: ModelData, calls: Iterable[Call]) -> ModelData | None:
     """A model after some calls; None where it does not take them."""
-    model = Model.from_data(given)
+    model = load("flexact.model.model").Model.from_data(given)
     try:
         for call in calls:
             at = {} if call.at is None else {"at": call.at}
             getattr(model, call.method)(*call.arguments, **at)
     except ModelError:
         return None
-    return model.data
+    after: ModelData = model.data
+    return after
 
 
 def coordinate_call(result: Decomposition, method: str, node: int, name: str) -> Call:

@@ -5,17 +5,20 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.elements import Class
 from ..model.data import ModelData
-from ..model.handles import Node
-from ..model.model import Model
 from ..model.names import part_name
 from ..model.variation import with_classes, with_positions, with_vectors
+from ..util.loading import load
 from ..util.records import Frozen
+
+if TYPE_CHECKING:
+    from ..model.handles import Node
+    from ..model.model import Model
 
 #: What wires and sheets that are added are called.
 _NEW_WIRE, _NEW_SHEET = "new wire", "new sheet"
@@ -94,7 +97,7 @@ class Change(Frozen):
                 {(element, number): given for element, number, given in self.deformations},
                 {(node, name): given for node, name, given in self.coordinates},
             )
-        model = Model.from_data(data)
+        model: Model = load("flexact.model.model").Model.from_data(data)
         for number in self.left_out:
             model.delete(number, ends=True)
         flexures: list[AddedWire | AddedSheet] = [*self.wires, *self.sheets]

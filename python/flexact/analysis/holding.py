@@ -29,7 +29,7 @@ from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import Class, NodeKind
 from ..core.raw import RawAnalysis
 from ..model.parts.parts import Joint, Part, PartKind, natural
-from ..util.groups import grouped
+from ..util.groups import grouped, values_in
 from ..util.matrices import null_space, span
 from ..util.records import Frozen
 from ..util.text import number_in_words
@@ -785,7 +785,7 @@ def _hanging_together(linked: np.ndarray) -> list[list[int]]:
     for _ in range(int(np.ceil(np.log2(max(len(linked), 2))))):
         reach = (reach.astype(float) @ reach.astype(float)) > 0.0
     firsts = np.argmax(reach, axis=1)
-    return [np.flatnonzero(firsts == first).tolist() for first in np.unique(firsts)]
+    return [np.flatnonzero(firsts == first).tolist() for first in values_in(firsts)]
 
 
 def _named(axes: FloatArray) -> FloatArray:

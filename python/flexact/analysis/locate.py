@@ -11,15 +11,13 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
 from ..deck.rendering import model_error
-from ..model.arguments import of_indices
-from ..model.deformations import classes_of_division, find_deformations
-from ..model.draft import ROUNDING
-from ..model.draft_arrays import draft_of
 from ..model.names import ambiguous, unknown
 from ..model.parts.parts import Part, PartKind, Parts
 from ..model.transform import Place
+from ..util.loading import load
 from ..util.quantities import without_units
 from ..util.text import in_short
+from .limits import SAME_PLACE
 
 #: How many numbers of nodes or elements a message names.
 _MOST = 12
@@ -135,7 +133,7 @@ def position_of(parts: Parts, target: object) -> int:
         if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
             raise TypeError(f"a place has three finite coordinates [m], not {in_short(target)}")
         # Within rounding of the size of the model.
-        found = positions_near(parts, np.pad(given, (0, 3 - given.size)), ROUNDING)
+        found = positions_near(parts, np.pad(given, (0, 3 - given.size)), SAME_PLACE)
         if not found.size:
             raise model_error("no-such-point", f"there is no point at {in_short(target)}")
         return int(found[int(np.argmin(data.arrays.node_number[found]))])
@@ -263,12 +261,14 @@ def deformations_of(
                 f"it has {', '.join(map(str, there.tolist()))}",
             )
         return [(found[0], number - 1)]
-    draft = draft_of(data)
+    # What builds models is loaded where one is made.
+    draft = load("flexact.model.draft_arrays").draft_of(data)
+    spelled = load("flexact.model.deformations")
     if at is not None and not isinstance(at, str):
         place = data.arrays.node_value[:3, position_of(parts, at)].tolist()
         at = place[:2] if data.planar else place
-    part = of_indices(draft, list(found))
-    indices, numbers = find_deformations(draft, part, (which,), at)
+    part = load("flexact.model.arguments").of_indices(draft, list(found))
+    indices, numbers = spelled.find_deformations(draft, part, (which,), at)
     kind = element_kinds()[draft.kinds[indices[0]] - 1]
-    places, _ = classes_of_division(draft.classes, kind, indices, numbers, Class.DEPENDENT)
+    places, _ = spelled.classes_of_division(draft.classes, kind, indices, numbers, Class.DEPENDENT)
     return [(index, k - 1) for index, k in places]

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..core.arrays import Basis, BoolArray, FloatArray, IndexArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
-from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
+from ..model.parts.forms import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.groups import grouped
 from ..util.matrices import complement, null_space

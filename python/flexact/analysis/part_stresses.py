@@ -20,7 +20,7 @@ from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Joint, Part, PartKind, natural
-from ..util.groups import grouped, groups_of
+from ..util.groups import grouped, groups_of, values_in
 from ..util.records import Frozen, cached_property
 from .decomposition import Decomposition, row_weights
 from .limits import EXACT_COSINE, NO_RESULTANT, ROUNDING, SAME_WRENCH, TOLD
@@ -72,7 +72,7 @@ def local_resultants(data: ModelData, element: np.ndarray, value: FloatArray) ->
     length = data.frames.length[element]
     made = np.zeros((len(element), 4, 2))
     for deformation, role in enumerate(role_table()[kind].T):
-        for each in np.unique(role[role > 0]).tolist():
+        for each in values_in(role[role > 0]).tolist():
             chosen = (role == each) & ~joint
             for row, end, factor in _AT_ENDS.get(each, ()):
                 arm = length[chosen] if each in _WITH_ARM else 1.0

@@ -12,9 +12,8 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind, Role, role_table
 from ..model.data import ModelData
-from ..model.deformations import AT_P, AT_Q, LOCAL_AXIS
 from ..model.parts.condensing import Condensed
-from ..model.parts.forms import Form
+from ..model.parts.forms import AT_P, AT_Q, LOCAL_AXIS, Form
 from ..model.parts.parts import Joint, Part, PartKind, Parts
 from .limits import ALONG
 from .mode_basis import without_sense

@@ -16,8 +16,8 @@ from ..core.elements import Class, Dual, NodeKind, Role, coordinate_name, role_t
 from ..core.progress import Progress
 from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
-from ..model.deformations import AT_P, AT_Q
 from ..model.parts.condensing import condensed
+from ..model.parts.forms import AT_P, AT_Q
 from ..model.parts.parts import Joint, PartKind, declared
 from ..model.variation import with_classes
 from ..util.loading import load

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import Basis, BoolArray, FloatArray, IndexArray
-from ..util.groups import grouped, least_of_groups
+from ..util.groups import grouped, least_of_groups, values_in
 from ..util.matrices import complement, null_space, span
 from .limits import ROUNDING
 
@@ -346,7 +346,7 @@ def _by_what_is_seen(space: FloatArray, groups: Groups) -> tuple[FloatArray, Flo
     """The vectors of a space that no group has, and those across them."""
     every = np.concatenate([np.zeros(0, int), *groups])
     orthonormal = np.linalg.qr(space)[0]
-    if np.unique(every).size == len(space):
+    if values_in(every).size == len(space):
         return orthonormal[:, :0], orthonormal
     unseen = null_space(np.linalg.qr(orthonormal[every])[1], ROUNDING)
     return orthonormal @ unseen, orthonormal @ complement(unseen)
@@ -447,7 +447,7 @@ class _Search:
         vectors = np.linalg.inv(rows[chosen])
         vectors /= np.abs(rows @ vectors).max(axis=0)
         there = np.abs(rows @ vectors) > 1.0e3 * ROUNDING
-        supports = [tuple(members[i] for i in np.unique(owner[mine]).tolist()) for mine in there.T]
+        supports = [tuple(members[i] for i in values_in(owner[mine]).tolist()) for mine in there.T]
         made = [
             Piece(self._cost(support), support, self.refine(within @ vectors[:, same]))
             for support, same in grouped((each, k) for k, each in enumerate(supports)).items()

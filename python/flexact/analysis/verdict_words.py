@@ -6,10 +6,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
 from ..core.elements import NodeKind
 from ..deck.diagnostics import Diagnostic, warning
+from ..util.groups import values_in
 from ..util.text import MOST_TYPED, significant_digits
 from .certainty import Doubt, DoubtKind
 from .decomposition import Accuracy
@@ -334,7 +333,7 @@ def _digits(result: Result) -> str:
     """How many digits the coordinates were typed with, those aside that are known to the bit."""
     arrays = result.data.arrays
     places = arrays.node_value[:3, arrays.node_kind <= NodeKind.POSITION]
-    lengths = {significant_digits(value) for value in np.unique(places).tolist()}
+    lengths = {significant_digits(value) for value in values_in(places).tolist()}
     typed = [length for length in lengths if length <= MOST_TYPED]
     return f"at most {max(typed, default=0)}"
 

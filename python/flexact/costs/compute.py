@@ -26,8 +26,8 @@ from ..elasticity import Elastic, ElasticError, State, StrokeError, elastic
 from ..elasticity.limits import Strengths
 from ..elasticity.solution import notch_unit
 from ..model.data import ModelData
-from ..model.deformations import AT_P, AT_Q
 from ..model.model import Model
+from ..model.parts.forms import AT_P, AT_Q
 from ..model.parts.parts import Parts
 from ..util.errors import FlexactError
 from ..util.matrices import first_largest

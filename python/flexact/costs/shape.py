@@ -14,7 +14,7 @@ from ..core.elements import Class, NodeKind, role_table
 from ..elasticity import ElasticError, State
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from ..model.deformations import AT_P
+from ..model.parts.forms import AT_P
 from ..show.picture import shape_bytes
 from ..show.writers import require_name, write
 from ..util.errors import require_kind

@@ -22,8 +22,8 @@ from ..core.elements import (
     role_table,
 )
 from ..model.data import Appearance, ModelData
-from ..model.deformations import AT_P, AT_Q
 from ..model.parts.chains import Chain
+from ..model.parts.forms import AT_P, AT_Q
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .errors import ElasticError

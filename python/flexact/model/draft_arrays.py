@@ -10,7 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, is_position, kind_of
 from ..deck.diagnostics import Diagnostic, Problems, Severity, warning
-from ..util.groups import groups_of
+from ..util.groups import groups_of, values_in
 from ..util.text import in_short
 from .data import NUMBERS, OF_ELEMENTS, Appearance, Loads, ModelData, Properties, rows_of
 from .draft import Draft, Shape, classes_of
@@ -91,7 +91,7 @@ def _say_looks(draft: Draft, appearance: Appearance) -> None:
 def data_of(draft: Draft, name: str) -> ModelData:
     """The model as it is now, with an error for each class of a node that nobody uses."""
     kinds, slots, classes = _decided(draft)
-    used = np.unique(slots[slots > 0])
+    used = values_in(slots[slots > 0])
     numbers = used.tolist()
     node_kind = np.array([draft.node_kind[n] for n in numbers], np.int32)
     value = np.array([draft.node_value[n] for n in numbers], np.float64).reshape(-1, 4)

@@ -8,7 +8,7 @@ import re
 import stat
 import sys
 from dataclasses import replace
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
@@ -19,7 +19,9 @@ from ..util.decks import DeckFile
 from ..util.loading import load
 from ..util.units import METRES, MILLIMETRES
 from .data import Appearance, DeckNames, Loads, ModelData, Properties, slips_in
-from .model import Model
+
+if TYPE_CHECKING:
+    from .model import Model
 
 LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
@@ -176,6 +178,12 @@ def _file_error(name: str, code: str, message: str, hint: str = "") -> DeckError
     return DeckError(Problems.of([item]), name, None)
 
 
+def _model(data: ModelData) -> Model:
+    # A command that reads a deck needs nothing of what makes models.
+    made: Model = load("flexact.model.model").Model.from_data(data)
+    return made
+
+
 def read(path: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> Model:
     """Read a deck from a file.
 
@@ -188,7 +196,7 @@ def read(path: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> Model:
         DeckError: anything is wrong with the deck or the file.
         TypeError: `path` is no path.
     """
-    return Model.from_data(read_file(path))
+    return _model(read_file(path))
 
 
 def read_text(text: str | bytes, name: str = "deck") -> Model:
@@ -205,7 +213,7 @@ def read_text(text: str | bytes, name: str = "deck") -> Model:
     if not isinstance(name, str):
         raise TypeError(f"the name of a deck must be text, not {type(name).__name__}")
     if isinstance(text, str):
-        return Model.from_data(read_bytes(text.encode("utf-8", "replace"), name))
+        return _model(read_bytes(text.encode("utf-8", "replace"), name))
     if isinstance(text, (bytes, bytearray, memoryview)):
-        return Model.from_data(read_bytes(bytes(text), name))
+        return _model(read_bytes(bytes(text), name))
     raise TypeError(f"the text of a deck must be text or bytes, not {type(text).__name__}")

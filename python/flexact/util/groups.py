@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 _Key = TypeVar("_Key", bound=Hashable)
 _Thing = TypeVar("_Thing")
@@ -50,3 +50,12 @@ def least_of_groups(
         apart = group[one] != group[other]
         one, other = one[apart], other[apart]
     return group
+
+
+def values_in(array: ArrayLike) -> NDArray[Any]:
+    """Each value of an array once, in order; plain `numpy.unique` would import numpy.ma first."""
+    ordered = np.sort(array, axis=None)
+    is_first = np.ones(ordered.size, bool)
+    is_first[1:] = ordered[1:] != ordered[:-1]
+    values: NDArray[Any] = ordered[is_first]
+    return values

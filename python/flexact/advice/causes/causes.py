@@ -11,7 +11,7 @@ import numpy as np
 
 from ...analysis.result import Motion, Result
 from ...core.arrays import FloatArray
-from ...util.groups import groups_of
+from ...util.groups import groups_of, values_in
 from ...util.records import cached_property
 from ..step import Step
 from .cause import Cause, CauseKind, Causes, Lift, Relation
@@ -225,7 +225,7 @@ class _Special:
         mixed = blocks @ weights
         of_stresses: Groups = []
         of_motions: Groups = []
-        for group in np.unique(owner[pairs[:, 0]]).tolist() if len(pairs) else []:
+        for group in values_in(owner[pairs[:, 0]]).tolist() if len(pairs) else []:
             mine = np.flatnonzero(owner == group)
             rows, columns = mine[mine < count], mine[mine >= count] - count
             values = np.linalg.svd(mixed[np.ix_(rows, columns)], compute_uv=False)

@@ -17,6 +17,7 @@ import numpy as np
 from ...analysis.result import Result
 from ...core.arrays import BoolArray, FloatArray
 from ...model.parts.parts import Part, PartKind
+from ...util.groups import values_in
 from ...util.rotations import unit
 from .cause import LineKind, Relation, RelationKind
 from .gradients import Geometry
@@ -337,7 +338,7 @@ def _of_points(figures: Figures, one: Relation) -> _Made:
     result = figures.result
     mine = np.isin(result.condensed.elements, members)
     slots = result.data.arrays.element_node[[0, 2]][:, mine] - 1
-    nodes = np.unique(slots[slots >= 0]).tolist()
+    nodes = values_in(slots[slots >= 0]).tolist()
     in_line = one.kind == "one line"
 
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:

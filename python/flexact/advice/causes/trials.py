@@ -17,6 +17,7 @@ from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
+from ...util.groups import values_in
 from ...util.records import Frozen
 from ...util.rotations import matrix_of, unit
 from .cause import Relation, RelationKind
@@ -199,10 +200,10 @@ class Trials(Frozen):
         rng: np.random.Generator,
     ) -> tuple[FloatArray, FloatArray] | None:
         length, owner, free = self.figures.length, self.geometry.owner, self.geometry.free
-        nodes = np.unique(owner[[node for one in conditions for node in one.nodes]])
+        nodes = values_in(owner[[node for one in conditions for node in one.nodes]])
         node, axis = np.nonzero(free[nodes])
         node = nodes[node]
-        elements = np.unique([e for one in conditions for e in one.elements])
+        elements = values_in([e for one in conditions for e in one.elements])
         elements = elements[np.any(self.geometry.vectors[elements], axis=1)]
         sizes = [one.free.size for one in conditions]
         ends = np.cumsum([0, *sizes])

@@ -38,7 +38,7 @@ from ...model.data import ModelData
 from ...model.parts.condensing import as_given
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
-from ...util.groups import grouped
+from ...util.groups import grouped, values_in
 from ...util.records import Frozen
 from ..step import Purpose, after, analysed, together
 from .matroid import Judge, Rows, TooManyError, count_bases
@@ -181,7 +181,7 @@ def of_released(result: Result) -> Reach:
 
 def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, Places]:
     """Rows of a matrix times a basis that are not zero, up to what rounding leaves of them."""
-    index = np.unique(matrix.row_of)
+    index = values_in(matrix.row_of)
     row = index_of(index, matrix.rows)[matrix.row_of]
     vectors = basis.toarray()
     made = np.zeros((2, index.size, basis.vectors))
@@ -291,7 +291,7 @@ def _sets(reach: Reach, place: Places, count: int, wishes: FloatArray) -> Iterat
         order = np.lexsort((place[able], -np.round(norms[able], 9)))
         able = able[order[:_MOST_ROWS]]
     known: dict[tuple[int, ...], None] = {}
-    for most in np.unique(wishes[able]).tolist():
+    for most in values_in(wishes[able]).tolist():
         if known and is_large:
             break
         some = able[wishes[able] <= most]

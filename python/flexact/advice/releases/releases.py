@@ -38,6 +38,7 @@ from ...core.elements import (
 )
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
+from ...util.groups import values_in
 from ...util.records import Frozen, cached_property
 from ..step import Purpose, Step, after, together, tried
 from . import candidates as reaches
@@ -209,7 +210,7 @@ def by_steps(
 
 def _block(reach: Reach, unwelcome: FloatArray) -> tuple[list[int], float] | None:
     """Rows with a well-conditioned block, and its smallest singular value."""
-    for most in np.unique(unwelcome).tolist():
+    for most in values_in(unwelcome).tolist():
         some = np.flatnonzero(unwelcome <= most)
         form = echelon_of(reach.rows[some], _LEAST_SINGULAR)
         if form is not None:

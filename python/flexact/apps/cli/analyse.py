@@ -183,13 +183,14 @@ def _words(analysis: Result, chosen: argparse.Namespace, has_files: bool) -> tup
         return load("flexact.show.spacar_log").spacar_log(analysis), True
     # What concerns the deck stands on stderr already.
     missing: list[str] = []
+    glances: Any = load("flexact.api").glances if analysis.given.has_stiffness else None
     words = describe(
         analysis,
         about_model=False,
         most=MOST_MODES,
         width=text_width(),
         verbose=is_verbose(),
-        todo=todo_of(analysis, *load("flexact.api").glances(analysis, missing)),
+        todo=todo_of(analysis, *(glances(analysis, missing) if glances else ())),
     )
     complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
     return f"{_coloured(words, analysis)}\n", False

@@ -26,11 +26,12 @@ from ...core.raw import ElementKind
 from ...deck.diagnostics import Diagnostic, Place, Source
 from ...deck.rendering import ModelError
 from ...model.data import CrossSection, ModelData
-from ...model.deformations import AT_P, AT_Q, WIDE_Y, WIDE_Z, Planes, word_of
+from ...model.deformations import WIDE_Y, WIDE_Z, Planes, word_of
 from ...model.draft import Shape
 from ...model.handles import Element, Node, Part
 from ...model.model import Model
 from ...model.names import nearest
+from ...model.parts.forms import AT_P, AT_Q
 from ...model.parts.parts import Part as FoundPart
 from ...model.parts.parts import PartKind, Parts
 from ...show.writers import FLEXURES

@@ -27,9 +27,10 @@ from ...analysis.result import Result, result_of
 from ...core.elements import AXES, Class, NodeKind, Role, coordinate_name, element_kinds
 from ...deck.diagnostics import decode
 from ...model.data import ModelData
-from ...model.deformations import AT_P, classes_of_division
+from ...model.deformations import classes_of_division
 from ...model.editing import edited_to_the_letter
 from ...model.parts.chains import Chain
+from ...model.parts.forms import AT_P
 from ...model.parts.parts import Parts
 from ...model.reading import read_bytes
 from ...model.writing import deck_of, statements_of

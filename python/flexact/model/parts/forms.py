@@ -14,6 +14,14 @@ from ...core.elements import Class, Member, Role, member_table, role_table
 XZ = (Role.BENDING_XZ_P, Role.BENDING_XZ_Q)
 XY = (Role.BENDING_XY_P, Role.BENDING_XY_Q)
 PLANAR = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
+#: Roles of what happens at p, and at q; what is not among them has no end.
+AT_P = frozenset((Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P))
+AT_Q = frozenset((Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q))
+#: Local axis about or along which a deformation is, by role; x, or none of its own, of others.
+LOCAL_AXIS: dict[int, int] = {
+    **dict.fromkeys((*XZ, Role.OFFSET_Y, Role.TILT_Y), 1),
+    **dict.fromkeys((*XY, Role.OFFSET_Z, Role.TILT_Z), 2),
+}
 
 
 class Form(IntEnum):
