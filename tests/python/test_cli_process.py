@@ -14,6 +14,8 @@ import flexact
 
 pytestmark = pytest.mark.dear(14)
 
+ROOT = Path(__file__).resolve().parents[2]
+
 
 def command(
     *arguments: object, environment: Mapping[str, str] | None = None
@@ -154,3 +156,34 @@ def test_a_closed_stdout_is_reported(arguments: str, decks: Path) -> None:
     )
     assert done.returncode == 2
     assert_one_line_of_the_command(done.stderr)
+
+
+#: What a command that only says a verdict has no use for: pages, pictures, meshes, the builder,
+#: steps that mend, and libraries that each take as long as the analysis of a deck, or longer.
+UNUSED = (
+    *("flexact.show.page", "flexact.show.picture", "flexact.show.mesh", "flexact.show.saving"),
+    *("flexact.show.drawing", "flexact.show.notebook", "flexact.motion", "flexact.elasticity"),
+    *("flexact.costs", "flexact.designs", "flexact.sweeps", "flexact.api", "flexact.model.model"),
+    *("flexact.model.handles", "flexact.advice.advice", "flexact.advice.step"),
+    *("numpy.ma", "numpy.polynomial", "email", "http", "urllib.request", "xml", "ssl", "json"),
+    *("importlib.metadata", "importlib.resources", "logging", "tempfile", "webbrowser", "decimal"),
+    *("difflib", "hashlib", "multiprocessing", "scipy", "matplotlib", "meshio", "tqdm"),
+)
+
+
+@pytest.mark.parametrize("verb", ["analyse", "check"])
+def test_a_verdict_loads_nothing_that_it_does_not_need(verb: str) -> None:
+    deck = ROOT / "input_decks" / "paper" / "five_folded_sheets.dat"
+    code = (
+        "import sys; from flexact.apps.cli.main import main; "
+        f"code = main([{verb!r}, {str(deck)!r}]); print(*sys.modules); sys.exit(code)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, env=process_environment(), check=True
+    )
+    loaded = done.stdout.decode().split("\n")[-2].split()
+    assert not [
+        name
+        for name in loaded
+        if any(name == unused or name.startswith(f"{unused}.") for unused in UNUSED)
+    ]

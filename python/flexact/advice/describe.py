@@ -125,12 +125,12 @@ def _safe(text: str) -> str:
 
 
 #: Where the statements or calls begin that do what a sentence says.
-_STATEMENTS = re.compile(r" \((?:[A-Z]{3,} \d|model\.)")
+_STATEMENTS = r" \((?:[A-Z]{3,} \d|model\.)"
 
 
 def _without_statements(text: str) -> str:
     """A sentence without its statements of a deck or calls of Python, which stand in brackets."""
-    while found := _STATEMENTS.search(text):
+    while found := re.search(_STATEMENTS, text):
         depth, quoted, end = 0, False, found.start()
         for end in range(found.start() + 1, len(text)):
             quoted ^= text[end] == '"'

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
@@ -66,7 +65,8 @@ def do_this(result: Result, steps: Sequence[Step] | None) -> Line | None:
     if steps is None:
         where = "analysis.advice()"
         if result.given.source is not None and result.name:
-            where = f"flexact advise {shlex.quote(harmless(result.name))}".replace(" ", TIE)
+            name = load("shlex").quote(harmless(result.name))
+            where = f"flexact advise {name}".replace(" ", TIE)
         return line_of(f"{where} says what can be done.")
     if not steps:
         return None

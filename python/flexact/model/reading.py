@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
-_ALONE = re.compile(rb"\r(?!\n)")
+_ALONE = rb"\r(?!\n)"
 _SAMPLE, _HEAD = 65536, 64
 _PIECE = 2**20
 _CONTROLS = bytes(c for c in range(32) if chr(c) not in "\t\n\r\f\v\x1a") + b"\x7f"
@@ -109,7 +109,7 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
     raw = raw.removesuffix(b"\x1a")
     if raw.count(b"\r") != raw.count(b"\r\n"):
         # Lines of an old Mac, which may stand among others; no character moves within its line.
-        raw = _ALONE.sub(b"\n", raw)
+        raw = re.sub(_ALONE, b"\n", raw)
     _require_text(raw, name)
     source = Source(raw, name)
     try:

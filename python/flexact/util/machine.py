@@ -166,7 +166,7 @@ def _given() -> int:
     return os.cpu_count() or 1
 
 
-_ESCAPED = re.compile(r"\\([0-7]{3})")
+_ESCAPED = r"\\([0-7]{3})"
 #: Where they are mounted if `mountinfo` does not say: that of version 2, and those of version 1.
 _USUAL = "/sys/fs/cgroup"
 
@@ -233,7 +233,7 @@ def _mounts(root: Path, controller: str, is_first_version: bool) -> list[tuple[s
 
 
 def _plain(path: str) -> str:
-    return _ESCAPED.sub(lambda found: chr(int(found[1], 8)), path)
+    return re.sub(_ESCAPED, lambda found: chr(int(found[1], 8)), path)
 
 
 def _text(path: Path) -> str:

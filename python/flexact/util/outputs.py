@@ -20,7 +20,7 @@ from .errors import BatchError, reason_of
 from .interruption import undisturbed
 from .loading import load
 
-_NAME = re.compile(r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9a-f]+\.tmp")
+_NAME = r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9a-f]+\.tmp"
 #: Between two looks into a folder [s]: a batch may write thousands of files into one.
 _PAUSE = 60.0
 
@@ -66,7 +66,7 @@ def remove_left(folder: Path) -> None:
     _looked[folder] = now
     with contextlib.suppress(OSError), os.scandir(folder) as entries:
         for entry in entries:
-            found = _NAME.fullmatch(entry.name)
+            found = re.fullmatch(_NAME, entry.name)
             if found and found[1] == _system() and _is_left(entry, int(found[2])):
                 with contextlib.suppress(OSError):
                     os.unlink(entry.path)

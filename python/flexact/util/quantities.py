@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import math
 import re
-from decimal import Decimal
 from typing import Any, NamedTuple, SupportsFloat, SupportsIndex
 
 import numpy as np
 
 from .errors import FlexactError
+from .loading import load
 from .text import in_short
 
 #: What Python takes for a quantity: SI, or a text that says its unit.
 Quantity = float | str
 
-_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_NUMBER = r"(?s)\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*"
 _MICRO = ("u", "\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}")
 _SMALL = {"m": -3, **dict.fromkeys(_MICRO, -6), "n": -9}
 
@@ -118,7 +118,7 @@ def measured(given: object, unit: str) -> float:
             raise TypeError
         plain = _KINDS[unit].plain
         # By its digits, so that 0.3 mm is the number that 0.0003 is.
-        return float(Decimal(repr(float(given))).scaleb(plain)) if plain else float(given)
+        return _scaled(repr(float(given)), plain) if plain else float(given)
     value, said = _read(given, unit)
     if not said:
         raise QuantityError(
@@ -131,7 +131,7 @@ def measured(given: object, unit: str) -> float:
 def _with_unit(unit: str) -> str:
     """The first example of a kind that says its unit."""
     examples = re.split(r", | or ", _KINDS[unit].example)
-    return next(each for each in examples if _NUMBER.fullmatch(each)[2])  # type: ignore[index]
+    return next(each for each in examples if re.fullmatch(_NUMBER, each)[2])  # type: ignore[index]
 
 
 def without_units(given: object, unit: str) -> Any:
@@ -154,22 +154,27 @@ def without_units(given: object, unit: str) -> Any:
     return given
 
 
+def _scaled(digits: str, power: int) -> float:
+    """A decimal number times a power of ten."""
+    return float(load("decimal").Decimal(digits).scaleb(power))
+
+
 def _read(text: str, unit: str) -> tuple[float, str]:
     """The number, and the unit that was said."""
-    found, kind = _NUMBER.fullmatch(text), _KINDS[unit]
+    found, kind = re.fullmatch(_NUMBER, text), _KINDS[unit]
     said = "" if found is None else re.sub(r"[\s*]|\N{MIDDLE DOT}", "", found[2])
     said = said.replace("\N{SUPERSCRIPT TWO}", "2").replace("\N{SUPERSCRIPT THREE}", "3")
     value = math.nan
     if found is not None:
         turned = _KINDS["rad"].powers.get(said)
         if not said or (unit == "deg" and said in _DEGREES):
-            value = float(Decimal(found[1]).scaleb(kind.plain))
+            value = _scaled(found[1], kind.plain)
         elif unit == "deg" and turned is not None:
-            value = math.degrees(float(Decimal(found[1]).scaleb(turned)))
+            value = math.degrees(_scaled(found[1], turned))
         elif unit == "rad" and said in _DEGREES:
             value = math.radians(float(found[1]))
         elif said in kind.powers:
-            value = float(Decimal(found[1]).scaleb(kind.powers[said]))
+            value = _scaled(found[1], kind.powers[said])
     if math.isnan(value):
         of = next((k.name for k in _KINDS.values() if said in k.powers), "")
         of = "an angle" if said in _DEGREES else of

@@ -9,11 +9,11 @@ of a model keep SI.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import overload
 
 import numpy as np
 
+from .loading import load
 from .quantities import QuantityError, measured
 from .records import Frozen
 from .text import in_short
@@ -97,9 +97,10 @@ class Units(Frozen):
         power = -self.power * _WITH_LENGTH.get(unit, (0, unit))[0]
         if not power or not value:
             return repr(value)
-        exact = Decimal(repr(value)).scaleb(power)
+        decimal = load("decimal").Decimal
+        exact = decimal(repr(value)).scaleb(power)
         near = repr(float(exact))
-        return near if Decimal(near) == exact else str(exact)
+        return near if decimal(near) == exact else str(exact)
 
 
 def _scaled(value: float | np.ndarray, power: int) -> float | np.ndarray:

@@ -27,7 +27,7 @@ from .terminal import (
 DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
 #: 128 and the number of SIGPIPE, which not all systems have.
 _PIPE_CLOSED = 128 + 13
-_VERBOSE = re.compile(r"-v+|--verbose")
+_VERBOSE = r"-v+|--verbose"
 EPILOG = """\
 exit codes:
   0  analysed (or advised, costed, traced, checked, compared, stored, drawn, written)
@@ -60,7 +60,9 @@ def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.Argume
         title="commands", metavar="COMMAND", prog="flexact", required=True
     )
     called = next((word for word in words if word in VERBS), None)
-    for verb, about in VERBS.items():
+    # Where the verb comes first, as it should, no other is looked for.
+    there = {called: VERBS[called]} if called and called == words[0] else VERBS
+    for verb, about in there.items():
         parser_of_verb = verbs.add_parser(
             verb, help=about, allow_abbrev=False, formatter_class=Formatter
         )
@@ -88,7 +90,7 @@ class _Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
         """Say it, and end."""
-        asked = [word for word in self.const or () if _VERBOSE.fullmatch(word)]
+        asked = [word for word in self.const or () if re.fullmatch(_VERBOSE, word)]
         count = sum(1 if word == "--verbose" else len(word) - 1 for word in asked)
         if count:
             give(load("flexact.apps.cli.about").about(paths=count > 1))

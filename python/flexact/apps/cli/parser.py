@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import re
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
+from ...util.loading import load
 from ...util.text import harmless
 from .terminal import CHOICES, ExitCode, complain, give, text_width
 
@@ -188,29 +188,30 @@ class SetSeveral(argparse.Action):
         )
 
 
-_UNKNOWN = re.compile(r"unrecognized arguments: (.*)", re.DOTALL)
-_CHOICE = re.compile(r"argument (\S+): invalid choice: '(.*)' \(choose from (.*)\)", re.DOTALL)
+#: Patterns are compiled where something is wrong.
+_UNKNOWN = r"(?s)unrecognized arguments: (.*)"
+_CHOICE = r"(?s)argument (\S+): invalid choice: '(.*)' \(choose from (.*)\)"
 #: Other messages of argparse, and what is said in their place.
 _PLAIN = (
     (
-        re.compile(r"the following arguments are required: (.*)"),
+        r"the following arguments are required: (.*)",
         r"the following required arguments were not given: \1",
     ),
     (
-        re.compile(r"argument (\S+): expected (?:one|at least one) argument"),
+        r"argument (\S+): expected (?:one|at least one) argument",
         r"a value is required for '\1' but none was given",
     ),
-    (re.compile(r"argument (\S+): (.*)", re.DOTALL), r"invalid value for '\1': \2"),
+    (r"(?s)argument (\S+): (.*)", r"invalid value for '\1': \2"),
 )
 
 
 def _meant(message: str, parser: argparse.ArgumentParser) -> tuple[str, str, str]:
     """What is wrong, what is near to it, which may be empty, and what kind of thing that is."""
-    if found := _UNKNOWN.fullmatch(message):
+    if found := re.fullmatch(_UNKNOWN, message):
         first = next((w for w in found[1].split() if w.startswith("-")), found[1].split(" ")[0])
         near = _near(first.split("=")[0], parser._option_string_actions)
         return f"unexpected argument '{first}' found", near, "argument"
-    if found := _CHOICE.fullmatch(message):
+    if found := re.fullmatch(_CHOICE, message):
         name, given, choices = found[1], found[2], re.findall(r"[\w-]+", found[3])
         near = _near(given, choices)
         if name == "COMMAND":
@@ -220,13 +221,13 @@ def _meant(message: str, parser: argparse.ArgumentParser) -> tuple[str, str, str
     if message == "the following arguments are required: COMMAND":
         return "a command is required but none was given", "", ""
     for pattern, words in _PLAIN:
-        if found := pattern.fullmatch(message):
+        if found := re.fullmatch(pattern, message):
             return found.expand(words), "", ""
     return message, "", ""
 
 
 def _near(word: str, known: Iterable[str]) -> str:
-    return next(iter(difflib.get_close_matches(word, list(known), 1)), "")
+    return next(iter(load("difflib").get_close_matches(word, list(known), 1)), "")
 
 
 class Parser(argparse.ArgumentParser):
@@ -271,7 +272,7 @@ PROMPT = "$ "
 _HEAD = "examples, in a clone:"
 _STEP = "    "
 #: What hangs behind a number or a prompt at the start of a line.
-_LEAD = re.compile(r" *(?:\d  |\$ )?")
+_LEAD = r" *(?:\d  |\$ )?"
 #: A word of the shell.
 _WORD = r"(?:'[^']*'|\"[^\"]*\"|\S)+"
 _NARROW, _USUAL = 60, 80
@@ -302,7 +303,7 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
 
 def _fitted(line: str, width: int) -> str:
-    found = _LEAD.match(line)
+    found = re.match(_LEAD, line)
     lead = found[0] if found else ""
     if lead.endswith(PROMPT):
         # A path that is alone in its row is to have room in it.

@@ -32,7 +32,7 @@ from .terminal import complain, give, put, say
 #: Suffixes of decks besides that of the deck that was read.
 DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
 #: What the end of a file's name looks like.
-_FILE = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,6}")
+_FILE = r"\.[A-Za-z][A-Za-z0-9]{0,6}"
 #: What writes files of such suffixes, to be named where a folder was wanted.
 _MAKERS = {
     **dict.fromkeys(PAGES, "a page is made by flexact report"),
@@ -60,7 +60,7 @@ def folder_or(*files: str) -> Callable[[str], Path]:
         if path == STDOUT:
             raise argparse.ArgumentTypeError(f"{wanted}, and - is standard output")
         suffix = path.suffix
-        if suffix.lower() in files or not _FILE.fullmatch(suffix) or _is_folder(text):
+        if suffix.lower() in files or not re.fullmatch(_FILE, suffix) or _is_folder(text):
             return path
         maker = _MAKERS.get(suffix.lower())
         raise argparse.ArgumentTypeError(
@@ -99,7 +99,11 @@ def plan_deck(deck: DeckFile, target: Path) -> None:
     if target == STDOUT:
         return
     suffix = target.suffix.lower()
-    if suffix not in DECKS and suffix != Path(deck.path).suffix.lower() and _FILE.fullmatch(suffix):
+    if (
+        suffix not in DECKS
+        and suffix != Path(deck.path).suffix.lower()
+        and re.fullmatch(_FILE, suffix)
+    ):
         raise OutputError(f"{target} is no name of a deck: it ends with {SUFFIX}")
     plan_file(deck, target)
 

@@ -81,13 +81,14 @@ _STYLES = {
     "strong": "1",
 }
 _FORCING = ("CLICOLOR_FORCE", "FORCE_COLOR")
-_HEADS = re.compile(
+#: Patterns are compiled where something is to be coloured.
+_HEADS = (
     r"^(?P<where>(?!error|warning|note|tip)[^\s:][^:]*: )?(?P<kind>error|warning|note|tip)"
     r"(?P<code>\[[\w-]+\])?(?=:)"
 )
-_PLACE = re.compile(r"^ *(-->|:::)")
-_MARKS = re.compile(r"^( *\| *)([\^]+|-+)( .*)?$")
-_HELP = re.compile(r"^( *= )(help|note)(?=:)")
+_PLACE = r"^ *(-->|:::)"
+_MARKS = r"^( *\| *)([\^]+|-+)( .*)?$"
+_HELP = r"^( *= )(help|note)(?=:)"
 
 
 def painted(text: str, style: str) -> str:
@@ -97,17 +98,17 @@ def painted(text: str, style: str) -> str:
 
 
 def _painted_row(row: str) -> str:
-    if found := _HEADS.match(row):
+    if found := re.match(_HEADS, row):
         kind = found["kind"]
         where, code = found["where"] or "", found["code"] or ""
         style = kind if kind in _STYLES else "note"
         return f"{where}{painted(kind + code, style)}{row[found.end() :]}"
-    if _PLACE.match(row):
+    if re.match(_PLACE, row):
         return painted(row, "faint")
-    if found := _MARKS.match(row):
+    if found := re.match(_MARKS, row):
         style = "mark" if "^" in found[2] else "note"
         return found[1] + painted(found[2] + (found[3] or ""), style)
-    if found := _HELP.match(row):
+    if found := re.match(_HELP, row):
         return f"{found[1]}{painted(found[2], 'note')}{row[found.end() :]}"
     return row
 
