@@ -62,6 +62,14 @@ class Browser:
         self.console()
         self.requests()
         self.driver.get(path.as_uri())
+        self.opened()
+
+    def opened(self) -> None:
+        """Wait until the page has opened what draws it, and drawn."""
+        from selenium.webdriver.support.wait import WebDriverWait
+
+        closed = "return document.querySelector('script.packed') !== null"
+        WebDriverWait(self, 60).until(lambda b: not b.run(closed))
         self.drawn()
 
     def show(self, model: Any, folder: Path) -> flexact.Analysis:

@@ -28,7 +28,7 @@ from flexact.designs.page import hold_shown, html_of, page_of, spaces_of, wanted
 from flexact.designs.problem import Problem
 from flexact.designs.reading import problem_of
 from flexact.designs.scores import cell, pareto
-from flexact.show.page.assets import LAYOUT_SCRIPTS
+from flexact.show.page.assets import LAYOUT_SCRIPTS, asset, script
 from flexact.util.errors import FlexactError
 
 #: Three motions that three wires along z leave; its title would be markup.
@@ -96,7 +96,10 @@ def test_the_page_is_one_file_allowed_by_its_policy(text: str) -> None:
     )
     assert policy.startswith("default-src 'none'; ") and "unsafe" not in policy
     run = re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
-    assert len(run) == len(LAYOUT_SCRIPTS) + 1, "and what starts them"
+    (packed,) = re.findall(r'<script [^>]*class="packed">(.*?)</script>', text)
+    run.append(gzip.decompress(base64.b64decode(packed)).decode())
+    for name in (*LAYOUT_SCRIPTS, "start_layouts.js"):
+        assert sum(script(name) in each or asset(name) in each for each in run) == 1
     for each in (*run, *(data for tag, data in elements.raw if tag == "style")):
         digest = base64.b64encode(hashlib.sha256(each.encode()).digest()).decode()
         assert f"'sha256-{digest}'" in policy

@@ -160,6 +160,7 @@ def watched(tmp_path: Path) -> Iterator[Watched]:
 
 def test_a_watched_page_is_renewed_and_keeps_its_cards(watched: Watched, browser: Browser) -> None:
     browser.driver.get(watched.address)
+    browser.opened()
 
     def state(script: str) -> Any:
         return browser.run(f"return {script}")

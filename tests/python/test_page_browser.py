@@ -214,6 +214,22 @@ def test_a_broken_deck_has_a_page(browser: Browser, tmp_path: Path) -> None:
     assert line.startswith("error[unknown-keyword]: TRUS is not a keyword")
 
 
+def test_a_browser_that_cannot_open_what_draws_says_so(browser: Browser, tmp_path: Path) -> None:
+    path = write(tmp_path / "page.html", paged(ROOT / SHARED)[1])
+    older = {"source": "delete window.DecompressionStream"}
+    added = browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", older)
+    try:
+        browser.open(path)
+    finally:
+        browser.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+    told = browser.run("return document.querySelector('.too-old').textContent")
+    assert all(each in told for each in ("Chrome", "Firefox 113", "Safari 16.4"))
+    assert not browser.run("return document.querySelector('.still').hidden")
+    browser.run("document.querySelector('#theme').click()")
+    assert browser.run("return document.documentElement.dataset.theme") == "dark"
+    assert not [line for line in browser.console() if line.startswith("SEVERE")]
+
+
 def test_every_switch_changes_the_picture(browser: Browser, tmp_path: Path) -> None:
     browser.show(folded_sheet(clamped=True), tmp_path)
     at_rest = browser.pixels()

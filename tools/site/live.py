@@ -14,7 +14,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 import gallery  # noqa: E402
 
-from flexact.show.page.assets import SCRIPTS, asset, script  # noqa: E402
+from flexact.show.page.assets import SCRIPTS, asset, script_elements  # noqa: E402
 from flexact.show.page.content import page  # noqa: E402
 
 #: From disk a page has no origin, so its files are allowed by their scheme.
@@ -23,15 +23,17 @@ POLICY = (
     "base-uri 'none'; form-action 'none'"
 )
 
+_THREE = "three.min.js"
+#: What the pages share, three.js by itself.
+FILES = {"three.js": [_THREE], "viewer.js": [name for name in SCRIPTS if name != _THREE]}
+
 
 def shared(text: str) -> str:
     """The page with its scripts and styles beside it."""
-    for name in SCRIPTS:
-        embedded = f"<script>{script(name)}</script>"
-        beside = f'<script src="{"three.js" if name == SCRIPTS[0] else "viewer.js"}"></script>'
-        if text.count(embedded) != 1:
-            raise SystemExit(f"A page of the gallery has not one {name}.")
-        text = text.replace(embedded, beside if name in (SCRIPTS[0], SCRIPTS[-1]) else "")
+    embedded = script_elements(SCRIPTS)
+    if text.count(embedded) != 1:
+        raise SystemExit("A page of the gallery has other scripts.")
+    text = text.replace(embedded, "".join(f'<script src="{name}"></script>' for name in FILES))
     text = re.sub(
         r"<style>.*?</style>", '<link rel="stylesheet" href="style.css">', text, count=1, flags=re.S
     )
@@ -42,9 +44,8 @@ def main(folder: Path) -> None:
     """Write all."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    (folder / "three.js").write_text(asset(SCRIPTS[0]), encoding="utf-8")
-    rest = "\n".join(asset(name) for name in SCRIPTS[1:])
-    (folder / "viewer.js").write_text(rest, encoding="utf-8")
+    for name, scripts in FILES.items():
+        (folder / name).write_text("\n".join(map(asset, scripts)), encoding="utf-8")
     (folder / "style.css").write_text(asset("style.css"), encoding="utf-8")
     for each in gallery.scripts():
         text = page(gallery.analysis_of(each))

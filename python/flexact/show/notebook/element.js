@@ -54,7 +54,7 @@
       if (this.mounted || this.waking) return;
       this.waking = true;
       try {
-        this.body = this.body || await PageData.unpacked(this.querySelector("script.flexact-data"));
+        this.body = this.body || await Packed.text(this.querySelector("script.flexact-data"));
       } finally {
         this.waking = false;
       }

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 from ...analysis.naming import Line, Named, Pieces
 from ...util.loading import VERSION
 from ...util.text import harmless
+from ..writers import as_bytes
 
 #: Motions, declared degrees of freedom, and self-stresses, of each.
 MOST_MODES = 12
@@ -205,9 +206,15 @@ def paragraphs(sentences: Iterable[Line]) -> str:
     return "".join(f"<p>{flowing(each)}</p>" for each in sentences)
 
 
-#: In the order in which they build on each other.
+_THREE = "three.min.js"
+#: In the order in which they build on each other. What stands before three.js runs in any browser;
+#: it and what is behind it stand compressed in a page, with what opens them.
 SCRIPTS = (
-    "three.min.js",
+    "theme.js",
+    "printing.js",
+    "terms.js",
+    "packed.js",
+    _THREE,
     "data.js",
     "tracks.js",
     "shapes.js",
@@ -226,9 +233,6 @@ SCRIPTS = (
     "pointing.js",
     "links.js",
     "controls.js",
-    "theme.js",
-    "printing.js",
-    "terms.js",
     "viewer.js",
     "views.js",
     "main.js",
@@ -262,9 +266,36 @@ def script(name: str) -> str:
 
 
 @cache
+def _drawing(names: tuple[str, ...]) -> str:
+    """The scripts of a page from three.js on, as one; empty where it draws nothing."""
+    return "\n".join(map(asset, names[names.index(_THREE) :])) if _THREE in names else ""
+
+
+@cache
+def _run(names: tuple[str, ...]) -> tuple[str, ...]:
+    """The scripts that stand in a page as they are; the last opens the others, with a licence."""
+    if _THREE not in names:
+        return tuple(map(script, names))
+    licence = asset(_THREE)[: asset(_THREE).index("*/") + 2]
+    first = map(script, names[: names.index(_THREE)])
+    return (*first, f"{licence}\n{script('open.js')}")
+
+
+@cache
+def script_elements(names: tuple[str, ...]) -> str:
+    """The elements of a page that hold its scripts."""
+    *first, last = (f"<script>{each}</script>" for each in _run(names))
+    drawing = _drawing(names)
+    if drawing:
+        kind = 'type="application/octet-stream" class="packed"'
+        first.append(f"<script {kind}>{packed(as_bytes(drawing))}</script>")
+    return "\n".join((*first, last))
+
+
+@cache
 def three_version() -> str:
     """The version of three.js, which stands in its first line."""
-    found = re.match(r"/\*! three\.js (\S+)", asset("three.min.js"))
+    found = re.match(r"/\*! three\.js (\S+)", asset(_THREE))
     return found[1] if found else "unknown"
 
 
@@ -275,7 +306,7 @@ def policy(names: tuple[str, ...], style: str, connects: bool = False) -> str:
     A page that `connects` may ask the server that it comes from.
     """
     server = "connect-src 'self'; " if connects else ""
-    scripts = " ".join(_hashed(script(name)) for name in names)
+    scripts = " ".join(map(_hashed, filter(None, (*_run(names), _drawing(names)))))
     return (
         f"default-src 'none'; script-src {scripts}; style-src {_hashed(style)}; "
         f"{server}img-src data:; base-uri 'none'; form-action 'none'"
@@ -307,7 +338,7 @@ def filled(
         policy=escape(policy(scripts, style, connects)),
         style=style,
         body=body,
-        scripts="\n".join(f"<script>{script(name)}</script>" for name in scripts),
+        scripts=script_elements(scripts),
     )
 
 

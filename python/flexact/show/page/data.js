@@ -22,13 +22,6 @@ const PageData = (() => {
   /** The data in the <script type="application/json"> of a viewer. */
   const read = (root) => JSON.parse(root.querySelector(".drawing-data").textContent);
 
-  /** The text that an element holds compressed and written in letters. */
-  async function unpacked({ textContent }) {
-    const bytes = Uint8Array.from(atob(textContent.trim()), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Response(stream).text();
-  }
-
   /** What writes colours of 8 bits, (3 a member or hinge), to [red, green, blue]. */
   const own = (colour) => (row, rgb) => {
     for (let k = 0; k < 3; k++) rgb[k] = colour[3 * row + k] / 255;
@@ -50,5 +43,5 @@ const PageData = (() => {
   /** The scale as a CSS background from left to right. */
   const gradient = (stops) => `linear-gradient(to right, ${stops.map(inCss).join(", ")})`;
 
-  return { array, read, unpacked, own, diverging, gradient, inCss };
+  return { array, read, own, diverging, gradient, inCss };
 })();

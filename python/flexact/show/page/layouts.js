@@ -256,7 +256,7 @@ const Layouts = (() => {
       if (this.shown === card) return;
       if (!this.shown) this.scrolled = window.scrollY;
       this.shown = card;
-      const body = await PageData.unpacked(card.querySelector(".whole"));
+      const body = await Packed.text(card.querySelector(".whole"));
       if (this.shown !== card) return;
       if (this.whole) this.whole.dispose();
       for (const each of [...this.alive.keys()]) this.sleep(each);
