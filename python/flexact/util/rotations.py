@@ -35,11 +35,15 @@ def frames_along(ex: FloatArray) -> FloatArray:
 
 def matrix_of(rotation: FloatArray) -> FloatArray:
     """Matrices (..., 3, 3) of rotation vectors (..., 3) [rad], by Rodrigues' formula."""
-    angle = np.linalg.norm(rotation, axis=-1)[..., None, None]
-    skew = _skew(rotation)
-    sine = np.sinc(angle / np.pi)
-    versine = np.sinc(angle / (2 * np.pi)) ** 2 / 2
-    return np.asarray(np.eye(3) + sine * skew + versine * (skew @ skew))
+    half = np.linalg.norm(rotation, axis=-1) / 2
+    share = np.sinc(half / np.pi)
+    sine, versine = share * np.cos(half), share**2 / 2
+    made = np.empty((*rotation.shape, 3))
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[..., k, k] = 1 - versine * (rotation[..., i] ** 2 + rotation[..., j] ** 2)
+        both, own = versine * rotation[..., i] * rotation[..., j], sine * rotation[..., k]
+        made[..., i, j], made[..., j, i] = both - own, both + own
+    return made
 
 
 def screw_matrix(rotation: FloatArray) -> FloatArray:
@@ -155,15 +159,25 @@ def aligned(frame: FloatArray, direction: FloatArray) -> FloatArray:
     Where a direction is zero the frame stays; where it is opposite, it turns about ey.
     """
     ex = frame[..., 0]
-    axis = np.cross(ex, direction)
-    cosine = np.sum(ex * direction, axis=-1)[..., None, None]
-    skew = _skew(axis)
-    turn = np.eye(3) + skew + (skew @ skew) / np.maximum(1 + cosine, _SMALL)
-    made = turn @ frame
-    opposite = frame * np.array([-1.0, 1.0, -1.0])
-    made = np.where(cosine > _SMALL - 1, made, opposite)
-    there = np.any(direction != 0.0, axis=-1)[..., None, None]
-    return np.asarray(np.where(there, made, frame))
+    axis = cross(ex, direction)
+    cosine = _dot(ex, direction)
+    part = axis / np.maximum(1 + cosine, _SMALL)
+    made = np.empty(np.broadcast_shapes(frame.shape, (*direction.shape, 3)))
+    made[..., 0] = direction
+    for k in (1, 2):
+        each = frame[..., k]
+        made[..., k] = cosine * each + cross(axis, each) + _dot(axis, each) * part
+    there = np.any(direction != 0.0, axis=-1)
+    rest = ~(there & (cosine[..., 0] > _SMALL - 1))
+    if rest.any():
+        turns = np.where(there[rest][:, None], [-1.0, 1.0, -1.0], 1.0)
+        made[rest] = np.broadcast_to(frame, made.shape)[rest] * turns[:, None]
+    return made
+
+
+def _dot(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(..., 1) scalar products."""
+    return np.asarray(np.einsum("...x,...x->...", one, other))[..., None]
 
 
 def _skew(vectors: FloatArray) -> FloatArray:

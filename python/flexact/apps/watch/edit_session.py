@@ -145,6 +145,9 @@ class Session:
     def renewed(self, answer: Shown | Broken) -> str:
         """Show what came of the file, with all edits; what has changed, in words."""
         with self._lock:
+            if self.history.now and isinstance(answer, Shown) and not answer.is_whole:
+                # With edits it is another scene, which follows.
+                return ""
             self._number += 1
             if isinstance(answer, Broken):
                 self.broken()

@@ -21,7 +21,9 @@ from ...costs.quick_cost import quick_curve
 from ...deck.diagnostics import Diagnostic, Source
 from ...deck.rendering import MOST_SHOWN, ProblemsError, render, render_problems
 from ...designs.problem import SUFFIXES
-from ...show.page.assets import text
+from ...motion.constraints import is_followed
+from ...show.drawing.movement import MOST_COORDINATES
+from ...show.page.assets import MANY_ELEMENTS, text
 from ...show.page.content import content_of
 from ...show.page.scenery import Scenery
 from ...util.partial import attempted, why
@@ -115,6 +117,8 @@ class Shown:
         model: The name of the model in a script; empty for a deck.
         scenery: The solids that it was read from, where it was.
         cad: What may be said of their parts.
+        is_whole: Whether that is all; else its motions are drawn along their velocities, and at
+            few phases, until they are there.
     """
 
     title: str
@@ -127,6 +131,7 @@ class Shown:
     model: str = ""
     scenery: Scenery | None = None
     cad: CadParts | None = None
+    is_whole: bool = True
 
 
 def steps_in(steps: Sequence[Step]) -> tuple[StepEdit, ...]:
@@ -151,6 +156,7 @@ def shown_of(
     before: tuple[Result, str] | None = None,
     scenery: Scenery | None = None,
     cad: CadParts | None = None,
+    is_whole: bool = True,
 ) -> Shown:
     """A result as the page shows it.
 
@@ -163,6 +169,7 @@ def shown_of(
         before: The result before the last step of the advice, and the step in words.
         scenery: The solids that it was read from.
         cad: What may be said of their parts.
+        is_whole: Whether motions are followed, and are there at all phases.
     """
     misaligned = attempted("", lambda: quick_curve(result), None, None)
     content = content_of(
@@ -171,12 +178,26 @@ def shown_of(
         before=before,
         misaligned=misaligned,
         scenery=scenery,
+        **({} if is_whole else {"follows": 0, "room": 1}),
     )
     title = verdict_word(result)
     given = result.given
     problems = given.problems
     words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, content.body, summary, which, words, files, scenery=scenery, cad=cad)
+    return Shown(
+        *(title, content.body, summary, which, words, files),
+        scenery=scenery,
+        cad=cad,
+        is_whole=is_whole,
+    )
+
+
+def takes_a_while(result: Result) -> bool:
+    """Whether the motions of a result take so long that it is shown before they are all there."""
+    if not (result.under_constrained or result.degrees_of_freedom):
+        return False
+    elements = result.given.arrays.element_number.size
+    return elements > MANY_ELEMENTS or is_followed(result.data, MOST_COORDINATES)
 
 
 @dataclass(frozen=True)
@@ -221,14 +242,15 @@ class Broken:
 
 Answer = Shown | Laid | Broken
 #: What comes before an answer: what a script has printed, the summary of a result whose scene is
-#: still being made, and layouts while more are sought.
-Before = str | ResultSummary | Laid
+#: still being made, a result whose motions are still to be followed, and layouts while more are
+#: sought.
+Before = str | ResultSummary | Shown | Laid
 
 
 def is_before(heard: Before | Answer) -> bool:
     """Whether an answer is still to come."""
     return isinstance(heard, (str, ResultSummary)) or (
-        isinstance(heard, Laid) and not heard.is_whole
+        isinstance(heard, (Shown, Laid)) and not heard.is_whole
     )
 
 
@@ -314,6 +336,7 @@ class Scene:
         changed_words: What has changed since the last good scene.
         which: Which model of a script it is.
         saved: When the file was read, on the clock of the wall.
+        completes: The revision of a scene that was the same but for its motions; else 0.
         work: What is going on, in words; empty where nothing is.
         began: When that began [s since 1970].
     """
@@ -325,6 +348,7 @@ class Scene:
     changed_words: str = ""
     which: str = ""
     saved: str = ""
+    completes: int = 0
     work: str = ""
     began: float = 0.0
 
@@ -338,6 +362,7 @@ class Scene:
             "changed_words": self.changed_words,
             "which": self.which,
             "saved": self.saved,
+            "completes": self.completes,
         }
 
     def work_event(self) -> dict[str, Any]:
@@ -360,6 +385,8 @@ class Stage:
         self._is_good = False
         self._laid = ""
         self._summary: ResultSummary | None = None
+        #: The revision of a scene whose motions are still to be followed.
+        self._unfollowed = 0
         self._changed = threading.Condition()
         #: What is shown.
         self.scene = Scene(int(time.time() * 1000), name)
@@ -393,17 +420,20 @@ class Stage:
         else:
             self._is_good = True
             words = answer.summary.verdict
-            changed = (
-                changed_words(self._summary, answer.summary) if self._summary is not None else ""
-            )
+            completes = self._unfollowed if before.revision == self._unfollowed else 0
+            changed = before.changed_words
+            if not completes:
+                changed = changed_words(self._summary, answer.summary) if self._summary else ""
             self._summary = answer.summary
+            self._unfollowed = 0 if answer.is_whole else before.revision + 1
             scene = Scene(
                 0,
                 f"{self._name}: {answer.title}",
                 answer.body,
                 changed_words=changed,
                 which=answer.which,
-                saved=saved,
+                saved=before.saved if completes else saved,
+                completes=completes,
             )
         self._show(replace(scene, work="", revision=before.revision + 1))
         return words

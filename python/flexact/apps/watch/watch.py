@@ -15,7 +15,7 @@ from ...show.window import opens
 from ...util.errors import BatchError
 from .cad import is_step
 from .edit_session import Session
-from .scene import SCRIPT, Answer, Before, Broken, Laid, Stage, errors_part, is_problem
+from .scene import SCRIPT, Answer, Before, Broken, Laid, Shown, Stage, errors_part, is_problem
 from .server import Server
 from .worker_pool import Crew, Worker, WorkerError
 
@@ -233,6 +233,8 @@ class Watch:
                 self._printed(heard)
             elif isinstance(heard, Laid):
                 self.stage.put(heard)
+            elif isinstance(heard, Shown):
+                self.session.renewed(heard)
             else:
                 self.session.judged(heard)
 

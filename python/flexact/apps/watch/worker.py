@@ -40,10 +40,12 @@ from .scene import (
     Before,
     Broken,
     Laid,
+    Shown,
     errors_part,
     is_problem,
     shown_of,
     summary_of,
+    takes_a_while,
 )
 from .worker_pool import receive, send
 
@@ -272,8 +274,8 @@ def answer_of(
 
     Args:
         path: Where it is; a script ends with .py, a STEP file with .step or .stp.
-        judged: Called with the summary, which is there before the scene, and of a problem with
-            layouts while more are sought.
+        judged: Called with the summary, which is there before the scene, with the scene before
+            its motions are followed, and of a problem with layouts while more are sought.
         decision: Arguments of `flexact.analysis.decomposition.asked_for`.
     """
     script = Script(path) if path.lower().endswith(SCRIPT) else None
@@ -300,12 +302,19 @@ def answer_of(
         summary = summary_of(result)
         judged(summary)
         files = files if script is None else script.files()
-        shown = shown_of(result, summary, which, files, scenery=scenery, cad=cad)
         kept = b""
         # A script may have put into it what cannot be kept for who switches.
         with contextlib.suppress(Exception):
             kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
-        return replace(shown, result=kept, model=model)
+
+        def shown(*, is_whole: bool) -> Shown:
+            told = result, summary, which, files
+            made = shown_of(*told, scenery=scenery, cad=cad, is_whole=is_whole)
+            return replace(made, result=kept, model=model)
+
+        if takes_a_while(result):
+            judged(shown(is_whole=False))
+        return shown(is_whole=True)
     except Exception as error:
         words = str(error) if isinstance(error, ProblemsError) else why(error)
         files = files if script is None else script.files()

@@ -77,7 +77,7 @@ class PartKind(Word):
     HINGE = "hinge"
 
 
-_KIND_OF_FORM = {
+_KIND_OF_FORM: dict[int, PartKind] = {
     Form.SHEET: PartKind.SHEET,
     Form.WIRE: PartKind.WIRE,
     Form.BAR: PartKind.BAR,
@@ -125,6 +125,7 @@ class Parts:
         self.data = data
         self._known: dict[int, Part] = {}
         self._at: dict[int, tuple[Part, ...]] = {}
+        self._order: dict[Part, tuple[object, ...]] = {}
 
     def __len__(self) -> int:
         """How many there are."""
@@ -183,15 +184,25 @@ class Parts:
         chain, body = self._chain_of.get(index), self._body_of_element.get(index)
         if chain is not None:
             row = self.data.chains[chain]
-            kind = _KIND_OF_FORM[Form(int(self.form[row.elements[0]]))]
+            kind = self._kinds[row.elements[0]]
             return self._made(kind, row.elements, (row.positions[0], row.positions[-1]))
         if body is not None:
             return self._made(PartKind.BODY, self.bodies[body].elements, ())
-        arrays = self.data.arrays
-        nodes = (arrays.element_node[[0, 2], index] - 1).tolist()
-        if is_member(arrays.element_kind[[index]], Member.HINGE)[0]:
-            return self._made(PartKind.HINGE, (index,), tuple(n for n in nodes[:1] if n >= 0))
-        return self._made(_KIND_OF_FORM[Form(int(self.form[index]))], (index,), tuple(nodes))
+        kind, ends = self._kinds[index], self._ends[index]
+        if kind is PartKind.HINGE:
+            return self._made(kind, (index,), tuple(n for n in ends[:1] if n >= 0))
+        return self._made(kind, (index,), ends)
+
+    @cached_property
+    def _kinds(self) -> list[PartKind]:
+        """Of each element what it is where it is a part by itself."""
+        # What is no member is a hinge.
+        return [_KIND_OF_FORM.get(form, PartKind.HINGE) for form in self.form.tolist()]
+
+    @cached_property
+    def _ends(self) -> list[tuple[int, ...]]:
+        """Of each element the position nodes at its ends."""
+        return list(map(tuple, (self.data.arrays.element_node[[0, 2]] - 1).T.tolist()))
 
     def of_body(self, body: int) -> Part:
         """The part that a body, by its index, is."""
@@ -298,7 +309,10 @@ class Parts:
     def _sorted(self, elements: list[int]) -> tuple[Part, ...]:
         """The parts of some elements, by name."""
         found = dict.fromkeys(self.of_element(i) for i in elements)
-        return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+        for part in found:
+            if part not in self._order:
+                self._order[part] = natural(part.name), part.elements
+        return tuple(sorted(found, key=self._order.__getitem__))
 
     def elements_at(self, position: int) -> list[int]:
         """Indices of the elements that end at a position node."""

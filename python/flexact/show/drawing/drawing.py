@@ -13,7 +13,7 @@ from ...model.data import ModelData
 from ...util.records import Frozen, cached_property
 from .bodies import Solid, solids_of
 from .members import Elements, Members, hinges_of, members_of
-from .pose import Pose, reference_pose
+from .pose import Pose, axes_along, reference_pose
 from .supports import Symbol, arrows_of, supports_of
 
 #: Diameter of a joint, times that of the bars.
@@ -61,6 +61,11 @@ class Drawing(Frozen):
     def seen(self) -> np.ndarray:
         """(members,) which members are drawn themselves."""
         return np.asarray(self.members.seen & ~self.in_solid)
+
+    @cached_property
+    def axes(self) -> list[FloatArray]:
+        """Points of the axes of members in the reference, as of `axes_along`."""
+        return list(axes_along(self.members, self.reference))
 
     @property
     def planar(self) -> bool:

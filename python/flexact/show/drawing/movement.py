@@ -23,7 +23,7 @@ from ...util.loading import load
 from ...util.records import Frozen
 from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
-from .pose import Pose, field_along, pose_of, reference_pose, stations
+from .pose import Pose, axes_along, field_along, pose_of, reference_pose
 
 #: A motion at the nodes: of an analysis, or of a declared degree of freedom.
 Moving = Motion | FreeMotion
@@ -285,6 +285,7 @@ class Movement(Frozen):
         about: What is to be said of them where that is no path; may be empty.
         part: Size of what moves, as a part of the drawing's, where it is drawn to that; else 1.
         natural: Whether what nothing determines has the shape in which it bends least.
+        farthest: The largest displacement at both ends [m], and the largest rotation [rad].
     """
 
     scale: float
@@ -293,6 +294,7 @@ class Movement(Frozen):
     about: str = ""
     part: float = 1.0
     natural: bool = False
+    farthest: tuple[float, float] = (0.0, 0.0)
 
     @property
     def remark(self) -> str:
@@ -331,10 +333,10 @@ def move(drawing: Drawing, motion: Moving, most: int = MOST_COORDINATES) -> Move
     far, part = amplitude_of(drawing, motion.displacement, motion.rotation)
     scale = reach = scale_of(drawing, motion.displacement, motion.rotation, far)
     sides, deviation = _swung(motion, reach, drawing.size, most)
+    farthest = reach_of(drawing, [side[-1] for side in sides])
     for _ in range(_MOST_FITS):
         # By how much poses are too near to the reference, to be as far as they may.
-        largest, turned = reach_of(drawing, [side[-1] for side in sides])
-        factor = _least(far, largest, _LARGEST_ROTATION, turned)
+        factor = _least(far, farthest[0], _LARGEST_ROTATION, farthest[1])
         factor = min(max(factor, 0.5), 2.0) if factor > 0.0 else 1.0
         if abs(factor - 1.0) < _FITS:
             break
@@ -344,9 +346,10 @@ def move(drawing: Drawing, motion: Moving, most: int = MOST_COORDINATES) -> Move
             # The path ends before.
             break
         sides, deviation = fitted, there
+        farthest = reach_of(drawing, [side[-1] for side in sides])
     poses = (*sides[0][::-1], reference_pose(drawing.data.arrays), *sides[1])
     natural = isinstance(motion, FreeMotion) and motion.is_natural
-    return Movement(scale, deviation, poses, part=part, natural=natural)
+    return Movement(scale, deviation, poses, part=part, natural=natural, farthest=farthest)
 
 
 def _swung(
@@ -371,12 +374,11 @@ def _swung(
 
 def reach_of(drawing: Drawing, poses: Sequence[Pose]) -> tuple[float, float]:
     """The largest displacement, of nodes and along members [m], and the largest rotation [rad]."""
-    reference = list(stations(drawing.members, drawing.reference))
     ways, angles = [np.zeros(1)], [np.zeros(1)]
     for pose in poses:
         ways.append(np.linalg.norm(pose.position - drawing.reference.position, axis=1))
-        for here, there in zip(stations(drawing.members, pose), reference, strict=True):
-            ways.append(np.linalg.norm(here.centre - there.centre, axis=-1).ravel())
+        for here, there in zip(axes_along(drawing.members, pose), drawing.axes, strict=True):
+            ways.append(np.linalg.norm(here - there, axis=-1).ravel())
         angles.append(np.linalg.norm(vector_of(pose.rotation), axis=1))
     return float(np.concatenate(ways).max()), float(np.concatenate(angles).max())
 

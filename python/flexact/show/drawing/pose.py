@@ -92,6 +92,15 @@ def along(members: Members, pose: Pose, rows: np.ndarray, at: FloatArray) -> Str
     return (_bent if members.bends[rows[0]] else _straight)(members, pose, rows, at)
 
 
+def axes_along(members: Members, pose: Pose) -> Iterator[FloatArray]:
+    """Points (k, s, 3) of the axes of the strips of `stations`; sections take most of its time."""
+    for rows, at in by_shape(members, 8):
+        if at.size > 2:
+            yield np.einsum("as,akx->ksx", hermite(at)[0], _ends(members, pose, rows))
+        else:
+            yield _straight(members, pose, rows, at).centre
+
+
 def by_shape(
     members: Members, segments: int, chosen: np.ndarray | bool = True
 ) -> Iterator[tuple[np.ndarray, FloatArray]]:
@@ -113,23 +122,20 @@ def hermite(at: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.stack(value), np.stack(slope)
 
 
-def _bent(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) -> Strip:
+def _ends(members: Members, pose: Pose, chosen: np.ndarray) -> FloatArray:
+    """(4, k, 3) places and slopes at both ends of members that bend, as `hermite` has them."""
     p, op, q, oq = members.nodes[chosen].T
-    length = members.length[chosen, None]
-    frames = members.frame[chosen]
-    turned_p, turned_q = pose.rotation[op], pose.rotation[oq]
-    given = np.stack(
-        (
-            pose.position[p],
-            length * (turned_p @ frames)[..., 0],
-            pose.position[q],
-            length * (turned_q @ frames)[..., 0],
-        )
-    )
-    value, slope = hermite(at)
+    along = members.length[chosen, None] * members.frame[chosen, :, 0]
+    slopes = ((pose.rotation[turn] @ along[..., None])[..., 0] for turn in (op, oq))
+    return np.stack((pose.position[p], next(slopes), pose.position[q], next(slopes)))
+
+
+def _bent(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) -> Strip:
+    given, (value, slope) = _ends(members, pose, chosen), hermite(at)
     centre = np.einsum("as,akx->ksx", value, given)
     tangent = unit(np.einsum("as,akx->ksx", slope, given))
-    frame = between(turned_p, turned_q, at) @ frames[:, None]
+    turned_p, turned_q = (pose.rotation[members.nodes[chosen, turn]] for turn in (1, 3))
+    frame = between(turned_p, turned_q, at) @ members.frame[chosen, None]
     return Strip(chosen, at, centre, aligned(frame, tangent))
 
 

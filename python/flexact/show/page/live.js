@@ -168,9 +168,11 @@ const Live = (() => {
 
     /** A new state of the file; a scene that stays is left alone. */
     show(state) {
-      const fresh = this.revision !== 0;
+      const isSame = state.completes && state.completes === this.revision;
+      const fresh = this.revision !== 0 && !isSame;
       this.revision = state.revision;
       document.title = state.title;
+      if (isSame && this.complete(state.body)) return;
       if (!state.broken || !this.hasScene) this.renew(state.body);
       this.tell(state);
       this.root.dispatchEvent(new CustomEvent("flexact-told", { detail: state }));
@@ -178,6 +180,20 @@ const Live = (() => {
       this.bar.classList.remove("fresh");
       void this.bar.offsetWidth; // the light begins anew
       this.bar.classList.add("fresh");
+    }
+
+    /** Take the motions of a scene that is otherwise the same, once they were followed; whether
+        they are those that are there. */
+    complete(body) {
+      const made = document.createElement("template");
+      made.innerHTML = body;
+      const datas = Array.from(made.content.querySelectorAll(".viewer"), PageData.read);
+      const { viewers } = this.mounted;
+      const titles = ({ movements }) => movements.map(({ title }) => title).join("\n");
+      if (viewers.length !== datas.length
+        || viewers.some(({ data }, k) => titles(data) !== titles(datas[k]))) return false;
+      viewers.forEach((viewer, k) => viewer.take(datas[k].movements));
+      return true;
     }
 
     /** Put a new scene in the place of the old one, which is freed when nobody waits for it. */

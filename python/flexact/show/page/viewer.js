@@ -132,6 +132,18 @@ const Viewer = (() => {
       this.refresh();
     }
 
+    /** Take the same movements in other shapes; the one that is shown plays on. */
+    take(movements) {
+      const shown = this.data.movements.indexOf(this.movement);
+      this.data.movements = movements;
+      if (shown < 0) return;
+      this.pose = Tracks.reference(this.data);
+      this.movement = movements[shown];
+      this.pointArrows();
+      this.movePhase(this.player.phase);
+      this.refresh();
+    }
+
     /** Arrows from the reference to the largest displacement: of nodes, and of bent members. */
     pointArrows() {
       Tracks.move(this.pose, this.data, this.movement, 1);

@@ -7,6 +7,7 @@ Movements and self-stresses, freedom and constraint spaces of a body, and what f
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -166,6 +167,10 @@ def _fitting(every: Iterable[tuple[dict[str, Any], int]]) -> list[dict[str, Any]
     return made
 
 
+#: Of a motion that is shown before it was followed.
+_NOT_YET = "Being followed; until then drawn along its velocities."
+
+
 def movements(
     analysis: Result,
     tracks: Tracks,
@@ -185,7 +190,9 @@ def movements(
         if found is None:
             return None
         movement = move(drawing, found, follows)
-        largest, angle = reach_of(drawing, (movement.poses[0], movement.poses[-1]))
+        if not follows:
+            movement = replace(movement, about=_NOT_YET)
+        largest, angle = movement.farthest
         share = largest / drawing.size
         far = "no displacements"
         if share > _UNSEEN:
