@@ -48,6 +48,7 @@ def deck(place: Path, served: Watched, browser: Browser, window: None) -> Path:
         deck.write_text(GUIDE)
         until(lambda: len(served.out) > lines)
     browser.driver.get(served.address)
+    browser.opened()
     browser.console()
     browser.requests()
     browser.resize(1280, 900)
@@ -100,6 +101,33 @@ def test_a_save_renews_the_verdict_and_keeps_the_view(
     assert all(each.startswith((f"{origin}/", "data:")) for each in browser.requests())
 
 
+def test_motions_are_seen_before_they_are_followed_and_stay_chosen(
+    browser: Browser, deck: Path
+) -> None:
+    """Two scenes come of a save: the second takes no place, but for the shapes of motions."""
+    browser.run("""
+        window.told = [];
+        document.body.addEventListener("flexact-renewed", () => {
+          window.scene = flexact;
+          told.push(flexact.data.movements.map(({ note, phases }) => `${phases}: ${note}`));
+        });
+        window.context = flexact.stage.renderer.getContext();
+    """)
+    save(browser, deck, EXACT)
+    until(lambda: browser.run("return !flexact.data.movements[0].note.includes('Being followed')"))
+    ((first, *_),) = browser.run("return told")
+    assert first.startswith("3: Being followed")
+    note, phases = browser.run(
+        "return [flexact.data.movements[0].note, flexact.data.movements[0].phases]"
+    )
+    assert note.startswith(("On its path", "Held deformations")) and phases == 17
+    assert browser.run("return flexact === scene && flexact.movement === flexact.data.movements[0]")
+    assert note[:12] in browser.run("return document.querySelector('.shown').textContent")
+    # What draws is compiled once.
+    assert browser.run("return flexact.stage.renderer.getContext() === context")
+    assert not browser.console()
+
+
 def test_a_broken_deck_stands_beside_the_last_good_scene(browser: Browser, deck: Path) -> None:
     browser.run("window.first = flexact; flexact.stage.turn(0.4, 0.2)")
     save(browser, deck, WRONG)
@@ -109,7 +137,7 @@ def test_a_broken_deck_stands_beside_the_last_good_scene(browser: Browser, deck:
     # The scene is the very same: nothing was taken away.
     assert browser.run("return flexact === first")
     browser.driver.refresh()
-    browser.drawn()
+    browser.opened()
     assert "^^^^" in words(browser)
     assert "Over-constrained" in browser.run("return document.querySelector('h1').innerText")
     save(browser, deck, EXACT)
@@ -131,7 +159,7 @@ def test_a_reload_keeps_the_view(browser: Browser, deck: Path) -> None:
     browser.press("input[data-layer=nodes]")
     seen = looks(browser)
     browser.driver.refresh()
-    browser.drawn()
+    browser.opened()
     assert looks(browser) == pytest.approx(seen, abs=1e-6)
     assert browser.run("return flexact.layers.nodes")
     assert browser.run("return flexact.player.playing") is False

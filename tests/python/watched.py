@@ -145,7 +145,7 @@ class Events:
     """What a page hears, which goes about it as page/live.js does."""
 
     def __init__(self, address: str, page: "Page | None" = None, seen: str = "") -> None:
-        self._where = urlsplit(address)
+        self._where, self._revision = urlsplit(address), 0
         self.page = Page.of(address) if page is None else page
         number = os.urandom(16).hex()
         start = self.page.greet(self._where.port)
@@ -160,7 +160,7 @@ class Events:
             raise RefusedError("without proof")
 
     def next(self, kind: str = "scene") -> dict[str, Any]:
-        """The next event of a kind."""
+        """The next event of a kind; scenes that only complete the one before are passed over."""
         event = ""
         while True:
             line = self._answer.readline().decode()
@@ -170,7 +170,9 @@ class Events:
                 event = value
             elif name == "data" and event == kind:
                 data: dict[str, Any] = json.loads(value)
-                return data
+                completed, self._revision = self._revision, data.get("revision", self._revision)
+                if not completed or data.get("completes") != completed:
+                    return data
 
     def close(self) -> None:
         self._line.close()

@@ -178,7 +178,8 @@ def shown_of(
         before=before,
         misaligned=misaligned,
         scenery=scenery,
-        **({} if is_whole else {"follows": 0, "room": 1}),
+        follows=MOST_COORDINATES if is_whole else 0,
+        room=None if is_whole else 1,
     )
     title = verdict_word(result)
     given = result.given
@@ -385,8 +386,8 @@ class Stage:
         self._is_good = False
         self._laid = ""
         self._summary: ResultSummary | None = None
-        #: The revision of a scene whose motions are still to be followed.
-        self._unfollowed = 0
+        #: Of a scene that is not whole the revision, and the result.
+        self._begun: tuple[int, bytes] = (0, b"")
         self._changed = threading.Condition()
         #: What is shown.
         self.scene = Scene(int(time.time() * 1000), name)
@@ -420,12 +421,13 @@ class Stage:
         else:
             self._is_good = True
             words = answer.summary.verdict
-            completes = self._unfollowed if before.revision == self._unfollowed else 0
+            is_begun = answer.is_whole and self._begun == (before.revision, answer.result or None)
+            completes = before.revision if is_begun else 0
             changed = before.changed_words
             if not completes:
                 changed = changed_words(self._summary, answer.summary) if self._summary else ""
             self._summary = answer.summary
-            self._unfollowed = 0 if answer.is_whole else before.revision + 1
+            self._begun = (0, b"") if answer.is_whole else (before.revision + 1, answer.result)
             scene = Scene(
                 0,
                 f"{self._name}: {answer.title}",

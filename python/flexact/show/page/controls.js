@@ -200,7 +200,7 @@ const Controls = (() => {
         if (!found) return;
         event.preventDefault();
         found();
-      });
+      }, { signal: stage.ending.signal });
     }
 
     /** Fit what can be pressed to what is shown. */

@@ -10,12 +10,13 @@ const Main = (() => {
   /**
    * Start the drawings of a root. What it returns: its `viewers`; `view()`, what a person has
    * chosen, as plain data; `restore(view)`, which chooses it again in another scene as far as
-   * it is there; `dispose()`, which frees what the drawings hold.
+   * it is there; `dispose()`, which frees what the drawings hold. Where a scene takes the place of
+   * one that was mounted before, it draws on its canvases.
    */
-  function mount(root) {
+  function mount(root, before = null) {
     const ending = new AbortController();
     const found = Array.from(root.querySelectorAll(".viewer"))
-      .map(opened);
+      .map((each, k) => opened(each, before && before.viewers[k]));
     const viewers = found.every(({ context }) => context) ? found.map(make) : [];
     const toolbar = viewers.length ? show(root, viewers, ending.signal) : null;
     Theme.listen(root, () => viewers.forEach((viewer) => viewer.dress()), ending.signal);
@@ -29,22 +30,25 @@ const Main = (() => {
   }
 
   /** A drawing that is about to start: its data, and its context, if there can be one. */
-  function opened(root) {
-    const data = PageData.read(root);
-    return { root, data, context: contextOf(root, data) };
-  }
-
-  function contextOf(root, data) {
+  function opened(root, before = null) {
+    const data = PageData.read(root), own = root.querySelector(".canvas");
     // To smooth edges while drawing takes as long again.
     const antialias = data.members.names.length < MANY;
-    return root.querySelector(".canvas").getContext("webgl2", { alpha: true, antialias });
+    if (!before || !before.stage.canLeave(antialias)) {
+      return { root, data, context: own.getContext("webgl2", { alpha: true, antialias }) };
+    }
+    const { stage } = before, { canvas } = stage;
+    stage.leave();
+    for (const { name, value } of own.attributes) canvas.setAttribute(name, value);
+    own.replaceWith(canvas);
+    return { root, data, context: stage.renderer.getContext(), stage };
   }
 
-  function make({ root, data, context }) {
+  function make({ root, data, context, stage }) {
     root.classList.add("live");
     root.querySelector(".still").hidden = true;
     root.querySelector(".interactive").hidden = root.querySelector(".choices").hidden = false;
-    return new Viewer.Viewer(root, data, context);
+    return new Viewer.Viewer(root, data, context, stage);
   }
 
   function show(root, viewers, signal) {

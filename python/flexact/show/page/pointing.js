@@ -11,19 +11,20 @@ const Pointing = (() => {
     constructor(stage, state, found) {
       Object.assign(this, { stage, state, found });
       this.raycaster = new THREE.Raycaster();
-      const { canvas } = stage;
-      canvas.addEventListener("pointermove", (event) => {
+      const { canvas, ending: { signal } } = stage;
+      const listen = (kind, act) => canvas.addEventListener(kind, act, { signal });
+      listen("pointermove", (event) => {
         if (event.buttons) this.clear();
         else this.later(event);
       });
       this.clicked = () => {}; // called with what is clicked; null for nothing
       this.doubled = () => {}; // and with what is clicked twice
-      canvas.addEventListener("dblclick", ({ offsetX, offsetY }) =>
+      listen("dblclick", ({ offsetX, offsetY }) =>
         this.doubled(this.look(offsetX, offsetY)));
-      canvas.addEventListener("pointerdown", ({ offsetX, offsetY }) => {
+      listen("pointerdown", ({ offsetX, offsetY }) => {
         this.pressed = [offsetX, offsetY];
       });
-      canvas.addEventListener("pointerup", (event) => {
+      listen("pointerup", (event) => {
         const [x, y] = this.pressed || [Infinity, Infinity];
         this.pressed = null;
         if (Math.hypot(event.offsetX - x, event.offsetY - y) > STILL) return this.later(event);
@@ -32,7 +33,7 @@ const Pointing = (() => {
         this.tell(found);
       });
       // A finger leaves as it lifts; what it tapped stays told.
-      canvas.addEventListener("pointerleave", ({ pointerType }) => {
+      listen("pointerleave", ({ pointerType }) => {
         if (pointerType !== "touch") this.clear();
       });
     }

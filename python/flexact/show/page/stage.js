@@ -13,9 +13,10 @@ const Stage = (() => {
   const DIRECTIONS = { front: [0, -1, 0], top: [0, -1e-4, 1], right: [1, 0, 0] };
 
   class Stage {
-    /** A stage on a canvas with its WebGL context. */
-    constructor(canvas, context, { planar, iso }) {
+    /** A stage on a canvas with its WebGL context, or on that which another stage has left. */
+    constructor(canvas, context, { planar, iso }, before = null) {
       Object.assign(this, { canvas, planar, iso });
+      this.ending = new AbortController(); // of what listens to the canvas
       this.peers = []; // stages that are seen from the same side
       this.apart = false; // of cards each has its own middle and size
       this.frames = 0; // drawn so far
@@ -25,14 +26,15 @@ const Stage = (() => {
       this.gaps = [];
       this.heavy = false; // whether there is something to leave out
       this.slow = this.light = this.dull = false; // dull: without shadows while something moves
-      this.software = isSoftware(context);
+      this.software = before ? before.software : isSoftware(context);
       this.lightened = () => {};
       this.after = []; // called behind each frame
       this.before = []; // and in front of it; those that return true want another frame
       this.scene = new THREE.Scene();
       this.camera = new OrthographicCamera(-1, 1, 1, -1, 0.01, 2 * DISTANCE);
       this.camera.up.set(0, planar ? 1 : 0, planar ? 0 : 1);
-      this.renderer = new THREE.WebGLRenderer({ canvas, context, alpha: true });
+      this.renderer = before ? before.renderer
+        : new THREE.WebGLRenderer({ canvas, context, alpha: true });
       // Colours as they are given, so that they agree with the legend.
       this.renderer.outputColorSpace = "srgb-linear";
       this.illuminate();
@@ -40,7 +42,8 @@ const Stage = (() => {
       this.control();
       this.observer = new ResizeObserver(() => this.fill());
       this.observer.observe(canvas.parentElement);
-      canvas.addEventListener("webglcontextrestored", () => this.request());
+      const { signal } = this.ending;
+      canvas.addEventListener("webglcontextrestored", () => this.request(), { signal });
       this.fill();
     }
 
@@ -100,20 +103,47 @@ const Stage = (() => {
       this.camera.updateProjectionMatrix();
     }
 
-    /** Free what the stage holds; it cannot be drawn on any more. */
-    dispose() {
+    /** Leave the canvas, and what draws on it, to another stage: programs are compiled already. */
+    leave() {
+      this.left = true;
+      this.end();
+    }
+
+    /** Whether another stage may have it, which wants its edges smoothed or not. */
+    canLeave(antialias) {
+      const context = this.renderer.getContext();
+      return !this.disposed && !context.isContextLost()
+        && context.getContextAttributes().antialias === antialias;
+    }
+
+    end() {
       this.disposed = true;
+      this.ending.abort();
       cancelAnimationFrame(this.waiting);
       clearTimeout(this.resting);
       this.observer.disconnect();
       this.controls.dispose();
+    }
+
+    /** Free what the stage holds; it cannot be drawn on any more. */
+    dispose() {
+      if (!this.disposed) this.end();
       if (this.shadow) this.shadow.dispose();
+      if (this.left) {
+        this.scene.traverse((each) => {
+          for (const held of [each.geometry, each.material, each.isInstancedMesh && each].flat()) {
+            if (held) held.dispose();
+          }
+        });
+        return;
+      }
       this.renderer.dispose();
       this.renderer.forceContextLoss();
     }
 
     /** From where it is seen, as plain data. */
     looks() {
+      this.settle();
       const { camera, controls, fitted } = this;
       const target = controls.target.toArray();
       return { eye: camera.position.toArray(), target, zoom: camera.zoom, fitted };
@@ -127,7 +157,7 @@ const Stage = (() => {
       this.camera.updateProjectionMatrix();
       this.controls.update();
       this.fitted = fitted;
-      if (fitted) this.fit();
+      this.refit();
       this.lead();
       this.request();
     }
@@ -138,12 +168,20 @@ const Stage = (() => {
       const towards = new Vector3(...direction).normalize();
       this.camera.position.copy(this.controls.target).addScaledVector(towards, DISTANCE);
       this.controls.update();
-      this.fit();
+      this.fitted = true;
+      this.refit();
     }
 
-    /** Fit again what has changed, unless somebody has chosen a view. */
+    /** Fit again what has changed before the next frame, unless somebody has chosen a view. */
     refit() {
-      if (this.fitted) this.fit();
+      this.unfit = true;
+      this.request();
+    }
+
+    /** Fit what waits for it: what has changed is looked at once, however much that is. */
+    settle() {
+      if (this.unfit && this.fitted) this.fit();
+      this.unfit = false;
     }
 
     /** Centre what is drawn and fill the canvas with it, in every pose that it takes. */
@@ -274,6 +312,7 @@ const Stage = (() => {
       if (this.waiting || this.disposed) return;
       const running = performance.now() - this.drawn < RUNNING;
       this.waiting = requestAnimationFrame((time) => {
+        this.settle();
         this.waiting = 0;
         if (running) this.pace(time - this.last);
         this.last = time;
@@ -316,6 +355,7 @@ const Stage = (() => {
     }
 
     draw(shaded = true) {
+      this.settle();
       this.frames += 1;
       this.drawn = performance.now();
       this.renderer.render(this.scene, this.camera);

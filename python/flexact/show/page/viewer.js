@@ -11,7 +11,7 @@ const Viewer = (() => {
 
   class Viewer {
     /** A viewer of some data in the part of the page that is its root. */
-    constructor(root, data, context) {
+    constructor(root, data, context, before = null) {
       Object.assign(this, { root, data });
       this.peers = []; // viewers that look from the same side, and play in step
       this.changed = () => {}; // called when something else is shown
@@ -21,7 +21,7 @@ const Viewer = (() => {
       this.movement = this.stress = this.space = null;
       this.quantity = "";
       this.layers = { solids: true, diagram: false, ghost: true, arrows: true, presses: true, symbols: true };
-      this.stage = new Stage.Stage(this.part("canvas"), context, data);
+      this.stage = new Stage.Stage(this.part("canvas"), context, data, before);
       this.members = new Members.Members(data);
       this.bodies = new Bodies.Bodies(data, this.members);
       this.hinges = new Symbols.Hinges(data);
