@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass, fields
 from enum import Enum
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
+
+Value = TypeVar("Value")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -27,6 +29,17 @@ class Frozen:
     def __reduce__(self) -> tuple[Callable[..., object], tuple[Any, ...]]:
         """What makes it anew, class and fields."""
         return _made, (type(self), *(getattr(self, field.name) for field in fields(self)))
+
+
+def kept(owner: Frozen, key: Hashable, find: Callable[[], Value]) -> Value:
+    """What is found once of an object that does not change, and is kept in it.
+
+    As by `cached_property`, for what is found above the room of the object.
+    """
+    found: dict[Hashable, Value] = owner.__dict__.setdefault("_kept", {})
+    if key not in found:
+        found[key] = find()
+    return found[key]
 
 
 def _made(kind: type, *values: object) -> object:

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.data import ModelData
-from ...util.records import Frozen, cached_property
+from ...util.records import Frozen, cached_property, kept
 from .bodies import Solid, solids_of
 from .members import Elements, Members, hinges_of, members_of
 from .pose import Pose, axes_along, reference_pose
@@ -84,7 +84,11 @@ class Drawing(Frozen):
 
 
 def drawing_of(data: ModelData) -> Drawing:
-    """The drawing of a sound model."""
+    """The drawing of a sound model, made once."""
+    return kept(data, Drawing, lambda: _drawing_of(data))
+
+
+def _drawing_of(data: ModelData) -> Drawing:
     arrays = data.arrays
     reference = reference_pose(arrays)
     there = reference.position[arrays.node_kind <= NodeKind.POSITION]

@@ -20,7 +20,7 @@ from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
 from ...motion.stations import onward, settle
 from ...util.loading import load
-from ...util.records import Frozen
+from ...util.records import Frozen, kept
 from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
 from .pose import Pose, axes_along, field_along, pose_of, reference_pose
@@ -329,7 +329,12 @@ def move(drawing: Drawing, motion: Moving, most: int = MOST_COORDINATES) -> Move
     They lie on a path on which the deformations that the motion holds stay zero, or so small
     that nobody sees them, where there is one and the model is not large. The larger of the two
     farthest displacements is a tenth of the drawing's size, unless rotations are too large.
+    Of a page with pictures each is found once.
     """
+    return kept(drawing, (motion, most), lambda: _movement(drawing, motion, most))
+
+
+def _movement(drawing: Drawing, motion: Moving, most: int) -> Movement:
     far, part = amplitude_of(drawing, motion.displacement, motion.rotation)
     scale = reach = scale_of(drawing, motion.displacement, motion.rotation, far)
     sides, deviation = _swung(motion, reach, drawing.size, most)
