@@ -52,6 +52,8 @@ _RULES = (
     (r"(?<![\w.])(\d*\.?\d+)vw\b", r"\1cqw"),
 )
 _REM = re.compile(r"(?<![\w.])(\d*\.?\d+)rem\b")
+#: Lines of remarks in scripts, which few read in a notebook.
+_REMARK = re.compile(r"(?m)^ *//(?! SPDX).*\n")
 
 
 @cache
@@ -102,7 +104,7 @@ def style() -> str:
 def _scripts() -> str:
     parts = [asset(name) for name in SCRIPTS if name != _START]
     own = resources.files(__package__).joinpath("element.js").read_text("utf-8")
-    return "\n".join((*parts, own))
+    return _REMARK.sub("", "\n".join((*parts, own)))
 
 
 #: Of each that asks (a notebook, a console) the cell whose output brought the viewer.
