@@ -187,7 +187,8 @@ def _with_reaction(result: Result, wanted: Class) -> Coordinates:
 
 def _largest(leverage: FloatArray, key: Key) -> list[int]:
     order = np.array(ranked(leverage, leverage.size, key), np.int64)
-    return [int(row) for row in order[leverage[order] > NO_LEVERAGE]]
+    rows: list[int] = order[leverage[order] > NO_LEVERAGE].tolist()
+    return rows
 
 
 def _independent_rows(basis: Basis, key: Key, able: BoolArray | None = None) -> list[int]:

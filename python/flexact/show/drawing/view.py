@@ -12,7 +12,7 @@ from ...model.parts.forms import Form
 from ...model.parts.parts import bodies_of
 from ...util.errors import BatchError, require_kind
 from ...util.quantities import quantity
-from ...util.records import Frozen, cached_property
+from ...util.records import Frozen, cached_property, kept
 from .bodies import MOST_MEMBERS
 from .drawing import Drawing
 
@@ -81,8 +81,10 @@ def view_of(text: str | None, drawing: Drawing) -> View:
     asked = check_view(ISO if text is None else text)
     if drawing.planar:
         return FLAT
-    if asked is not None:
-        return asked
+    return kept(drawing, View, lambda: _best_view(drawing)) if asked is None else asked
+
+
+def _best_view(drawing: Drawing) -> View:
     # From above and the side from which members hide each other least and sheets are seen.
     normal = flat_normal(drawing)
     lies = normal is not None and abs(normal[2]) > np.cos(np.radians(_ABOVE))

@@ -227,6 +227,8 @@ const Live = (() => {
     work({ work, seconds }) {
       clearInterval(this.ticking);
       clearTimeout(this.soon);
+      // Where the processor draws, it has the analysis to do first.
+      for (const { stage } of this.mounted.viewers) stage.seldom = stage.software && Boolean(work);
       const place = this.part("live-work");
       place.hidden = true;
       if (!work) return;

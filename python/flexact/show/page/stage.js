@@ -9,6 +9,7 @@ const Stage = (() => {
   const CORNERS = Array.from({ length: 8 }, (_, i) => [i & 1, (i >> 1) & 1, (i >> 2) & 1]);
   // Milliseconds: frames that follow so soon are one run, and are slow if so long apart on average.
   const RUNNING = 60, LONG = 45, GAPS = 4, REST = 250;
+  const SELDOM = 150; // ms between frames while the processor that draws is wanted elsewhere
   const GROUND = 0xd8d8dc; // what surfaces get of the light that look down
   const DIRECTIONS = { front: [0, -1, 0], top: [0, -1e-4, 1], right: [1, 0, 0] };
 
@@ -26,6 +27,7 @@ const Stage = (() => {
       this.gaps = [];
       this.heavy = false; // whether there is something to leave out
       this.slow = this.light = this.dull = false; // dull: without shadows while something moves
+      this.seldom = false;
       this.software = before ? before.software : isSoftware(context);
       this.lightened = () => {};
       this.after = []; // called behind each frame
@@ -121,6 +123,7 @@ const Stage = (() => {
       this.ending.abort();
       cancelAnimationFrame(this.waiting);
       clearTimeout(this.resting);
+      clearTimeout(this.later);
       this.observer.disconnect();
       this.controls.dispose();
     }
@@ -309,7 +312,15 @@ const Stage = (() => {
 
     /** Have a frame drawn soon; where frames take long, a light one until all is at rest. */
     request() {
-      if (this.waiting || this.disposed) return;
+      if (this.waiting || this.later || this.disposed) return;
+      if (!this.seldom) return this.ask();
+      this.later = setTimeout(() => {
+        this.later = 0;
+        this.ask();
+      }, SELDOM);
+    }
+
+    ask() {
       const running = performance.now() - this.drawn < RUNNING;
       this.waiting = requestAnimationFrame((time) => {
         this.settle();
