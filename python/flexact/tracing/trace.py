@@ -24,7 +24,7 @@ from ..model.reading import read
 from ..motion import Ending, Followed, Held, Station, Wishes, follow, is_followed, least_error
 from ..motion.constraints import MOST_COORDINATES
 from ..motion.stations import Between, passing
-from ..show.drawing.movement import pose_in, poses_with_inner_nodes
+from ..show.drawing.movement import poses_in, poses_with_inner_nodes
 from ..show.drawing.pose import Pose
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
@@ -429,7 +429,7 @@ class Stroke:
         values = self.judged.values(where)
         known = int(np.count_nonzero(values > zero)) if rank is None else rank
         rows, columns = self.judged.rows.size, self.judged.columns.size
-        (pose,) = poses_with_inner_nodes(self.result.condensed, [pose_in(self.held, where)])
+        (pose,) = poses_with_inner_nodes(self.result.condensed, poses_in(self.held, [where]))
         return Step(
             arc * self.held.size,
             self.held.outside(where),

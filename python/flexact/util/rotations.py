@@ -148,9 +148,9 @@ def matrix_of_euler(euler: FloatArray) -> FloatArray:
 
 
 def between(first: FloatArray, second: FloatArray, share: FloatArray) -> FloatArray:
-    """Rotations (k, s, 3, 3) at shares (s,) of the way between two of (k, 3, 3)."""
+    """Rotations (..., k, s, 3, 3) at shares (s,) of the way between two of (..., k, 3, 3)."""
     way = vector_of(np.swapaxes(first, -1, -2) @ second)
-    return np.asarray(first[:, None] @ matrix_of(share[None, :, None] * way[:, None]))
+    return np.asarray(first[..., None, :, :] @ matrix_of(share[:, None] * way[..., None, :]))
 
 
 def aligned(frame: FloatArray, direction: FloatArray) -> FloatArray:

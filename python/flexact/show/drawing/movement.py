@@ -23,7 +23,7 @@ from ...util.loading import load
 from ...util.records import Frozen, kept
 from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
-from .pose import Pose, axes_along, field_along, pose_of, reference_pose
+from .pose import Pose, axes_along, field_along, pose_of, poses_of, reference_pose
 
 #: A motion at the nodes: of an analysis, or of a declared degree of freedom.
 Moving = Motion | FreeMotion
@@ -92,22 +92,22 @@ def follow(motion: Velocities, shares: FloatArray, size: float) -> tuple[list[Po
         return None
     direction *= np.sign(shares[0]) / length
     here: Place | None = held.at(held.reference)
-    poses, deviation = [], 0.0
+    places, deviation = [], 0.0
     for step in np.abs(np.diff(shares, prepend=0.0)).tolist():
         here = settle(held, here, direction, step * length) if here else None
         if here is None:
             return None
         deviation = max(deviation, here.residual)
-        poses.append(pose_in(held, here.configuration))
+        places.append(here.configuration)
         direction = onward(here, direction)
-    return poses, deviation
+    return poses_in(held, places), deviation
 
 
-def pose_in(held: Held, here: Configuration) -> Pose:
-    """The pose that a configuration means, which `Held` has, where the model stands."""
-    placed = (held.arrays.node_kind <= NodeKind.POSITION)[:, None]
-    there = pose_of(held.data.arrays, held.outside(here))
-    return Pose(np.where(placed, there.position, 0.0), there.rotation)
+def poses_in(held: Held, places: Sequence[Configuration]) -> list[Pose]:
+    """The poses that configurations mean, which `Held` has, where the model stands."""
+    values = np.array([held.outside(each).value for each in places])
+    there = poses_of(held.data.arrays, values)
+    return list(map(Pose, there.position, there.rotation))
 
 
 def moved_by_screws(motion: Velocities, shares: Iterable[float]) -> tuple[Pose, ...]:
@@ -331,7 +331,13 @@ def move(drawing: Drawing, motion: Moving, most: int = MOST_COORDINATES) -> Move
     farthest displacements is a tenth of the drawing's size, unless rotations are too large.
     Of a page with pictures each is found once.
     """
-    return kept(drawing, (motion, most), lambda: _movement(drawing, motion, most))
+
+    def found() -> Movement:
+        # Matrices are so small that more threads would slow them down.
+        with load("threadpoolctl").threadpool_limits(1):
+            return _movement(drawing, motion, most)
+
+    return kept(drawing, (motion, most), found)
 
 
 def _movement(drawing: Drawing, motion: Moving, most: int) -> Movement:
@@ -365,9 +371,7 @@ def _swung(
     analysed = motion.analysed
     followed = is_followed(analysed.data, most)
     if followed:
-        # Matrices are so small that more threads would slow them down.
-        with load("threadpoolctl").threadpool_limits(1):
-            sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
+        sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
         found = [side for side in sides if side is not None and side[1] <= _UNSEEN]
         if len(found) == len(sides):
             paths = [poses_with_inner_nodes(motion.condensed, poses) for poses, _ in found]

@@ -26,7 +26,7 @@ from .members import HINGE_SIZE, Elements, Members
 
 @dataclass(frozen=True, eq=False)
 class Pose(Frozen):
-    """Where all nodes are.
+    """Where all nodes are; or several poses, one behind the other in a first axis more.
 
     Attributes:
         position: (nodes, 3) of positions [m]; zero for orientations.
@@ -46,17 +46,22 @@ def reference_pose(arrays: ModelArrays) -> Pose:
 
 def pose_of(arrays: ModelArrays, configuration: Configuration) -> Pose:
     """The pose that a configuration means."""
-    kind, value = arrays.node_kind, configuration.value
+    return poses_of(arrays, configuration.value)
+
+
+def poses_of(arrays: ModelArrays, value: FloatArray) -> Pose:
+    """The poses that values of nodes mean, (..., nodes, 4)."""
+    kind = arrays.node_kind
     placed = kind <= NodeKind.POSITION
-    rotation = np.broadcast_to(np.eye(3), (kind.size, 3, 3)).copy()
+    rotation = np.broadcast_to(np.eye(3), (*value.shape[:-1], 3, 3)).copy()
     turned = kind == NodeKind.ORIENTATION
-    now, then = matrix_of_euler(value[turned]), matrix_of_euler(arrays.node_value.T[turned])
-    rotation[turned] = now @ np.swapaxes(then, -1, -2)
-    angle = np.zeros((kind.size, 3))
-    angle[:, 2] = np.where(kind == NodeKind.ANGLE, value[:, 0] - arrays.node_value[0], 0.0)
+    now, then = matrix_of_euler(value[..., turned, :]), matrix_of_euler(arrays.node_value.T[turned])
+    rotation[..., turned, :, :] = now @ np.swapaxes(then, -1, -2)
     plane = kind == NodeKind.ANGLE
-    rotation[plane] = matrix_of(angle[plane])
-    return Pose(np.where(placed[:, None], value[:, :3], 0.0), rotation)
+    angle = np.zeros((*value.shape[:-2], int(plane.sum()), 3))
+    angle[..., 2] = value[..., plane, 0] - arrays.node_value[0, plane]
+    rotation[..., plane, :, :] = matrix_of(angle)
+    return Pose(np.where(placed[:, None], value[..., :3], 0.0), rotation)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +101,7 @@ def axes_along(members: Members, pose: Pose) -> Iterator[FloatArray]:
     """Points (k, s, 3) of the axes of the strips of `stations`; sections take most of its time."""
     for rows, at in by_shape(members, 8):
         if at.size > 2:
-            yield np.einsum("as,akx->ksx", hermite(at)[0], _ends(members, pose, rows))
+            yield np.einsum("as,a...kx->...ksx", hermite(at)[0], _ends(members, pose, rows))
         else:
             yield _straight(members, pose, rows, at).centre
 
@@ -126,15 +131,17 @@ def _ends(members: Members, pose: Pose, chosen: np.ndarray) -> FloatArray:
     """(4, k, 3) places and slopes at both ends of members that bend, as `hermite` has them."""
     p, op, q, oq = members.nodes[chosen].T
     along = members.length[chosen, None] * members.frame[chosen, :, 0]
-    slopes = ((pose.rotation[turn] @ along[..., None])[..., 0] for turn in (op, oq))
-    return np.stack((pose.position[p], next(slopes), pose.position[q], next(slopes)))
+    slopes = ((pose.rotation[..., turn, :, :] @ along[..., None])[..., 0] for turn in (op, oq))
+    places = (pose.position[..., place, :] for place in (p, q))
+    return np.stack((next(places), next(slopes), next(places), next(slopes)))
 
 
 def _bent(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) -> Strip:
     given, (value, slope) = _ends(members, pose, chosen), hermite(at)
-    centre = np.einsum("as,akx->ksx", value, given)
-    tangent = unit(np.einsum("as,akx->ksx", slope, given))
-    turned_p, turned_q = (pose.rotation[members.nodes[chosen, turn]] for turn in (1, 3))
+    centre = np.einsum("as,a...kx->...ksx", value, given)
+    tangent = unit(np.einsum("as,a...kx->...ksx", slope, given))
+    nodes = members.nodes[chosen]
+    turned_p, turned_q = (pose.rotation[..., nodes[:, turn], :, :] for turn in (1, 3))
     frame = between(turned_p, turned_q, at) @ members.frame[chosen, None]
     return Strip(chosen, at, centre, aligned(frame, tangent))
 
@@ -142,9 +149,9 @@ def _bent(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) -> S
 def _straight(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) -> Strip:
     """Trusses and rigid members; those that are stiff keep their length, whatever the pose."""
     p, op, q, _ = members.nodes[chosen].T
-    first, last = pose.position[p], pose.position[q]
+    first, last = pose.position[..., p, :], pose.position[..., q, :]
     oriented, stiff = op >= 0, members.stiff[chosen]
-    turn = np.where(oriented[:, None, None], pose.rotation[op], np.eye(3))
+    turn = np.where(oriented[:, None, None], pose.rotation[..., op, :, :], np.eye(3))
     frame = turn @ members.frame[chosen]
     along = aligned(frame, unit(last - first))
     frame = np.where((oriented & stiff)[:, None, None], frame, along)
@@ -152,8 +159,8 @@ def _straight(members: Members, pose: Pose, chosen: np.ndarray, at: FloatArray) 
     middle = first / 2 + last / 2
     first = np.where(stiff[:, None], middle - half, first)
     last = np.where(stiff[:, None], middle + half, last)
-    centre = first[:, None] + at[None, :, None] * (last - first)[:, None]
-    return Strip(chosen, at, centre, np.repeat(frame[:, None], at.size, axis=1))
+    centre = first[..., None, :] + at[:, None] * (last - first)[..., None, :]
+    return Strip(chosen, at, centre, np.repeat(frame[..., None, :, :], at.size, axis=-3))
 
 
 #: A motion at the stations of members: (k,) which of the drawing's members, (k, s, 3) of their
@@ -281,10 +288,10 @@ def solid(strip: Strip, members: Members, planar: bool = False, corners: int = 8
 def axes_of(hinges: Elements, pose: Pose, chosen: np.ndarray | slice = slice(None)) -> Strip:
     """Hinges, or some of them, with one station each; those that stand nowhere at the origin."""
     place, turn, _ = hinges.nodes[chosen].T
-    centre = np.where((place >= 0)[:, None], pose.position[place], 0.0)
-    frame = pose.rotation[turn] @ hinges.frame[chosen]
+    centre = np.where((place >= 0)[:, None], pose.position[..., place, :], 0.0)
+    frame = pose.rotation[..., turn, :, :] @ hinges.frame[chosen]
     member = np.arange(len(hinges))[chosen]
-    return Strip(member, np.array([0.5]), centre[:, None], frame[:, None])
+    return Strip(member, np.array([0.5]), centre[..., None, :], frame[..., None, :, :])
 
 
 def cylinders(strip: Strip, size: float, planar: bool = False, corners: int = 8) -> list[Solid]:

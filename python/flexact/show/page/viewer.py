@@ -61,6 +61,8 @@ from .drawing import Frame, hinges_in, static_data
 _SEGMENTS = ((400, 16), (2000, 8), (MOST_MEMBERS, 4))
 #: What differs by no more than this part of the drawing's size, or of a turn, stays.
 _STILL = 1.0e-9
+#: Members in poses that are looked at together.
+_AT_ONCE = 2000
 #: The largest number of 16 bits.
 _LARGEST = 32767
 
@@ -100,11 +102,9 @@ class Tracks:
         At all its phases, or, if that takes much room, at fewer.
         """
         poses = movement.poses
-        ends = [self._state(poses[k], self.reference, self.chosen) for k in (0, -1)]
+        ends = self._states((poses[0], poses[-1]), self.chosen)
         rows = {
-            name: np.flatnonzero(
-                np.abs([end[name] - still for end in ends]).max(axis=(0, 2), initial=0.0) > _STILL
-            )
+            name: np.flatnonzero(np.abs(ends[name] - still).max(axis=(0, 2), initial=0.0) > _STILL)
             for name, still in self.reference.items()
         }
         numbers = sum(rows[name].size * still.shape[1] for name, still in self.reference.items())
@@ -113,34 +113,53 @@ class Tracks:
         for owner, name in zip(self.owner, ("centre", "section"), strict=True):
             moving[owner[rows[name]]] = True
         inner = poses[:: min(steps, default=8)][1:-1]
-        states = [ends[0], *(self._state(pose, self.reference, moving) for pose in inner), ends[1]]
+        between = self._states(inner, moving)
         made = {}
         for name, still in self.reference.items():
-            there = rows[name]
-            change = np.stack([state[name][there] for state in states]) - still[there]
+            there, end = rows[name], ends[name][:, rows[name]]
+            every = np.concatenate((end[:1], between[name][:, there], end[1:]))
+            change = every - still[there]
             largest = float(np.abs(change).max(initial=0.0))
             whole = np.rint(change * (_LARGEST / (largest or 1.0)))
             unit = largest / _LARGEST
             made[name] = {"rows": integers(there), "unit": unit, "change": shorts(whole)}
-        size = 2 * numbers * len(states)
-        return {"phases": len(states), "tracks": made}, size
+        phases = len(inner) + 2
+        return {"phases": phases, "tracks": made}, 2 * numbers * phases
+
+    def _states(self, poses: Sequence[Pose], moving: np.ndarray) -> State:
+        """The shapes in several poses, in a first axis more; of many members one by one."""
+        many = max(1, _AT_ONCE // max(len(self.members), 1))
+        found = []
+        for k in range(0, len(poses), many):
+            some = poses[k : k + many]
+            pose = Pose(
+                np.array([each.position for each in some]),
+                np.array([each.rotation for each in some]),
+            )
+            found.append(self._state(pose, self.reference, moving))
+        return {name: np.concatenate([each[name] for each in found]) for name in self.reference}
 
     def _state(self, pose: Pose, still: State, moving: np.ndarray) -> State:
         """The shapes in a pose; members that are not `moving` are as in `still`."""
         frame, drawing = self.frame, self.frame.drawing
         placed = drawing.data.arrays.node_kind[frame.kept] <= NodeKind.POSITION
-        position = frame.places(pose.position[frame.kept])
-        centre, section = still["centre"].copy(), still["section"].copy()
+        position = frame.places(pose.position[..., frame.kept, :])
+        many = pose.position.shape[:-2]
+        centre, section = (
+            np.broadcast_to(still[name], (*many, *still[name].shape)).copy()
+            for name in ("centre", "section")
+        )
         for strip in stations(self.members, pose, self.segments, moving):
             every = np.arange(strip.at.size)
-            centre[self.station[strip.member][:, None] + every] = frame.places(strip.centre)
+            place = self.station[strip.member][:, None] + every
+            centre[..., place, :] = frame.places(strip.centre)
             every = every if every.size > 2 else every[:1]
             there = self.section[strip.member][:, None] + every
-            turns = euler_of(strip.frame[:, every])
+            turns = euler_of(strip.frame[..., every, :, :])
             # Of the two that mean the same, the one that is nearer.
             turns[np.sum(turns * still["section"][there], axis=-1) < 0.0] *= -1.0
-            section[there] = turns
-        turned = axes_of(drawing.hinges, pose, hinges_in(frame)).frame[:, 0]
+            section[..., there, :] = turns
+        turned = axes_of(drawing.hinges, pose, hinges_in(frame)).frame[..., 0, :, :]
         return {
             "position": np.where(placed[:, None], position, 0.0),
             "centre": centre,
