@@ -160,24 +160,19 @@ def aligned(frame: FloatArray, direction: FloatArray) -> FloatArray:
     """
     ex = frame[..., 0]
     axis = cross(ex, direction)
-    cosine = _dot(ex, direction)
+    cosine = np.einsum("...x,...x->...", ex, direction)[..., None]
     part = axis / np.maximum(1 + cosine, _SMALL)
     made = np.empty(np.broadcast_shapes(frame.shape, (*direction.shape, 3)))
-    made[..., 0] = direction
-    for k in (1, 2):
-        each = frame[..., k]
-        made[..., k] = cosine * each + cross(axis, each) + _dot(axis, each) * part
+    for k in range(3):
+        # To be added to what is there, so that what has its direction stays to the last bit.
+        once = cross(axis, frame[..., k])
+        made[..., k] = frame[..., k] + once + cross(part, once)
     there = np.any(direction != 0.0, axis=-1)
     rest = ~(there & (cosine[..., 0] > _SMALL - 1))
     if rest.any():
         turns = np.where(there[rest][:, None], [-1.0, 1.0, -1.0], 1.0)
         made[rest] = np.broadcast_to(frame, made.shape)[rest] * turns[:, None]
     return made
-
-
-def _dot(one: FloatArray, other: FloatArray) -> FloatArray:
-    """(..., 1) scalar products."""
-    return np.asarray(np.einsum("...x,...x->...", one, other))[..., None]
 
 
 def _skew(vectors: FloatArray) -> FloatArray:
