@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -177,7 +178,9 @@ def test_a_broken_deck_keeps_the_last_scene_and_all_windows_hear_of_it(
     deck.write_text(WRONG)
     broken = [each.next() for each in windows]
     assert all(each == broken[0] for each in broken)
-    assert bodies == [broken[0]["body"]] * 3
+    # The shapes of motions may have come meanwhile.
+    data = re.compile("<script.*?</script>", re.DOTALL)
+    assert [data.sub("", each) for each in bodies] == [data.sub("", broken[0]["body"])] * 3
     assert "BEAN" in broken[0]["broken"] and "^^^^" in broken[0]["broken"]
     assert "guide.dat:3:1" in broken[0]["broken"]
     # A page that is loaded now has both.
