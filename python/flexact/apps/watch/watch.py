@@ -234,6 +234,8 @@ class Watch:
             elif isinstance(heard, Laid):
                 self.stage.put(heard)
             elif isinstance(heard, Shown):
+                # What it was made of may be saved before it is whole.
+                self._saved.also(heard.files)
                 self.session.renewed(heard)
             else:
                 self.session.judged(heard)
