@@ -3,7 +3,7 @@
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
 !> singular. K with its factor serves all stresses.
 module flexact_elastic_errors
-   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
+   use flexact_block_lanczos, only: self_adjoint_t, end_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
@@ -16,8 +16,7 @@ module flexact_elastic_errors
    use flexact_kinds, only: wp
    use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve
-   use flexact_symmetric_lanes, only: symmetric_times
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, reduce, reduced_times, from_reduced
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
    implicit none
@@ -31,11 +30,11 @@ module flexact_elastic_errors
       logical :: failed = .false.
    end type errors_t
 
-   !> inv(A) B in the inner product of A, which is definite.
+   !> inv(R') B inv(R) for a definite A = R'R.
    type, extends(self_adjoint_t) :: definite_t
       type(symmetric_pattern_t), pointer :: pattern => null()
       type(operator_t), pointer :: a => null()
-      type(sparse_t), pointer :: b => null()
+      real(wp), allocatable :: b(:)
    contains
       procedure :: apply
       procedure :: weigh
@@ -43,12 +42,12 @@ module flexact_elastic_errors
 
    !> Pairs that are looked for at first, and at most, until there is one on either side.
    integer, parameter :: few = 2, many = 24
-   !> Vectors that are sent through the operator at a time, where the result is checked.
-   integer, parameter :: narrow = 2
    !> Nearer to zero than this part of the nearest error there is none.
    real(wp), parameter :: inside = 1 - 1.0e-6_wp
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
    real(wp), parameter :: accuracy = 1.0e-6_wp
+   !> On the other side of zero none is looked for beyond so many times the nearest.
+   real(wp), parameter :: far = 1.0e4_wp
    !> What is so many times as far as the nearest may be nearer with other meshes.
    real(wp), parameter :: about = 1.2_wp
    !> Values so many times the nearest are rounding.
@@ -61,10 +60,11 @@ contains
       real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
 
-      associate (unused => weighed)
-      end associate
-      call symmetric_times(self%b, x, y)
-      call solve(self%pattern, self%a%factor, y)
+      integer :: k
+
+      do k = 1, size(weighed, 2)
+         call reduced_times(self%pattern, self%a%factor, self%b, x(:, k), y(:, k))
+      end do
    end subroutine apply
 
    subroutine weigh(self, x, y)
@@ -72,7 +72,9 @@ contains
       real(wp), intent(in), contiguous :: x(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
 
-      call symmetric_times(self%a%matrix, x, y)
+      associate (unused => self)
+      end associate
+      y = x
    end subroutine weigh
 
    !> The base is that of a state without stress. No errors are found where K - square M has
@@ -114,7 +116,9 @@ contains
          call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, hessian)
          if (nearest < huge(nearest)) then
-            if (is_stable_within(base, op, hessian, about*nearest/lengths(i))) cycle
+            if (is_stable_at(base, op, hessian, about*nearest/lengths(i))) then
+               if (is_stable_at(base, op, hessian, -about*nearest/lengths(i))) cycle
+            end if
          end if
          call find_nearest(elastic, base, op, hessian, square, errors%below(i), errors%above(i), errors%failed)
          if (errors%failed) return
@@ -122,30 +126,23 @@ contains
       end do
    end subroutine find_errors
 
-   !> Whether K - square M + d H is definite at both ends, and so everywhere in between.
-   logical function is_stable_within(base, op, hessian, end)
+   !> Whether K - square M + d H is definite at an error d, and so everywhere from zero to there.
+   logical function is_stable_at(base, op, hessian, d)
       type(base_t), intent(in) :: base
       type(operator_t), intent(in) :: op
       type(sparse_t), intent(in) :: hessian
-      real(wp), intent(in) :: end
+      real(wp), intent(in) :: d
       type(symmetric_factor_t) :: factor
       type(sparse_t) :: matrix
       type(error_t), allocatable :: error
-      real(wp) :: d
-      integer :: side
 
-      is_stable_within = .false.
+      is_stable_at = .false.
       if (size(op%loose, 2) > 0) return
       matrix = op%matrix
-      do side = -1, 1, 2
-         d = side*end
-         matrix%value = op%matrix%value + d*hessian%value
-         call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
-         if (allocated(error)) return
-         if (factor%negative > 0) return
-      end do
-      is_stable_within = .true.
-   end function is_stable_within
+      matrix%value = op%matrix%value + d*hessian%value
+      call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
+      if (.not. allocated(error)) is_stable_at = factor%negative == 0
+   end function is_stable_at
 
    !> Values d of (K - square M) v = -d H v on both sides of zero.
    subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)
@@ -183,39 +180,37 @@ contains
       end do
    end subroutine find_nearest
 
-   !> The same with few vectors at a time. is_complete: there is a value on either side, and none is
-   !> nearer than the nearest.
+   !> The same by the ends of the spectrum of inv(A) B alone. is_complete: none is nearer than the
+   !> nearest, and on the other side of zero there is one, too, or none for a long way.
    subroutine find_quickly(base, op, hessian, pairs)
       type(base_t), target, intent(in) :: base
       type(operator_t), target, intent(in) :: op
-      type(sparse_t), target, intent(in) :: hessian
+      type(sparse_t), intent(in) :: hessian
       type(pairs_t), intent(out) :: pairs
       type(definite_t) :: operator
-      type(symmetric_factor_t) :: factor
-      type(sparse_t) :: matrix
       type(error_t), allocatable :: error
+      real(wp), allocatable :: values(:), vectors(:, :)
       real(wp) :: nearest
-      integer :: wanted
+      integer, allocatable :: found(:)
+      logical :: is_there
+      integer :: i
 
-      if (size(op%loose, 2) > 0) return
+      if (size(op%factor%pinned) > 0) return
       operator%pattern => base%space%projection%pattern
       operator%a => op
-      operator%b => hessian
-      wanted = few
-      do
-         call largest_pairs(operator, base%space%motions, wanted, pairs%values, pairs%vectors, error, narrow, accuracy)
-         if (allocated(error)) return
-         if (any(pairs%values > 0) .and. any(pairs%values < 0)) exit
-         if (size(pairs%values) < wanted .or. wanted >= many) return
-         wanted = 3*wanted
+      operator%b = reduce(operator%pattern, op%factor, hessian)
+      call end_pairs(operator, base%space%motions, 1/far, values, vectors, is_there, error)
+      if (allocated(error) .or. .not. is_there) return
+      nearest = values(maxloc(abs(values), 1))
+      pairs%is_complete = is_stable_at(base, op, hessian, -inside/nearest)
+      if (maxval(-values*sign(1.0_wp, nearest)) <= abs(nearest)/far) &
+         pairs%is_complete = pairs%is_complete .and. is_stable_at(base, op, hessian, far/nearest)
+      found = pack([(i, i=1, size(values))], abs(values) > abs(nearest)/far)
+      pairs%values = -1/values(found)
+      pairs%vectors = vectors(:, found)
+      do i = 1, size(found)
+         pairs%vectors(:, i) = from_reduced(operator%pattern, op%factor, vectors(:, found(i)))
       end do
-      pairs%values = -1/pairs%values
-      nearest = pairs%values(minloc(abs(pairs%values), 1))
-      matrix = op%matrix
-      matrix%value = matrix%value + inside*nearest*hessian%value
-      call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
-      if (allocated(error)) return
-      pairs%is_complete = factor%negative == 0
    end subroutine find_quickly
 
    !> The error of a vector by the elements' own products, which lose fewer digits.
