@@ -155,6 +155,7 @@ contains
       logical, intent(out) :: failed
       type(pairs_t) :: pairs
       type(error_t), allocatable :: error
+      real(wp) :: value
       integer :: wanted, i
 
       below = -huge(1.0_wp)
@@ -175,8 +176,9 @@ contains
       if (size(pairs%values) == 0) return
       do i = 1, size(pairs%values)
          if (abs(pairs%values(i)) > rounding*minval(abs(pairs%values))) cycle
-         if (pairs%values(i) < 0) below = max(below, settled(elastic, base, square, pairs%vectors(:, i)))
-         if (pairs%values(i) > 0) above = min(above, settled(elastic, base, square, pairs%vectors(:, i)))
+         value = settled(elastic, base, square, pairs%vectors(:, i))
+         if (value < 0) below = max(below, value)
+         if (value > 0) above = min(above, value)
       end do
    end subroutine find_nearest
 

@@ -9,6 +9,9 @@ module flexact_projection
    private
    public :: project
 
+   !> Products from which on a block is left to BLAS.
+   integer, parameter :: many = 10000
+
 contains
 
    !> The lower triangle, of the pattern that was prepared. A: both triangles.
@@ -109,6 +112,10 @@ contains
       associate (z => projection%basis, first => projection%first)
          columns = reshape(z%value(z%start(first(h)):z%start(first(h + 1)) - 1), [size(rows), first(h + 1) - first(h)])
       end associate
+      if (size(columns)*size(image, 1) < many) then
+         block = matmul(transpose(columns), transpose(image(:, rows)))
+         return
+      end if
       there = image(:, rows)
       allocate (block(size(columns, 2), size(image, 1)))
       call dgemm('T', 'T', size(block, 1), size(block, 2), size(rows), 1.0_wp, columns, size(rows), there, size(there, 1), 0.0_wp, &
