@@ -64,7 +64,7 @@ module flexact_row_space
 
    real(wp), parameter :: usual_tolerance = 1.0e-9_wp
    !> Columns of a component beyond which it has clusters, and of a cluster, about.
-   integer, parameter :: large = 240, about = 40
+   integer, parameter :: large = 240, about = 64
    !> Entries of scaled rows up to this do not touch a vector.
    real(wp), parameter :: rounding = 1.0e-14_wp
 
