@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which errors, each with stresses in proportion, take the lowest frequency to a given one, or the
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
-!> singular. K with its factor serves all stresses.
+!> singular. K with its factor serves all stresses, and what is found for one square the next.
 module flexact_elastic_errors
    use flexact_block_lanczos, only: self_adjoint_t, end_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
@@ -16,16 +16,16 @@ module flexact_elastic_errors
    use flexact_kinds, only: wp
    use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, reduce, reduced_times, from_reduced
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, reduce, reduced_times, to_reduced, from_reduced
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
    implicit none
    private
    public :: errors_t, find_errors
 
-   !> below, above: (stresses) the values nearest to zero on either side, infinite without one.
+   !> below, above: (squares, stresses) the values nearest to zero on either side, infinite without one.
    type :: errors_t
-      real(wp), allocatable :: below(:), above(:)
+      real(wp), allocatable :: below(:, :), above(:, :)
       integer :: negative = 0, loose = 0
       logical :: failed = .false.
    end type errors_t
@@ -59,7 +59,6 @@ contains
       class(definite_t), intent(in) :: self
       real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
-
       integer :: k
 
       do k = 1, size(weighed, 2)
@@ -83,46 +82,54 @@ contains
    subroutine find_errors(elastic, state, gravity, base, square, stress, lengths, errors)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gravity(3), square, stress(:, :, :), lengths(:)
+      real(wp), intent(in) :: gravity(3), square(:), stress(:, :, :), lengths(:)
       type(base_t), target, intent(inout) :: base
       type(errors_t), intent(out) :: errors
-      type(operator_t), target :: op
+      type(operator_t), target :: op(size(square))
       type(sparse_t), target :: hessian
       type(sparse_t) :: mass, whole
       type(state_t) :: stressed
-      real(wp) :: nearest
-      integer :: i
+      real(wp) :: nearest(size(square))
+      real(wp), allocatable :: start(:)
+      integer :: i, k
 
-      allocate (errors%below(size(stress, 3)), source=-huge(1.0_wp))
-      allocate (errors%above(size(stress, 3)), source=huge(1.0_wp))
+      allocate (errors%below(size(square), size(stress, 3)), source=-huge(1.0_wp))
+      allocate (errors%above(size(square), size(stress, 3)), source=huge(1.0_wp))
       nearest = huge(nearest)
-      call make_operator(elastic, base%tangent, base%space, .true., op)
-      errors%failed = op%failed
-      if (op%failed) return
+      call make_operator(elastic, base%tangent, base%space, .true., op(1))
+      errors%failed = op(1)%failed
+      if (errors%failed) return
       if (.not. allocated(base%tangent%mass)) call add_mass(elastic, state%configuration, base%tangent)
-      errors%loose = size(op%loose, 2)
-      if (abs(square) > 0) then
+      errors%loose = size(op(1)%loose, 2)
+      if (any(abs(square) > 0)) then
          call assemble_mass(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, mass)
-         call shift_operator(base%space, mass, square, op)
       end if
-      errors%failed = op%failed
-      errors%negative = op%negative
-      if (op%failed .or. op%negative > 0) return
+      do k = size(square), 1, -1
+         if (k > 1) op(k) = op(1)
+         if (abs(square(k)) > 0) call shift_operator(base%space, mass, square(k), op(k))
+      end do
+      errors%failed = any(op%failed)
+      errors%negative = maxval(op%negative)
+      if (errors%failed .or. errors%negative > 0) return
       stressed = state
       do i = 1, size(stress, 3)
          stressed%stress = stress(:, :, i)
          call add_hessian(elastic, stressed, gravity, base%tangent)
          call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, hessian)
-         if (nearest < huge(nearest)) then
-            if (is_stable_at(base, op, hessian, about*nearest/lengths(i))) then
-               if (is_stable_at(base, op, hessian, -about*nearest/lengths(i))) cycle
+         if (allocated(start)) deallocate (start)
+         do k = 1, size(square)
+            if (nearest(k) < huge(nearest)) then
+               if (is_stable_at(base, op(k), hessian, about*nearest(k)/lengths(i))) then
+                  if (is_stable_at(base, op(k), hessian, -about*nearest(k)/lengths(i))) cycle
+               end if
             end if
-         end if
-         call find_nearest(elastic, base, op, hessian, square, errors%below(i), errors%above(i), errors%failed)
-         if (errors%failed) return
-         if (lengths(i) > 0) nearest = min(nearest, lengths(i)*min(-errors%below(i), errors%above(i)))
+            call find_nearest(elastic, base, op(k), hessian, square(k), start, errors%below(k, i), errors%above(k, i), &
+                              errors%failed)
+            if (errors%failed) return
+            if (lengths(i) > 0) nearest(k) = min(nearest(k), lengths(i)*min(-errors%below(k, i), errors%above(k, i)))
+         end do
       end do
    end subroutine find_errors
 
@@ -144,13 +151,15 @@ contains
       if (.not. allocated(error)) is_stable_at = factor%negative == 0
    end function is_stable_at
 
-   !> Values d of (K - square M) v = -d H v on both sides of zero.
-   subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)
+   !> Values d of (K - square M) v = -d H v on both sides of zero. start: about the sum of their
+   !> vectors, if it is known, before; behind that sum.
+   subroutine find_nearest(elastic, base, op, hessian, square, start, below, above, failed)
       type(elastic_model_t), intent(in) :: elastic
       type(base_t), target, intent(in) :: base
       type(operator_t), target, intent(in) :: op
       type(sparse_t), target, intent(in) :: hessian
       real(wp), intent(in) :: square
+      real(wp), allocatable, intent(inout) :: start(:)
       real(wp), intent(out) :: below, above
       logical, intent(out) :: failed
       type(pairs_t) :: pairs
@@ -162,7 +171,11 @@ contains
       above = huge(1.0_wp)
       failed = .false.
       if (.not. any(abs(hessian%value) > 0)) return
-      call find_quickly(base, op, hessian, pairs)
+      call find_quickly(base, op, hessian, start, pairs)
+      if (allocated(start) .and. .not. pairs%is_complete) then
+         deallocate (start)
+         call find_quickly(base, op, hessian, start, pairs)
+      end if
       wanted = few
       do while (.not. pairs%is_complete)
          call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, wanted, pairs, error, op%least, &
@@ -174,6 +187,7 @@ contains
          wanted = 3*wanted
       end do
       if (size(pairs%values) == 0) return
+      start = sum(pairs%vectors, 2)
       do i = 1, size(pairs%values)
          if (abs(pairs%values(i)) > rounding*minval(abs(pairs%values))) cycle
          value = settled(elastic, base, square, pairs%vectors(:, i))
@@ -184,10 +198,11 @@ contains
 
    !> The same by the ends of the spectrum of inv(A) B alone. is_complete: none is nearer than the
    !> nearest, and on the other side of zero there is one, too, or none for a long way.
-   subroutine find_quickly(base, op, hessian, pairs)
+   subroutine find_quickly(base, op, hessian, start, pairs)
       type(base_t), target, intent(in) :: base
       type(operator_t), target, intent(in) :: op
       type(sparse_t), intent(in) :: hessian
+      real(wp), allocatable, intent(in) :: start(:)
       type(pairs_t), intent(out) :: pairs
       type(definite_t) :: operator
       type(error_t), allocatable :: error
@@ -201,7 +216,12 @@ contains
       operator%pattern => base%space%projection%pattern
       operator%a => op
       operator%b = reduce(operator%pattern, op%factor, hessian)
-      call end_pairs(operator, base%space%motions, 1/far, values, vectors, is_there, error)
+      if (allocated(start)) then
+         call end_pairs(operator, base%space%motions, 1/far, values, vectors, is_there, error, &
+                        to_reduced(operator%pattern, op%factor, start))
+      else
+         call end_pairs(operator, base%space%motions, 1/far, values, vectors, is_there, error)
+      end if
       if (allocated(error) .or. .not. is_there) return
       nearest = values(maxloc(abs(values), 1))
       pairs%is_complete = is_stable_at(base, op, hessian, -inside/nearest)

@@ -61,7 +61,9 @@ module flexact_block_lanczos
    !> Part of a vector's length below which what is left of it is rounding.
    real(wp), parameter :: nothing = 1.0e-12_wp
    !> Vectors after which both ends are given up, and before it is asked whether they are there.
-   integer, parameter :: most_vectors = 120, first_vectors = 12
+   integer, parameter :: most_vectors = 120, first_vectors = 8
+   !> How much of a start is at random.
+   real(wp), parameter :: unexpected = 0.05_wp
    !> Part of a value at an end by which it may err, and by which others are next to it.
    real(wp), parameter :: sure = 1.0e-11_wp, next_to = 1.0e-6_wp
    !> Residual of a converged pair to its eigenvalue, which errs by its square, and to the largest one.
@@ -119,14 +121,16 @@ contains
    !> The two least and the two largest eigenvalues, ascending, of an operator that is symmetric
    !> itself, W being 1, with vectors (n, 4) of norm 1: fewer of a small one. is_there: whether the
    !> least and the largest have converged, but for others next to them; one whose magnitude is
-   !> below a part of the other's, `none`, need not.
-   subroutine end_pairs(operator, n, none, values, vectors, is_there, error)
+   !> below a part of the other's, `none`, need not. start (n): about what vectors are expected to
+   !> be, summed up; without it all are alike.
+   subroutine end_pairs(operator, n, none, values, vectors, is_there, error, start)
       class(self_adjoint_t), intent(in) :: operator
       integer, intent(in) :: n
       real(wp), intent(in) :: none
       real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
       logical, intent(out) :: is_there
       type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: start(:)
       real(wp) :: space(n, min(n, most_vectors)), h(size(space, 2), size(space, 2)), image(n, 1), part(size(space, 2))
       real(wp) :: left, end(2), wrong(2), gap
       real(wp), allocatable :: theta(:), turn(:, :)
@@ -137,6 +141,7 @@ contains
       is_there = n == 0
       if (n == 0) return
       call fill_at_random(1, image)
+      if (present(start)) image(:, 1) = unexpected*image(:, 1)/norm2(image) + start/norm2(start)
       space(:, 1) = image(:, 1)/norm2(image)
       h = 0.0_wp
       look = min(first_vectors, size(space, 2))

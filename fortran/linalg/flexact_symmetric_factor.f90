@@ -20,7 +20,7 @@ module flexact_symmetric_factor
    implicit none
    private
    public :: symmetric_factor_t, factorise, solve, solve_refined, null_vectors
-   public :: reduce, reduced_times, from_reduced
+   public :: reduce, reduced_times, to_reduced, from_reduced
 
    type :: symmetric_factor_t
       integer :: n = 0
@@ -337,6 +337,23 @@ contains
       call solve_lower(pattern, factor, y)
       y = y/sqrt(factor%pivot)
    end subroutine reduced_times
+
+   !> R x.
+   pure function to_reduced(pattern, factor, x) result(y)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(in) :: x(:)
+      real(wp) :: y(pattern%n)
+      integer :: j, p
+
+      y = x(pattern%order)/factor%unit
+      do j = 1, pattern%n
+         do p = pattern%start(j), pattern%start(j + 1) - 1
+            y(j) = y(j) + factor%value(p)*y(pattern%place(p))
+         end do
+      end do
+      y = y*sqrt(factor%pivot)
+   end function to_reduced
 
    !> inv(R) x: the eigenvector of inv(A) B.
    pure function from_reduced(pattern, factor, x) result(y)
