@@ -3,7 +3,6 @@
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
 !> singular. K with its factor serves all stresses, and what is found for one square the next.
 module flexact_elastic_errors
-   use flexact_block_lanczos, only: self_adjoint_t, end_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
@@ -16,9 +15,8 @@ module flexact_elastic_errors
    use flexact_kinds, only: wp
    use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, reduce, reduced_times, to_reduced, from_reduced
-   use flexact_symmetric_pattern, only: symmetric_pattern_t
-   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise
+   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero, end_pairs_of
    implicit none
    private
    public :: errors_t, find_errors
@@ -29,16 +27,6 @@ module flexact_elastic_errors
       integer :: negative = 0, loose = 0
       logical :: failed = .false.
    end type errors_t
-
-   !> inv(R') B inv(R) for a definite A = R'R.
-   type, extends(self_adjoint_t) :: definite_t
-      type(symmetric_pattern_t), pointer :: pattern => null()
-      type(operator_t), pointer :: a => null()
-      real(wp), allocatable :: b(:)
-   contains
-      procedure :: apply
-      procedure :: weigh
-   end type definite_t
 
    !> Pairs that are looked for at first, and at most, until there is one on either side.
    integer, parameter :: few = 2, many = 24
@@ -54,27 +42,6 @@ module flexact_elastic_errors
    real(wp), parameter :: rounding = 1.0e6_wp
 
 contains
-
-   subroutine apply(self, x, weighed, y)
-      class(definite_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-      integer :: k
-
-      do k = 1, size(weighed, 2)
-         call reduced_times(self%pattern, self%a%factor, self%b, x(:, k), y(:, k))
-      end do
-   end subroutine apply
-
-   subroutine weigh(self, x, y)
-      class(definite_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-
-      associate (unused => self)
-      end associate
-      y = x
-   end subroutine weigh
 
    !> The base is that of a state without stress. No errors are found where K - square M has
    !> something negative, or K a motion without stiffness beside a square. lengths (stresses), of
@@ -199,12 +166,11 @@ contains
    !> The same by the ends of the spectrum of inv(A) B alone. is_complete: none is nearer than the
    !> nearest, and on the other side of zero there is one, too, or none for a long way.
    subroutine find_quickly(base, op, hessian, start, pairs)
-      type(base_t), target, intent(in) :: base
-      type(operator_t), target, intent(in) :: op
+      type(base_t), intent(in) :: base
+      type(operator_t), intent(in) :: op
       type(sparse_t), intent(in) :: hessian
       real(wp), allocatable, intent(in) :: start(:)
       type(pairs_t), intent(out) :: pairs
-      type(definite_t) :: operator
       type(error_t), allocatable :: error
       real(wp), allocatable :: values(:), vectors(:, :)
       real(wp) :: nearest
@@ -212,16 +178,7 @@ contains
       logical :: is_there
       integer :: i
 
-      if (size(op%factor%pinned) > 0) return
-      operator%pattern => base%space%projection%pattern
-      operator%a => op
-      operator%b = reduce(operator%pattern, op%factor, hessian)
-      if (allocated(start)) then
-         call end_pairs(operator, base%space%motions, 1/far, values, vectors, is_there, error, &
-                        to_reduced(operator%pattern, op%factor, start))
-      else
-         call end_pairs(operator, base%space%motions, 1/far, values, vectors, is_there, error)
-      end if
+      call end_pairs_of(base%space%projection%pattern, op%factor, hessian, 1/far, values, vectors, is_there, error, start)
       if (allocated(error) .or. .not. is_there) return
       nearest = values(maxloc(abs(values), 1))
       pairs%is_complete = is_stable_at(base, op, hessian, -inside/nearest)
@@ -230,9 +187,6 @@ contains
       found = pack([(i, i=1, size(values))], abs(values) > abs(nearest)/far)
       pairs%values = -1/values(found)
       pairs%vectors = vectors(:, found)
-      do i = 1, size(found)
-         pairs%vectors(:, i) = from_reduced(operator%pattern, op%factor, vectors(:, found(i)))
-      end do
    end subroutine find_quickly
 
    !> The error of a vector by the elements' own products, which lose fewer digits.
