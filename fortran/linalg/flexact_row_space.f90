@@ -185,7 +185,8 @@ contains
 
       is_first = .false.
       is_first(first) = .true.
-      order = [first, pack([(k, k=1, size(part%row))], .not. is_first)]
+      order(:size(first)) = first
+      order(size(first) + 1:) = pack([(k, k=1, size(part%row))], mask=.not. is_first)
       place(order) = [(k, k=1, size(order))]
       part%row = part%row(order)
       part%norm = part%norm(order)

@@ -305,7 +305,8 @@ def errors(
     if not np.isfinite(squares).all():
         raise ValueError("a square is not finite")
     if not k:
-        return RawErrors(*np.zeros((2, len(squares), 0)), 0, 0)
+        none = np.zeros((len(squares), 0))
+        return RawErrors(none, none, 0, 0)
     below, above, loose, negative, failed = _core.find_errors(
         *model,
         *_study(model, arrays, state),
