@@ -381,19 +381,19 @@ subroutine find_matrices(q, nn, ne, nodes, places, elements, vectors, stiffness,
 end subroutine find_matrices
 
 ! Errors nearest to zero on both sides at which K - square M + error H(unit_stress) is singular,
-! of a state given as for follow_path. unit_stress, length: of each of k errors. unheld, negative:
+! of a state given as for follow_path. square: ns of them; unit_stress, length: of each of k errors. unheld, negative:
 ! of K - square M; where there are such, none is looked for; failed: as for find_response.
-subroutine find_errors(k, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+subroutine find_errors(ns, k, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
                        reaction, gravity, square, unit_stress, length, below, above, unheld, negative, failed)
    use iso_c_binding
    use flexact_elastic_exchange, only: study_t, begin_study, end_study, give_errors
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: k, nn, ne, nodes(5, nn), elements(12, ne)
+   integer(c_int), intent(in) :: ns, k, nn, ne, nodes(5, nn), elements(12, ne)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne), stiffness(6, ne), mass(5, ne), notch(6, ne), node_mass(6, nn), &
-                                 configuration(4, nn), stress(6, ne), reaction(3, nn), gravity(3), square, unit_stress(6, ne, k), &
-                                 length(k)
-   real(c_double), intent(out) :: below(k), above(k)
+                                 configuration(4, nn), stress(6, ne), reaction(3, nn), gravity(3), square(ns), &
+                                 unit_stress(6, ne, k), length(k)
+   real(c_double), intent(out) :: below(ns, k), above(ns, k)
    integer(c_int), intent(out) :: unheld, negative, failed
    type(study_t) :: study
 

@@ -215,8 +215,8 @@ contains
 
    subroutine give_errors(study, gravity, square, stress, length, below, above, unheld, negative, failed)
       type(study_t), intent(in) :: study
-      real(wp), intent(in) :: gravity(:), square, stress(:, :, :), length(:)
-      real(wp), intent(out) :: below(:), above(:)
+      real(wp), intent(in) :: gravity(:), square(:), stress(:, :, :), length(:)
+      real(wp), intent(out) :: below(:, :), above(:, :)
       integer, intent(out) :: unheld, negative, failed
       type(base_t) :: base
       type(errors_t) :: errors

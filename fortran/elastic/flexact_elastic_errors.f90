@@ -1,9 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which errors, each with stresses in proportion, take the lowest frequency to a given one, or the
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
-!> singular. K with its factor serves all stresses.
+!> singular. K with its factor serves all stresses, and what is found for one square the next.
 module flexact_elastic_errors
-   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
@@ -16,39 +15,27 @@ module flexact_elastic_errors
    use flexact_kinds, only: wp
    use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve
-   use flexact_symmetric_lanes, only: symmetric_times
-   use flexact_symmetric_pattern, only: symmetric_pattern_t
-   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise
+   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero, end_pairs_of
    implicit none
    private
    public :: errors_t, find_errors
 
-   !> below, above: (stresses) the values nearest to zero on either side, infinite without one.
+   !> below, above: (squares, stresses) the values nearest to zero on either side, infinite without one.
    type :: errors_t
-      real(wp), allocatable :: below(:), above(:)
+      real(wp), allocatable :: below(:, :), above(:, :)
       integer :: negative = 0, loose = 0
       logical :: failed = .false.
    end type errors_t
 
-   !> inv(A) B in the inner product of A, which is definite.
-   type, extends(self_adjoint_t) :: definite_t
-      type(symmetric_pattern_t), pointer :: pattern => null()
-      type(operator_t), pointer :: a => null()
-      type(sparse_t), pointer :: b => null()
-   contains
-      procedure :: apply
-      procedure :: weigh
-   end type definite_t
-
    !> Pairs that are looked for at first, and at most, until there is one on either side.
    integer, parameter :: few = 2, many = 24
-   !> Vectors that are sent through the operator at a time, where the result is checked.
-   integer, parameter :: narrow = 2
    !> Nearer to zero than this part of the nearest error there is none.
    real(wp), parameter :: inside = 1 - 1.0e-6_wp
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
    real(wp), parameter :: accuracy = 1.0e-6_wp
+   !> On the other side of zero none is looked for beyond so many times the nearest.
+   real(wp), parameter :: far = 1.0e4_wp
    !> What is so many times as far as the nearest may be nearer with other meshes.
    real(wp), parameter :: about = 1.2_wp
    !> Values so many times the nearest are rounding.
@@ -56,115 +43,106 @@ module flexact_elastic_errors
 
 contains
 
-   subroutine apply(self, x, weighed, y)
-      class(definite_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-
-      associate (unused => weighed)
-      end associate
-      call symmetric_times(self%b, x, y)
-      call solve(self%pattern, self%a%factor, y)
-   end subroutine apply
-
-   subroutine weigh(self, x, y)
-      class(definite_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-
-      call symmetric_times(self%a%matrix, x, y)
-   end subroutine weigh
-
    !> The base is that of a state without stress. No errors are found where K - square M has
    !> something negative, or K a motion without stiffness beside a square. lengths (stresses), of
    !> unit errors: only what is about as near as the nearest is looked for, 0: all is.
    subroutine find_errors(elastic, state, gravity, base, square, stress, lengths, errors)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gravity(3), square, stress(:, :, :), lengths(:)
+      real(wp), intent(in) :: gravity(3), square(:), stress(:, :, :), lengths(:)
       type(base_t), target, intent(inout) :: base
       type(errors_t), intent(out) :: errors
-      type(operator_t), target :: op
+      type(operator_t), target :: op(size(square))
       type(sparse_t), target :: hessian
       type(sparse_t) :: mass, whole
       type(state_t) :: stressed
-      real(wp) :: nearest
-      integer :: i
+      real(wp) :: nearest(size(square))
+      real(wp), allocatable :: start(:)
+      integer :: i, k
 
-      allocate (errors%below(size(stress, 3)), source=-huge(1.0_wp))
-      allocate (errors%above(size(stress, 3)), source=huge(1.0_wp))
+      allocate (errors%below(size(square), size(stress, 3)), source=-huge(1.0_wp))
+      allocate (errors%above(size(square), size(stress, 3)), source=huge(1.0_wp))
       nearest = huge(nearest)
-      call make_operator(elastic, base%tangent, base%space, .true., op)
-      errors%failed = op%failed
-      if (op%failed) return
+      call make_operator(elastic, base%tangent, base%space, .true., op(1))
+      errors%failed = op(1)%failed
+      if (errors%failed) return
       if (.not. allocated(base%tangent%mass)) call add_mass(elastic, state%configuration, base%tangent)
-      errors%loose = size(op%loose, 2)
-      if (abs(square) > 0) then
+      errors%loose = size(op(1)%loose, 2)
+      if (any(abs(square) > 0)) then
          call assemble_mass(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, mass)
-         call shift_operator(base%space, mass, square, op)
       end if
-      errors%failed = op%failed
-      errors%negative = op%negative
-      if (op%failed .or. op%negative > 0) return
+      do k = size(square), 1, -1
+         if (k > 1) op(k) = op(1)
+         if (abs(square(k)) > 0) call shift_operator(base%space, mass, square(k), op(k))
+      end do
+      errors%failed = any(op%failed)
+      errors%negative = maxval(op%negative)
+      if (errors%failed .or. errors%negative > 0) return
       stressed = state
       do i = 1, size(stress, 3)
          stressed%stress = stress(:, :, i)
          call add_hessian(elastic, stressed, gravity, base%tangent)
          call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, hessian)
-         if (nearest < huge(nearest)) then
-            if (is_stable_within(base, op, hessian, about*nearest/lengths(i))) cycle
-         end if
-         call find_nearest(elastic, base, op, hessian, square, errors%below(i), errors%above(i), errors%failed)
-         if (errors%failed) return
-         if (lengths(i) > 0) nearest = min(nearest, lengths(i)*min(-errors%below(i), errors%above(i)))
+         if (allocated(start)) deallocate (start)
+         do k = 1, size(square)
+            if (nearest(k) < huge(nearest)) then
+               if (is_stable_at(base, op(k), hessian, about*nearest(k)/lengths(i))) then
+                  if (is_stable_at(base, op(k), hessian, -about*nearest(k)/lengths(i))) cycle
+               end if
+            end if
+            call find_nearest(elastic, base, op(k), hessian, square(k), start, errors%below(k, i), errors%above(k, i), &
+                              errors%failed)
+            if (errors%failed) return
+            if (lengths(i) > 0) nearest(k) = min(nearest(k), lengths(i)*min(-errors%below(k, i), errors%above(k, i)))
+         end do
       end do
    end subroutine find_errors
 
-   !> Whether K - square M + d H is definite at both ends, and so everywhere in between.
-   logical function is_stable_within(base, op, hessian, end)
+   !> Whether K - square M + d H is definite at an error d, and so everywhere from zero to there.
+   logical function is_stable_at(base, op, hessian, d)
       type(base_t), intent(in) :: base
       type(operator_t), intent(in) :: op
       type(sparse_t), intent(in) :: hessian
-      real(wp), intent(in) :: end
+      real(wp), intent(in) :: d
       type(symmetric_factor_t) :: factor
       type(sparse_t) :: matrix
       type(error_t), allocatable :: error
-      real(wp) :: d
-      integer :: side
 
-      is_stable_within = .false.
+      is_stable_at = .false.
       if (size(op%loose, 2) > 0) return
       matrix = op%matrix
-      do side = -1, 1, 2
-         d = side*end
-         matrix%value = op%matrix%value + d*hessian%value
-         call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
-         if (allocated(error)) return
-         if (factor%negative > 0) return
-      end do
-      is_stable_within = .true.
-   end function is_stable_within
+      matrix%value = op%matrix%value + d*hessian%value
+      call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
+      if (.not. allocated(error)) is_stable_at = factor%negative == 0
+   end function is_stable_at
 
-   !> Values d of (K - square M) v = -d H v on both sides of zero.
-   subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)
+   !> Values d of (K - square M) v = -d H v on both sides of zero. start: about the sum of their
+   !> vectors, if it is known, before; behind that sum.
+   subroutine find_nearest(elastic, base, op, hessian, square, start, below, above, failed)
       type(elastic_model_t), intent(in) :: elastic
       type(base_t), target, intent(in) :: base
       type(operator_t), target, intent(in) :: op
       type(sparse_t), target, intent(in) :: hessian
       real(wp), intent(in) :: square
+      real(wp), allocatable, intent(inout) :: start(:)
       real(wp), intent(out) :: below, above
       logical, intent(out) :: failed
       type(pairs_t) :: pairs
       type(error_t), allocatable :: error
+      real(wp) :: value
       integer :: wanted, i
 
       below = -huge(1.0_wp)
       above = huge(1.0_wp)
       failed = .false.
       if (.not. any(abs(hessian%value) > 0)) return
-      call find_quickly(base, op, hessian, pairs)
+      call find_quickly(base, op, hessian, start, pairs)
+      if (allocated(start) .and. .not. pairs%is_complete) then
+         deallocate (start)
+         call find_quickly(base, op, hessian, start, pairs)
+      end if
       wanted = few
       do while (.not. pairs%is_complete)
          call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, wanted, pairs, error, op%least, &
@@ -176,46 +154,39 @@ contains
          wanted = 3*wanted
       end do
       if (size(pairs%values) == 0) return
+      start = sum(pairs%vectors, 2)
       do i = 1, size(pairs%values)
          if (abs(pairs%values(i)) > rounding*minval(abs(pairs%values))) cycle
-         if (pairs%values(i) < 0) below = max(below, settled(elastic, base, square, pairs%vectors(:, i)))
-         if (pairs%values(i) > 0) above = min(above, settled(elastic, base, square, pairs%vectors(:, i)))
+         value = settled(elastic, base, square, pairs%vectors(:, i))
+         if (value < 0) below = max(below, value)
+         if (value > 0) above = min(above, value)
       end do
    end subroutine find_nearest
 
-   !> The same with few vectors at a time. is_complete: there is a value on either side, and none is
-   !> nearer than the nearest.
-   subroutine find_quickly(base, op, hessian, pairs)
-      type(base_t), target, intent(in) :: base
-      type(operator_t), target, intent(in) :: op
-      type(sparse_t), target, intent(in) :: hessian
+   !> The same by the ends of the spectrum of inv(A) B alone. is_complete: none is nearer than the
+   !> nearest, and on the other side of zero there is one, too, or none for a long way.
+   subroutine find_quickly(base, op, hessian, start, pairs)
+      type(base_t), intent(in) :: base
+      type(operator_t), intent(in) :: op
+      type(sparse_t), intent(in) :: hessian
+      real(wp), allocatable, intent(in) :: start(:)
       type(pairs_t), intent(out) :: pairs
-      type(definite_t) :: operator
-      type(symmetric_factor_t) :: factor
-      type(sparse_t) :: matrix
       type(error_t), allocatable :: error
+      real(wp), allocatable :: values(:), vectors(:, :)
       real(wp) :: nearest
-      integer :: wanted
+      integer, allocatable :: found(:)
+      logical :: is_there
+      integer :: i
 
-      if (size(op%loose, 2) > 0) return
-      operator%pattern => base%space%projection%pattern
-      operator%a => op
-      operator%b => hessian
-      wanted = few
-      do
-         call largest_pairs(operator, base%space%motions, wanted, pairs%values, pairs%vectors, error, narrow, accuracy)
-         if (allocated(error)) return
-         if (any(pairs%values > 0) .and. any(pairs%values < 0)) exit
-         if (size(pairs%values) < wanted .or. wanted >= many) return
-         wanted = 3*wanted
-      end do
-      pairs%values = -1/pairs%values
-      nearest = pairs%values(minloc(abs(pairs%values), 1))
-      matrix = op%matrix
-      matrix%value = matrix%value + inside*nearest*hessian%value
-      call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
-      if (allocated(error)) return
-      pairs%is_complete = factor%negative == 0
+      call end_pairs_of(base%space%projection%pattern, op%factor, hessian, 1/far, values, vectors, is_there, error, start)
+      if (allocated(error) .or. .not. is_there) return
+      nearest = values(maxloc(abs(values), 1))
+      pairs%is_complete = is_stable_at(base, op, hessian, -inside/nearest)
+      if (maxval(-values*sign(1.0_wp, nearest)) <= abs(nearest)/far) &
+         pairs%is_complete = pairs%is_complete .and. is_stable_at(base, op, hessian, far/nearest)
+      found = pack([(i, i=1, size(values))], abs(values) > abs(nearest)/far)
+      pairs%values = -1/values(found)
+      pairs%vectors = vectors(:, found)
    end subroutine find_quickly
 
    !> The error of a vector by the elements' own products, which lose fewer digits.

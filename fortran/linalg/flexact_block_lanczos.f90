@@ -11,12 +11,12 @@ module flexact_block_lanczos
    use flexact_eigenpairs, only: symmetric_eigenpairs
    use flexact_error, only: error_t, fail, error_memory, error_not_found
    use flexact_kinds, only: wp
-   use flexact_lapack, only: dgemm
+   use flexact_lapack, only: dgemm, dgemv
    use flexact_orthonormal, only: fill_at_random
    use flexact_sorting, only: ascending
    implicit none
    private
-   public :: self_adjoint_t, largest_pairs
+   public :: self_adjoint_t, largest_pairs, end_pairs
 
    type, abstract :: self_adjoint_t
    contains
@@ -60,6 +60,12 @@ module flexact_block_lanczos
    integer, parameter :: first_look = 4
    !> Part of a vector's length below which what is left of it is rounding.
    real(wp), parameter :: nothing = 1.0e-12_wp
+   !> Vectors after which both ends are given up, and before it is asked whether they are there.
+   integer, parameter :: most_vectors = 120, first_vectors = 8
+   !> How much of a start is at random.
+   real(wp), parameter :: unexpected = 0.05_wp
+   !> Part of a value at an end by which it may err, and by which others are next to it.
+   real(wp), parameter :: sure = 1.0e-11_wp, next_to = 1.0e-6_wp
    !> Residual of a converged pair to its eigenvalue, which errs by its square, and to the largest one.
    real(wp), parameter :: converged = 1.0e-8_wp, noise = 1.0e-14_wp
    !> Eigenvalues below this part of the largest are zero.
@@ -111,6 +117,68 @@ contains
       values = theta(:found)
       vectors = product_with(process%space(:, :process%used), turn(:, :found))
    end subroutine largest_pairs
+
+   !> The two least and the two largest eigenvalues, ascending, of an operator that is symmetric
+   !> itself, W being 1, with vectors (n, 4) of norm 1: fewer of a small one. is_there: whether the
+   !> least and the largest have converged, but for others next to them; one whose magnitude is
+   !> below a part of the other's, `none`, need not. start (n): about what vectors are expected to
+   !> be, summed up; without it all are alike.
+   subroutine end_pairs(operator, n, none, values, vectors, is_there, error, start)
+      class(self_adjoint_t), intent(in) :: operator
+      integer, intent(in) :: n
+      real(wp), intent(in) :: none
+      real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
+      logical, intent(out) :: is_there
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: start(:)
+      real(wp) :: space(n, min(n, most_vectors)), h(size(space, 2), size(space, 2)), image(n, 1), part(size(space, 2))
+      real(wp) :: left, end(2), wrong(2), gap
+      real(wp), allocatable :: theta(:), turn(:, :)
+      integer, allocatable :: chosen(:)
+      integer :: used, look, round, i
+
+      allocate (values(0), vectors(n, 0))
+      is_there = n == 0
+      if (n == 0) return
+      call fill_at_random(1, image)
+      if (present(start)) image(:, 1) = unexpected*image(:, 1)/norm2(image) + start/norm2(start)
+      space(:, 1) = image(:, 1)/norm2(image)
+      h = 0.0_wp
+      look = min(first_vectors, size(space, 2))
+      do used = 1, size(space, 2)
+         call operator%apply(space(:, used:used), space(:, used:used), image)
+         do round = 1, 2
+            call dgemv('T', n, used, 1.0_wp, space, n, image, 1, 0.0_wp, part, 1)
+            call dgemv('N', n, used, -1.0_wp, space, n, part, 1, 1.0_wp, image, 1)
+            h(used, used) = h(used, used) + part(used)
+         end do
+         left = norm2(image)
+         if (.not. left > nothing*maxval(abs(h(:used, :used)))) left = 0.0_wp
+         if (used == look .or. .not. left > 0) then
+            turn = h(:used, :used)
+            theta = spread(0.0_wp, 1, used)
+            call symmetric_eigenpairs(turn, theta, error)
+            if (allocated(error)) return
+            end = theta([1, used])
+            wrong = left*abs(turn(used, [1, used]))
+            ! A value errs by no more than its residual, and than its square over the gap to others.
+            do i = 1, 2
+               gap = minval(abs(theta - end(i)), abs(theta - end(i)) > next_to*abs(end(i)))
+               wrong(i) = min(wrong(i), wrong(i)**2/gap)
+            end do
+            is_there = all(wrong <= sure*abs(end) .or. abs(end) + wrong <= none*maxval(abs(end)))
+            if (is_there .or. used == size(space, 2)) exit
+            look = min(used + max(4, used/4), size(space, 2))
+         end if
+         space(:, used + 1) = image(:, 1)/left
+         h(used + 1, used) = left
+         h(used, used + 1) = left
+      end do
+      used = size(theta)
+      chosen = pack([(i, i=1, used)], [(min(i - 1, used - i) < 2, i=1, used)])
+      values = theta(chosen)
+      vectors = product_with(space(:, :used), turn(:, chosen))
+   end subroutine end_pairs
 
    subroutine begin(operator, n, width, most, process, error)
       class(self_adjoint_t), intent(in) :: operator

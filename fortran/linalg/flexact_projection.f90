@@ -2,11 +2,15 @@
 !> Z'A Z for sparse Z and symmetric sparse A, block by block.
 module flexact_projection
    use flexact_kinds, only: wp
+   use flexact_lapack, only: dgemm
    use flexact_projection_pattern, only: projection_t, rows_of
    use flexact_sparse, only: sparse_t
    implicit none
    private
    public :: project
+
+   !> Products from which on a block is left to BLAS.
+   integer, parameter :: many = 10000
 
 contains
 
@@ -101,13 +105,20 @@ contains
       integer, intent(in) :: h
       real(wp), intent(in) :: image(:, :)
       real(wp), allocatable :: block(:, :)
-      real(wp), allocatable :: columns(:, :)
+      real(wp), allocatable :: columns(:, :), there(:, :)
       integer, allocatable :: rows(:)
 
       rows = rows_of(projection, h)
       associate (z => projection%basis, first => projection%first)
          columns = reshape(z%value(z%start(first(h)):z%start(first(h + 1)) - 1), [size(rows), first(h + 1) - first(h)])
       end associate
-      block = matmul(transpose(columns), transpose(image(:, rows)))
+      if (size(columns)*size(image, 1) < many) then
+         block = matmul(transpose(columns), transpose(image(:, rows)))
+         return
+      end if
+      there = image(:, rows)
+      allocate (block(size(columns, 2), size(image, 1)))
+      call dgemm('T', 'T', size(block, 1), size(block, 2), size(rows), 1.0_wp, columns, size(rows), there, size(there, 1), 0.0_wp, &
+                 block, size(block, 1))
    end function block_with
 end module flexact_projection

@@ -2,8 +2,8 @@
 !> Where the entries of Z'A Z stand for sparse Z and symmetric sparse A, whose patterns stay the
 !> same from one to the next.
 !>
-!> Columns of Z fall into groups: those of a group have the same rows, and no other group has
-!> them. So Z'A Z consists of full blocks, one for each two groups that an entry of A joins.
+!> Columns of Z that stand side by side and have the same rows are a group. So Z'A Z consists of
+!> full blocks, one for each two groups that an entry of A joins.
 module flexact_projection_pattern
    use flexact_kinds, only: wp
    use flexact_sorting, only: ascending
@@ -18,8 +18,8 @@ module flexact_projection_pattern
       type(sparse_t) :: basis, matrix
       type(symmetric_pattern_t) :: pattern
       integer :: groups = 0
-      !> First column of each group; the group of each row, 0 for none.
-      integer, allocatable :: first(:), group(:)
+      !> First column of each group; the groups of row i: group(of_row(i):of_row(i + 1) - 1).
+      integer, allocatable :: first(:), of_row(:), group(:)
       !> The groups that each is joined with: itself, and then those behind it.
       integer, allocatable :: start(:), joined(:)
    end type projection_t
@@ -44,22 +44,41 @@ contains
       call analyse_pattern(projection%matrix, projection%pattern)
    end subroutine prepare
 
-   !> A column with rows of its own begins a group.
+   !> A column with other rows than the one before begins a group.
    pure subroutine find_groups(projection)
       type(projection_t), intent(inout) :: projection
-      integer :: j
+      integer :: j, g, i
+      integer, allocatable :: rows(:), next(:)
+      logical :: is_new
 
       associate (z => projection%basis)
-         projection%group = spread(0, 1, z%rows)
          projection%first = spread(0, 1, z%columns + 1)
          projection%groups = 0
          do j = 1, z%columns
-            if (projection%group(z%place(z%start(j))) > 0) cycle
+            is_new = j == 1
+            if (.not. is_new) is_new = z%start(j + 1) - z%start(j) /= z%start(j) - z%start(j - 1)
+            if (.not. is_new) is_new = any(z%place(z%start(j):z%start(j + 1) - 1) /= z%place(z%start(j - 1):z%start(j) - 1))
+            if (.not. is_new) cycle
             projection%groups = projection%groups + 1
             projection%first(projection%groups) = j
-            projection%group(z%place(z%start(j):z%start(j + 1) - 1)) = projection%groups
          end do
          projection%first = [projection%first(:projection%groups), z%columns + 1]
+         allocate (next(z%rows + 1), source=0)
+         do g = 1, projection%groups
+            rows = rows_of(projection, g)
+            next(rows + 1) = next(rows + 1) + 1
+         end do
+         next(1) = 1
+         do i = 1, z%rows
+            next(i + 1) = next(i) + next(i + 1)
+         end do
+         projection%of_row = next
+         projection%group = spread(0, 1, next(z%rows + 1) - 1)
+         do g = 1, projection%groups
+            rows = rows_of(projection, g)
+            projection%group(next(rows)) = g
+            next(rows) = next(rows) + 1
+         end do
       end associate
    end subroutine find_groups
 
@@ -77,7 +96,7 @@ contains
    pure subroutine join_groups(a, projection)
       type(sparse_t), intent(in) :: a
       type(projection_t), intent(inout) :: projection
-      integer :: seen(projection%groups), g, h, i, q, found, round
+      integer :: seen(projection%groups), g, h, i, k, q, found, round
       integer, allocatable :: rows(:)
 
       projection%start = spread(1, 1, projection%groups + 1)
@@ -92,12 +111,14 @@ contains
             rows = rows_of(projection, g)
             do i = 1, size(rows)
                do q = a%start(rows(i)), a%start(rows(i) + 1) - 1
-                  h = projection%group(a%place(q))
-                  if (h <= g) cycle
-                  if (seen(h) == g) cycle
-                  seen(h) = g
-                  found = found + 1
-                  if (round == 2) projection%joined(found) = h
+                  do k = projection%of_row(a%place(q)), projection%of_row(a%place(q) + 1) - 1
+                     h = projection%group(k)
+                     if (h <= g) cycle
+                     if (seen(h) == g) cycle
+                     seen(h) = g
+                     found = found + 1
+                     if (round == 2) projection%joined(found) = h
+                  end do
                end do
             end do
          end do

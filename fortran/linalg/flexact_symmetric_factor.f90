@@ -20,6 +20,7 @@ module flexact_symmetric_factor
    implicit none
    private
    public :: symmetric_factor_t, factorise, solve, solve_refined, null_vectors
+   public :: reduce, reduced_times, to_reduced, from_reduced
 
    type :: symmetric_factor_t
       integer :: n = 0
@@ -229,25 +230,47 @@ contains
       type(symmetric_pattern_t), intent(in) :: pattern
       type(symmetric_factor_t), intent(in) :: factor
       real(wp), intent(inout) :: given(:)
-      real(wp) :: x(pattern%n), total
-      integer :: j, p
+      real(wp) :: x(pattern%n)
 
       x = given(pattern%order)*factor%unit
+      call solve_lower(pattern, factor, x)
+      x = x/factor%pivot
+      call solve_upper(pattern, factor, x)
+      given(pattern%order) = x*factor%unit
+   end subroutine solve_one
+
+   !> Solve L x = b in place.
+   pure subroutine solve_lower(pattern, factor, x)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(inout) :: x(:)
+      real(wp) :: total
+      integer :: j, p
+
       do j = 1, pattern%n
          total = x(j)
          do p = pattern%start(j), pattern%start(j + 1) - 1
             x(pattern%place(p)) = x(pattern%place(p)) - factor%value(p)*total
          end do
       end do
+   end subroutine solve_lower
+
+   !> Solve L' x = b in place.
+   pure subroutine solve_upper(pattern, factor, x)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(inout) :: x(:)
+      real(wp) :: total
+      integer :: j, p
+
       do j = pattern%n, 1, -1
-         total = x(j)/factor%pivot(j)
+         total = x(j)
          do p = pattern%start(j), pattern%start(j + 1) - 1
             total = total - factor%value(p)*x(pattern%place(p))
          end do
          x(j) = total
       end do
-      given(pattern%order) = x*factor%unit
-   end subroutine solve_one
+   end subroutine solve_upper
 
    !> The same with this many rounds of refinement by the residual of the matrix.
    pure subroutine solve_refined(pattern, factor, matrix, x, rounds)
@@ -268,6 +291,81 @@ contains
          x = x + rest
       end do
    end subroutine solve_refined
+
+   !> Entries of B, of the pattern of a matrix A = R'R that is definite and has no pins, from which
+   !> `reduced_times` makes products with inv(R') B inv(R), whose eigenvalues are those of inv(A) B.
+   pure function reduce(pattern, factor, b) result(entries)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      type(sparse_t), intent(in) :: b
+      real(wp) :: entries(size(pattern%row_entry))
+      integer :: k
+
+      do k = 1, pattern%n
+         associate (first => pattern%row_start(k), last => pattern%row_start(k + 1) - 1)
+            entries(first:last) = b%value(pattern%row_entry(first:last))*factor%unit(k) &
+                                  *factor%unit(pattern%row_column(first:last))
+         end associate
+      end do
+   end function reduce
+
+   pure subroutine reduced_times(pattern, factor, entries, x, y)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(in) :: entries(:), x(:)
+      real(wp), intent(out) :: y(:)
+      real(wp) :: v(pattern%n), total, here
+      integer :: j, k, p
+
+      v = x/sqrt(factor%pivot)
+      call solve_upper(pattern, factor, v)
+      y = 0.0_wp
+      do k = 1, pattern%n
+         total = 0.0_wp
+         here = v(k)
+         do p = pattern%row_start(k), pattern%row_start(k + 1) - 1
+            j = pattern%row_column(p)
+            if (j == k) then
+               total = total + entries(p)*here
+            else
+               total = total + entries(p)*v(j)
+               y(j) = y(j) + entries(p)*here
+            end if
+         end do
+         y(k) = total
+      end do
+      call solve_lower(pattern, factor, y)
+      y = y/sqrt(factor%pivot)
+   end subroutine reduced_times
+
+   !> R x.
+   pure function to_reduced(pattern, factor, x) result(y)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(in) :: x(:)
+      real(wp) :: y(pattern%n)
+      integer :: j, p
+
+      y = x(pattern%order)/factor%unit
+      do j = 1, pattern%n
+         do p = pattern%start(j), pattern%start(j + 1) - 1
+            y(j) = y(j) + factor%value(p)*y(pattern%place(p))
+         end do
+      end do
+      y = y*sqrt(factor%pivot)
+   end function to_reduced
+
+   !> inv(R) x: the eigenvector of inv(A) B.
+   pure function from_reduced(pattern, factor, x) result(y)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(in) :: x(:)
+      real(wp) :: y(pattern%n), v(pattern%n)
+
+      v = x/sqrt(factor%pivot)
+      call solve_upper(pattern, factor, v)
+      y(pattern%order) = v*factor%unit
+   end function from_reduced
 
    !> Orthonormal vectors (n, zero) that the matrix sends to zero.
    pure subroutine null_vectors(pattern, factor, vectors, error)

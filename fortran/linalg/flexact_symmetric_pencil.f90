@@ -8,19 +8,20 @@
 !> block has vectors (Parlett, The Symmetric Eigenvalue Problem, section 3.3): then wider
 !> blocks are taken.
 module flexact_symmetric_pencil
-   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
+   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs, end_pairs
    use flexact_eigenpairs, only: symmetric_eigenpairs
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_orthonormal, only: fill_at_random
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors, reduce, reduced_times, to_reduced, &
+                                       from_reduced
    use flexact_symmetric_lanes, only: symmetric_times
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private
-   public :: pairs_t, lowest_pairs, pairs_next_to_zero
+   public :: pairs_t, lowest_pairs, pairs_next_to_zero, end_pairs_of
 
    !> Values, ascending, and vectors (n, :). null (n, :): null vectors of K to which the other
    !> matrix does something: their values are 0, and they are not among the others.
@@ -44,6 +45,16 @@ module flexact_symmetric_pencil
       procedure :: weigh
    end type pencil_t
 
+   !> inv(R') B inv(R) for a definite A = R'R.
+   type, extends(self_adjoint_t) :: reduced_t
+      type(symmetric_pattern_t), pointer :: pattern => null()
+      type(symmetric_factor_t), pointer :: factor => null()
+      real(wp), allocatable :: b(:)
+   contains
+      procedure :: apply => apply_reduced
+      procedure :: weigh => weigh_reduced
+   end type reduced_t
+
    !> Shifts start at this part of the lowest magnitude, grow by this factor until no value
    !> lies below, and no more often than this.
    real(wp), parameter :: first_shift = 2.0_wp, growth = 8.0_wp
@@ -51,6 +62,8 @@ module flexact_symmetric_pencil
    integer, parameter :: narrowest = 8, widest = 32
    !> Relative difference of values that count as one cluster.
    real(wp), parameter :: cluster = 1.0e-6_wp
+   !> Of a semidefinite matrix values below this part of the largest are as good as none.
+   real(wp), parameter :: none_below = 1.0e-2_wp
    !> Part of the largest entry of B up to which B does nothing to a null vector of K.
    real(wp), parameter :: nothing = 1.0e-10_wp
 
@@ -86,6 +99,58 @@ contains
       call symmetric_times(self%w, x, y)
    end subroutine weigh
 
+   subroutine apply_reduced(self, x, weighed, y)
+      class(reduced_t), intent(in) :: self
+      real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
+      real(wp), intent(out), contiguous :: y(:, :)
+      integer :: k
+
+      do k = 1, size(weighed, 2)
+         call reduced_times(self%pattern, self%factor, self%b, x(:, k), y(:, k))
+      end do
+   end subroutine apply_reduced
+
+   subroutine weigh_reduced(self, x, y)
+      class(reduced_t), intent(in) :: self
+      real(wp), intent(in), contiguous :: x(:, :)
+      real(wp), intent(out), contiguous :: y(:, :)
+
+      associate (unused => self)
+      end associate
+      y = x
+   end subroutine weigh_reduced
+
+   !> The two least and the two largest eigenvalues, ascending, of B x = value A x, A definite, with
+   !> x'A x = 1; see `end_pairs`. is_there: never where the factor of A has pins.
+   subroutine end_pairs_of(pattern, factor, b, none, values, vectors, is_there, error, start)
+      type(symmetric_pattern_t), intent(in), target :: pattern
+      type(symmetric_factor_t), intent(in), target :: factor
+      type(sparse_t), intent(in) :: b
+      real(wp), intent(in) :: none
+      real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
+      logical, intent(out) :: is_there
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), allocatable, intent(in), optional :: start(:)
+      type(reduced_t) :: operator
+      real(wp), allocatable :: expected(:)
+      integer :: k
+
+      is_there = factor%negative == 0 .and. size(factor%pinned) == 0
+      if (.not. is_there) return
+      operator%pattern => pattern
+      operator%factor => factor
+      operator%b = reduce(pattern, factor, b)
+      if (present(start)) then
+         if (allocated(start)) expected = to_reduced(pattern, factor, start)
+      end if
+      ! Not allocated, it is as if it were not there.
+      call end_pairs(operator, pattern%n, none, values, vectors, is_there, error, expected)
+      if (allocated(error)) return
+      do k = 1, size(values)
+         vectors(:, k) = from_reduced(pattern, factor, vectors(:, k))
+      end do
+   end subroutine end_pairs_of
+
    pure subroutine take_out(vectors, products, x)
       real(wp), intent(in) :: vectors(:, :), products(:, :)
       real(wp), intent(inout) :: x(:, :)
@@ -108,6 +173,10 @@ contains
       real(wp) :: shift
       integer :: width, missing
 
+      if (wanted == 1) then
+         call find_lowest(pattern, factor, m, pairs, error)
+         if (allocated(error) .or. pairs%is_complete) return
+      end if
       call make_pencil(pattern, factor, m, m, pencil, error)
       if (.not. allocated(error)) call find_shift(pencil, k, m, shift, error, least)
       pairs%null = pencil%touched
@@ -124,6 +193,27 @@ contains
          width = 2*width
       end do
    end subroutine lowest_pairs
+
+   !> The lowest value alone, of a definite K; not complete where it was not found.
+   subroutine find_lowest(pattern, factor, m, pairs, error)
+      type(symmetric_pattern_t), intent(in) :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      type(sparse_t), intent(in) :: m
+      type(pairs_t), intent(out) :: pairs
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), allocatable :: values(:), vectors(:, :)
+      integer :: last
+
+      call end_pairs_of(pattern, factor, m, none_below, values, vectors, pairs%is_complete, error)
+      last = 0
+      if (pairs%is_complete) last = size(values)
+      pairs%is_complete = last > 0
+      if (pairs%is_complete) pairs%is_complete = values(last) > 0
+      if (allocated(error) .or. .not. pairs%is_complete) return
+      pairs%values = 1/values(last:)
+      pairs%vectors = vectors(:, last:)/sqrt(values(last))
+      allocate (pairs%null(pattern%n, 0))
+   end subroutine find_lowest
 
    !> Up to `wanted` values of K x = -value G x nearest to zero, with x'K x = 1: fewer where the
    !> rank of G is lower. Null vectors of K are left out. accuracy: of the vectors, as for

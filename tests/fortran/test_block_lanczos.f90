@@ -33,7 +33,7 @@ contains
 end module flexact_test_operator
 
 program test_block_lanczos
-   use flexact_block_lanczos, only: largest_pairs
+   use flexact_block_lanczos, only: largest_pairs, end_pairs
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_test_matrices, only: identity, random_orthogonal
@@ -55,6 +55,10 @@ program test_block_lanczos
    call known([real(wp) :: 0, 0, 0], 2, 'none')
    call known([2.0_wp], 4, 'a single one')
    call massless()
+   call ends([((-1.0_wp)**i/i, i=1, 150)], 'of both signs')
+   call ends([1.0_wp, -2.0e-3_wp, spread(0.0_wp, 1, 60)], 'far apart')
+   call ends([1.0_wp, 1 - 1.0e-7_wp, (1.0_wp/i, i=2, 150)], 'of one sign, two close together')
+   call ends([2.0_wp], 'a single one')
    call tally%finish()
 
 contains
@@ -104,6 +108,26 @@ contains
       call tally%near([matmul(transpose(vectors), matmul(operator%weight, vectors))], [identity(found)], 1.0e-12_wp, &
                       name//': orthonormal')
    end subroutine compare
+
+   !> The ends of a spectrum whose magnitudes descend.
+   subroutine ends(values, name)
+      real(wp), intent(in) :: values(:)
+      character(len=*), intent(in) :: name
+      type(dense_operator_t) :: operator
+      real(wp) :: q(size(values), size(values))
+      real(wp), allocatable :: found(:), vectors(:, :)
+      type(error_t), allocatable :: error
+      logical :: is_there
+
+      q = random_orthogonal(size(values))
+      operator%weight = identity(size(values))
+      operator%matrix = matmul(q*spread(values, 1, size(values)), transpose(q))
+      call end_pairs(operator, size(values), 1.0e-2_wp, found, vectors, is_there, error)
+      call tally%check(is_there .and. .not. allocated(error), name//': the ends are there')
+      call tally%near(found(size(found):), [maxval(values)], 1.0e-7_wp, name//': the largest')
+      if (minval(values) < -1.0e-2_wp) call tally%near(found(:1), [minval(values)], 1.0e-11_wp, name//': the least')
+      call tally%near(norm2(vectors, 1), spread(1.0_wp, 1, size(found)), 1.0e-12_wp, name//': vectors of norm 1')
+   end subroutine ends
 
    !> Op = inv(K) M with masses on some places of a chain alone: the values are those of the
    !> condensed problem.

@@ -18,6 +18,7 @@ program test_row_space
    call a_ring_of_differences()
    call components_of_any_rank()
    call rows_that_nearly_depend()
+   call chains()
    call tally%finish()
 
 contains
@@ -88,25 +89,34 @@ contains
    subroutine components_of_any_rank()
       integer, parameter :: m = 40, n = 36
       integer, parameter :: sizes(3, 5) = reshape([8, 6, 6, 10, 12, 7, 1, 3, 1, 12, 9, 5, 9, 5, 2], [3, 5])
-      real(wp) :: rows(m, n), inverse(n, m), r(n, 2), c(m, 2), x(n, 2), l(m, 2), mismatch(2)
-      type(row_space_t) :: space
+      real(wp) :: rows(m, n)
       integer :: i, at(2), p(m), q(n)
 
       rows = 0.0_wp
       at = 0
       do i = 1, size(sizes, 2)
-         call random_number(x)
          rows(at(1) + 1:at(1) + sizes(1, i), at(2) + 1:at(2) + sizes(2, i)) = of_rank(sizes(1, i), sizes(2, i), sizes(3, i))
          at = at + sizes(:2, i)
       end do
       p = [(modulo(7*i, 41), i=1, m)]
       q = [(modulo(5*i, 37), i=1, n)]
       rows = rows(p, q)
+      call compare_with_pseudoinverse(rows, m - sum(sizes(3, :)))
+   end subroutine components_of_any_rank
+
+   subroutine compare_with_pseudoinverse(rows, dependent)
+      real(wp), intent(in) :: rows(:, :)
+      integer, intent(in) :: dependent
+      real(wp), dimension(size(rows, 2), 2) :: r, x
+      real(wp), dimension(size(rows, 1), 2) :: c, l
+      real(wp) :: inverse(size(rows, 2), size(rows, 1)), mismatch(2)
+      type(row_space_t) :: space
+
       call analyse(rows, space)
-      call tally%check(space%dependent == m - sum(sizes(3, :)), 'as many rows depend as must')
-      call tally%check(space%basis%columns == n - sum(sizes(3, :)), 'as many vectors are free')
+      call tally%check(space%dependent == dependent, 'as many rows depend as must')
+      call tally%check(space%basis%columns == size(rows, 2) - size(rows, 1) + dependent, 'as many vectors are free')
       associate (z => dense_of(space%basis))
-         call tally%near([matmul(rows, z)], spread(0.0_wp, 1, m*size(z, 2)), 1.0e-12_wp, 'J Z = 0')
+         call tally%near([matmul(rows, z)], spread(0.0_wp, 1, size(rows, 1)*size(z, 2)), 1.0e-12_wp, 'J Z = 0')
          call tally%near([matmul(transpose(z), z)], [identity(size(z, 2))], 1.0e-14_wp, 'Z''Z = I')
       end associate
       inverse = pseudoinverse(rows)
@@ -118,7 +128,29 @@ contains
       call tally%near([matmul(rows, x)], [matmul(rows, matmul(inverse, c))], 1.0e-11_wp, 'followed as far as can be')
       call tally%near([x], [matmul(inverse, matmul(rows, x))], 1.0e-11_wp, 'of least norm')
       call tally%near(mismatch*norm2(c, 1), norm2(c - matmul(rows, x), 1), 1.0e-11_wp, 'mismatch')
-   end subroutine components_of_any_rank
+   end subroutine compare_with_pseudoinverse
+
+   !> Random rows along a branched chain, so long that its columns are gathered in clusters. A few are
+   !> sums of others, near to or far from each other.
+   subroutine chains()
+      integer, parameter :: nodes = 90, wide = 4, n = wide*nodes, each = 3, m = each*(nodes - 1) + 6
+      real(wp) :: rows(m, n)
+      integer :: k, from, i
+      integer, parameter :: node(n) = [((i - 1)/wide + 1, i=1, n)]
+      logical :: is_there(each, n)
+
+      call random_number(rows)
+      rows = rows - 0.5_wp
+      do k = 2, nodes
+         from = merge(k - 1, max(1, k - 31), modulo(k, 30) /= 1)
+         is_there = spread(node == from .or. node == k, 1, each)
+         where (.not. is_there) rows(each*(k - 2) + 1:each*(k - 1), :) = 0.0_wp
+      end do
+      do k = 1, 6
+         rows(m - 6 + k, :) = rows(10*k, :) - 2*rows(merge(11*k, 40*k, modulo(k, 2) == 0), :)
+      end do
+      call compare_with_pseudoinverse(rows, 6)
+   end subroutine chains
 
    function of_rank(m, n, rank) result(a)
       integer, intent(in) :: m, n, rank

@@ -417,7 +417,9 @@ def test_errors_are_ruled_out_without_changing_the_shortest() -> None:
     every = np.abs(level.errors(stresses, square)).min(axis=1) * lengths
     near = every < 1.2 * every.min()
     for order in (np.argsort(every), np.argsort(-every), np.random.default_rng(1).permutation(36)):
-        some = level.errors(np.asfortranarray(stresses[:, :, order]), square, lengths[order])
+        some = level.errors(
+            np.asfortranarray(stresses[:, :, order]), square, lengths=lengths[order]
+        )
         least = np.empty(every.size)
         least[order] = np.abs(some).min(axis=1) * lengths[order]
         assert least[near] == pytest.approx(every[near], rel=1e-9)

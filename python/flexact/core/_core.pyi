@@ -212,7 +212,7 @@ def find_errors(
     stress: _Floats,
     reaction: _Floats,
     gravity: _Floats,
-    square: float,
+    square: _Floats,
     unit_stress: _Floats,
     length: _Floats,
     /,

@@ -9,7 +9,7 @@ that of a planar angle is the third. All arrays are in SI units.
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -121,9 +121,9 @@ class RawErrors(NamedTuple):
     """Errors on both sides of zero, infinite where there is none; all of k columns."""
 
     below: FloatArray
-    """(k,)."""
+    """(s, k), of s squares."""
     above: FloatArray
-    """(k,)."""
+    """(s, k)."""
     loose: int
     """Motions of K - square M without stiffness."""
     negative: int
@@ -278,7 +278,7 @@ def errors(
     state: ElasticState,
     gravity: FloatArray,
     stresses: FloatArray,
-    square: float = 0.0,
+    squares: Sequence[float] = (0.0,),
     lengths: FloatArray | None = None,
 ) -> RawErrors:
     """The values d nearest to zero with det(K - square M + d H(stress)) = 0, for each stress.
@@ -292,7 +292,7 @@ def errors(
         state: a state without stress.
         gravity: (3,) that acts in it.
         stresses: (6, ne, k) of a unit error each.
-        square: below that of the lowest frequency.
+        squares: (s,) below that of the lowest frequency.
         lengths: (k,) of a unit error each, positive: only errors that are about as short as the
             shortest are looked for, those of others are infinite. The shortest is found the
             faster, the earlier it stands.
@@ -302,15 +302,16 @@ def errors(
     """
     k = stresses.shape[-1]
     stresses = _of(model, "a stress", stresses, (6, _ELEMENTS, k))
-    if not math.isfinite(square):
-        raise ValueError("the square is not finite")
+    if not np.isfinite(squares).all():
+        raise ValueError("a square is not finite")
     if not k:
-        return RawErrors(np.zeros(0), np.zeros(0), 0, 0)
+        none = np.zeros((len(squares), 0))
+        return RawErrors(none, none, 0, 0)
     below, above, loose, negative, failed = _core.find_errors(
         *model,
         *_study(model, arrays, state),
         _gravity(model, gravity),
-        square,
+        np.array(squares, np.float64),
         stresses,
         np.zeros(k) if lengths is None else np.ascontiguousarray(lengths, float),
     )

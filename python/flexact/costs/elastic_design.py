@@ -318,17 +318,17 @@ class Level:
         return np.where(answer.mismatch > MISMATCH, np.nan, answer.stress)
 
     def errors(
-        self, stresses: FloatArray, square: float, lengths: FloatArray | None = None
+        self, stresses: FloatArray, *squares: float, lengths: FloatArray | None = None
     ) -> FloatArray:
-        """(k, 2) errors below and above zero that bring a frequency to a square; 0: it buckles.
+        """(k, 2 squares) errors below and above zero by which a frequency has each square.
 
-        With lengths (k,) of unit errors only those about as short as the shortest; others are
-        infinite.
+        For a square of 0 it buckles. With lengths (k,) of unit errors only those about as short as
+        the shortest; others are infinite.
         """
-        raw = self.solution.errors(stresses, square, lengths)
+        raw = self.solution.errors(stresses, squares, lengths)
         if raw.negative or raw.loose:
             raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
-        return np.stack([raw.below, raw.above], axis=1)
+        return np.stack([raw.below, raw.above], axis=1).reshape(2 * len(squares), -1).T
 
     def usage(self, stresses: FloatArray, strengths: Strengths) -> FloatArray:
         """(k,) largest stress of unit errors, (6, pieces, k), over the strength of its part."""
@@ -393,11 +393,11 @@ def tolerances_of(
         square, stresses = level.square_at(shift), level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
-        critical = level.errors(stresses, 0.0)
         progress((k + 0.5) / len(mechanism.levels))
         if shift < 0.0:
-            aimed = level.errors(stresses, square)
+            critical, aimed = np.hsplit(level.errors(stresses, 0.0, square), 2)
         else:
+            critical = level.errors(stresses, 0.0)
             some = [each for each, fits in zip(misalignments, able, strict=True) if fits]
             aimed = np.array([level.rising(each, shift) for each in some]).reshape(-1, 2)
         found.append(np.concatenate([aimed, critical], axis=1))

@@ -211,7 +211,9 @@ class _QuickCost:
         stresses = np.asfortranarray(stresses[:, :, able])
         some = [each for each, fits in zip(order, able, strict=True) if fits]
         least = (
-            np.abs(coarse.errors(stresses, coarse.square_at(SHIFT), lengths[able])).min(axis=1)
+            np.abs(coarse.errors(stresses, coarse.square_at(SHIFT), lengths=lengths[able])).min(
+                axis=1
+            )
             * lengths[able]
         )
         # Of equal ones, which symmetry makes, the first of the model is enough.
@@ -220,11 +222,11 @@ class _QuickCost:
         chosen = sorted(near.values(), key=self.errors.index)[:_MOST_NEAR]
         if len(chosen) > 1:
             # The one with which less is enough, with both divisions.
-            found = (
+            each_level = (
                 level.errors(np.asfortranarray(level.stresses(chosen)), level.square_at(SHIFT))
                 for level in mechanism.levels
             )
-            sizes = np.abs(Estimate.of(*found).value).min(axis=1) * self._lengths(chosen)
+            sizes = np.abs(Estimate.of(*each_level).value).min(axis=1) * self._lengths(chosen)
             chosen = [chosen[int(np.argmin([float(f"{size:.5g}") for size in sizes]))]]
         made = tolerances_of(mechanism, chosen, SHIFT, self.size, lambda _done: None)
         return smallest(made, self.size, lambda each: each.tightest)

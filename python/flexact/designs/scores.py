@@ -681,7 +681,7 @@ class _Dear:
             stresses = np.zeros((6, solver.elements, len(some)), order="F")
             for column, k in enumerate(some):
                 stresses[0, np.isin(solver.mesh.owner, which[k]), column] = 1.0
-            found.append(np.abs(at_rest(solver, frozenset()).errors(stresses, 0.0).below))
+            found.append(np.abs(at_rest(solver, frozenset()).errors(stresses, (0.0,)).below[0]))
         loads = found[0]
         if all(np.isfinite(each).all() for each in found):
             loads = Estimate.of(*found).value

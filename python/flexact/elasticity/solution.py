@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -399,10 +399,10 @@ class Solution:
         return Solution(self.solver, raw, self.way, self.held)
 
     def errors(
-        self, stresses: FloatArray, square: float, lengths: FloatArray | None = None
+        self, stresses: FloatArray, squares: Sequence[float], lengths: FloatArray | None = None
     ) -> RawErrors:
-        """Errors at which a frequency has a square, of the stresses (6, pieces, k) of unit ones."""
-        return elastic.errors(*self._asked, stresses, square, lengths)
+        """Errors at which a frequency has squares, of the stresses (6, pieces, k) of unit ones."""
+        return elastic.errors(*self._asked, stresses, squares, lengths)
 
     @property
     def lowest_square(self) -> float:

@@ -165,10 +165,10 @@ class Linear:
 
     def _errors(self, square: float) -> Pair:
         """The errors of both signs at which a frequency has this square; 0: it buckles."""
-        found = self._rest.errors(self.stress, square)
+        found = self._rest.errors(self.stress, (square,))
         if found.negative:
             raise ElasticError("the undeformed state is unstable, so that no error makes it so")
-        low, high = float(found.below[0]), float(found.above[0])
+        low, high = float(found.below[0, 0]), float(found.above[0, 0])
         return low if -low < self._far else -math.inf, high if high < self._far else math.inf
 
     @property

@@ -113,7 +113,7 @@ def cost_of(result: Result, reach: Reach) -> Cost | None:
         inverse = np.linalg.inv(stresses[chosen])
         blocks = stiffness[chosen[:, :, None], chosen[:, None, :]]
         # Of G R^-1 K R^-T the trace.
-        terms = np.einsum("nij,njk,nlk,li->n", inverse, blocks, inverse, energy)
+        terms = np.sum((energy @ (inverse @ blocks)) * inverse, axis=(1, 2))
         made = np.log(np.maximum(terms - energy.shape[0], _LEAST))
         return np.where(np.all(is_soft[chosen], axis=1), made, np.inf)
 
