@@ -105,7 +105,7 @@ contains
       real(wp) :: entries
       integer :: head, tail, i, j, entry, other
 
-      entries = 0.0_wp
+      entries = 1.0_wp
       order(1) = first
       of_column(first) = number
       head = 0
