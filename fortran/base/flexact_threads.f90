@@ -31,7 +31,7 @@ contains
    end function piece
 
    !> In how many pieces such vectors are dealt with, whoever does it: sums come out the same then.
-   pure integer function pieces_of(count)
+   pure recursive integer function pieces_of(count)
       integer, intent(in) :: count
       pieces_of = max(1, count/worth_task)
    end function pieces_of
