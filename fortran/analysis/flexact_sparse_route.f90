@@ -2,6 +2,7 @@
 !> Rank and null spaces component by component from pinned factorisations
 !> (`flexact_low_end`).
 module flexact_sparse_route
+   use flexact_blas, only: blas_share, blas_unshare
    use flexact_components, only: shape_of
    use flexact_error, only: error_t, fail, is_kind, error_convergence, error_not_definite, error_not_found
    use flexact_kinds, only: wp
@@ -118,11 +119,14 @@ contains
       type(low_end_t) :: low
 
       call factorise_low_end(matrix, component%group, request, pinned, low, result%error)
+      ! Vectors gain nothing by the threads of BLAS, which take the time of ours while they wait for more.
+      call blas_share()
       if (.not. allocated(result%error)) then
          call find_low_end(matrix, request, pinned, low, result%error)
          if (.not. allocated(result%error) .and. first_time .and. .not. request%values_only) &
             call add_null_spaces(matrix, problem, request, component, pinned, low, result)
       end if
+      call blas_unshare()
       result%confirmed = result%confirmed .and. low%confirmed
       result%bound = min(result%bound, low%bound)
       result%bytes = pinned%bytes

@@ -66,8 +66,8 @@ typedef struct { int limited, alone, threads, levels; } work_t;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t ended = PTHREAD_COND_INITIALIZER;
-/* Calls at work, those that want one thread only, and the threads before them. */
-static int active, alone, before;
+/* Calls at work, those that want one thread only, those of them that share, and the threads before. */
+static int active, alone, shared, before;
 /* Whether OpenBLAS is known to have a buffer for each of its threads. */
 static int buffered;
 
@@ -164,7 +164,7 @@ static void after_fork(void) { pthread_mutex_unlock(&lock); }
 static void in_child(void)
 {
     static const pthread_cond_t nobody_waits = PTHREAD_COND_INITIALIZER;
-    active = alone = buffered = 0;
+    active = alone = shared = buffered = 0;
     /* Those who wait for it are left behind, too: it would wait for them. */
     ended = nobody_waits;
     if (has_threads() && !is_limited() && openblas_get_parallel() != openmp) set_threads();
@@ -226,7 +226,12 @@ void flexact_blas_end(work_t *work)
 /* Where threads are those of OpenMP, or a limit might be met, others are not to be started. */
 int flexact_blas_threads(void)
 {
-    return has_threads() && !is_limited() && openblas_get_parallel() != openmp ? openblas_get_num_threads() : 1;
+    int threads;
+    if (!has_threads() || is_limited() || openblas_get_parallel() == openmp) return 1;
+    pthread_mutex_lock(&lock);
+    threads = before > 0 && active - shared <= 1 ? before : openblas_get_num_threads();
+    pthread_mutex_unlock(&lock);
+    return threads;
 }
 
 /* Within a piece of work, and so nothing is waited for. */
@@ -236,6 +241,7 @@ static void share(int calls)
     pthread_mutex_lock(&lock);
     active += calls;
     alone += calls;
+    shared += calls;
     set_threads();
     pthread_mutex_unlock(&lock);
 }

@@ -31,7 +31,7 @@ module flexact_blas
          type(blas_work_t), intent(in) :: work
       end subroutine blas_end
 
-      !> With how many threads BLAS works now: so many may others take as well.
+      !> With how many threads BLAS works now, or did before it was shared: so many may others take.
       function blas_threads() bind(c, name='flexact_blas_threads') result(threads)
          import :: c_int
          integer(c_int) :: threads

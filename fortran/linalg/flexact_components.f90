@@ -2,6 +2,7 @@
 !> Connected components of a matrix: rows and columns that no entry joins have
 !> nothing to do with each other and are decomposed one by one.
 module flexact_components
+   use flexact_kinds, only: wp
    use flexact_sparse, only: operator_t
    implicit none
    private
@@ -72,36 +73,49 @@ contains
    end subroutine find_components
 
    !> The columns of a connected matrix in the order in which a search spreads
-   !> from one that is far out: columns that share a row come close together.
-   pure subroutine breadth_first_order(a, order)
+   !> from one that is far out: columns that share a row come close together. most: of
+   !> entries of the envelope; the order is not there where it would have more for certain.
+   pure subroutine breadth_first_order(a, order, most, is_there)
       type(operator_t), intent(in) :: a
       integer, intent(out) :: order(:)
+      real(wp), intent(in) :: most
+      logical, intent(out) :: is_there
       integer :: of_row(a%by_column%rows), of_column(a%by_column%columns), first, round
 
+      is_there = .true.
       if (size(order) == 0) return
       first = 1
       do round = 1, 2
          of_row = 0
          of_column = 0
-         call spread_from(first, 1, a, of_row, of_column, order)
-         first = order(size(order))
+         call spread_from(first, 1, a, of_row, of_column, order, merge(huge(most), most, round == 1), is_there)
+         if (is_there) first = order(size(order))
       end do
    end subroutine breadth_first_order
 
    !> Give all that is joined with a column the number of a component. Its columns
-   !> come first in the order, breadth first.
-   pure subroutine spread_from(first, number, a, of_row, of_column, order)
+   !> come first in the order, breadth first, unless the envelope has more entries than `most`:
+   !> each column shares a row with the one that it is reached from.
+   pure subroutine spread_from(first, number, a, of_row, of_column, order, most, is_there)
       integer, intent(in) :: first, number
       type(operator_t), intent(in) :: a
       integer, intent(inout) :: of_row(:), of_column(:), order(:)
+      real(wp), intent(in), optional :: most
+      logical, intent(out), optional :: is_there
+      real(wp) :: entries
       integer :: head, tail, i, j, entry, other
 
+      entries = 1.0_wp
       order(1) = first
       of_column(first) = number
       head = 0
       tail = 1
       do while (head < tail)
          head = head + 1
+         if (present(most)) then
+            is_there = entries <= most
+            if (.not. is_there) return
+         end if
          do entry = a%by_column%start(order(head)), a%by_column%start(order(head) + 1) - 1
             i = a%by_column%place(entry)
             if (of_row(i) /= 0) cycle
@@ -112,6 +126,7 @@ contains
                of_column(j) = number
                tail = tail + 1
                order(tail) = j
+               entries = entries + (tail - head + 1)
             end do
          end do
       end do

@@ -5,6 +5,7 @@
 !> ordered by minimum degree. Hubs, which are joined with very many, would leave nothing to be cut:
 !> they are taken out first, and eliminated last of all.
 module flexact_dissection
+   use flexact_kinds, only: wp
    use flexact_minimum_degree, only: minimum_degree_order
    use flexact_sparse, only: sparse_t
    implicit none
@@ -30,10 +31,12 @@ module flexact_dissection
 contains
 
    !> graph: both triangles with the diagonal. order: vertices as they are eliminated. widest:
-   !> vertices of the largest cut. info: not 0 where memory does not suffice.
-   subroutine dissection_order(graph, order, widest, info)
+   !> vertices of the largest cut, and where that has more than `most`, no order is sought any
+   !> more. info: not 0 where memory does not suffice.
+   subroutine dissection_order(graph, order, widest, info, most)
       type(sparse_t), intent(in) :: graph
       integer, intent(out) :: order(:), widest, info
+      real(wp), intent(in), optional :: most
       type(cutting_t) :: cutting
       integer, allocatable :: waiting(:, :)
       integer :: n, from, to, middle, cut, count
@@ -52,6 +55,9 @@ contains
          count = count - 1
          call cut_in_two(graph, from, to, cutting, middle, cut)
          widest = max(widest, to - cut)
+         if (present(most)) then
+            if (widest > most) exit
+         end if
          if (middle < from) then
             if (to - from >= 4*small) widest = max(widest, to - from + 1)
             call order_piece(graph, from, to, cutting, info)

@@ -5,7 +5,7 @@ module flexact_gram
    use flexact_sparse, only: operator_t
    implicit none
    private
-   public :: gram_t, make_gram, group_graph
+   public :: gram_t, make_gram, most_bytes, group_graph
 
    !> The lower triangle of A'A column by column; indices count from 0.
    type :: gram_t
@@ -16,6 +16,8 @@ module flexact_gram
       integer, allocatable :: diagonal(:)
    end type gram_t
 
+   !> Its place and its value.
+   real(wp), parameter :: bytes_of_entry = 12.0_wp
    !> A guard: default integers count them.
    real(wp), parameter :: most_entries = 0.5_wp*huge(1)
 
@@ -40,7 +42,7 @@ contains
          entries = entries + found
          if (entries < most_entries) gram%start(j + 1) = int(entries)
       end do
-      bytes = 12*entries
+      bytes = bytes_of_entry*entries
       if (bytes > memory .or. entries >= most_entries) return
       allocate (gram%place(int(entries)), gram%value(int(entries)), stat=info)
       if (info /= 0) return
@@ -52,6 +54,17 @@ contains
          gram%diagonal(j) = gram%start(j) + 1
       end do
    end subroutine make_gram
+
+   !> No less than the bytes that the lower triangle of A'A needs.
+   pure real(wp) function most_bytes(a)
+      type(operator_t), intent(in) :: a
+
+      associate (start => a%by_row%start, rows => a%by_row%columns)
+         ! The diagonal is there where nothing else is.
+         most_bytes = bytes_of_entry*(a%by_column%columns + &
+                                      sum((start(2:rows + 1) - start(:rows))*real(start(2:rows + 1) - start(:rows) + 1, wp)/2))
+      end associate
+   end function most_bytes
 
    !> Places, and values where they are wanted, of column j of A'A from the
    !> diagonal on, which comes first.

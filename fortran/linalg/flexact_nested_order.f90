@@ -32,9 +32,12 @@ contains
       integer, allocatable, intent(out) :: order(:)
       type(error_t), allocatable, intent(out) :: error
 
+      logical :: is_narrow
+
       allocate (order(size(group)))
-      call breadth_first_order(a, order)
-      if (envelope(a%by_row, order) <= narrow*size(order)) then
+      call breadth_first_order(a, order, narrow*size(order), is_narrow)
+      if (is_narrow) is_narrow = envelope(a%by_row, order) <= narrow*size(order)
+      if (is_narrow) then
          order = order - 1
       else
          call nested_order(a, group, order, error)
@@ -75,19 +78,13 @@ contains
       integer, allocatable, intent(out) :: order(:)
       type(error_t), allocatable, intent(out) :: error
       type(gram_t) :: graph
-      integer, allocatable :: of_groups(:), other(:), first(:)
-      integer :: groups, widest, i, j, g, info
+      integer, allocatable :: of_groups(:), first(:)
+      integer :: groups, i, j, g, info
 
       groups = group(size(group))
       call group_graph(a, group, groups, graph)
-      allocate (of_groups(groups), other(groups), order(size(group)), first(groups + 1), stat=info)
-      if (info == 0) call own_order(groups, graph%start, graph%place, of_groups, widest, info)
-      if (info == 0 .and. metis_is_there() /= 0) then
-         ! Where METIS gives up, our own order stays.
-         if (widest > broad*sqrt(real(groups, wp))) then
-            if (metis_order(groups, graph%start, graph%place, other) == 0) of_groups = other
-         end if
-      end if
+      allocate (of_groups(groups), order(size(group)), first(groups + 1), stat=info)
+      if (info == 0) call order_of_groups(groups, graph%start, graph%place, of_groups, info)
       if (info /= 0) then
          call fail(error_memory, error)
          return
@@ -105,15 +102,30 @@ contains
       end do
    end subroutine nested_order
 
+   !> That of METIS where a cut of our own is broad; our own stays where METIS gives up.
+   subroutine order_of_groups(n, start, place, order, info)
+      integer, intent(in) :: n, start(:), place(:)
+      integer, intent(out) :: order(:), info
+      real(wp) :: most
+      integer :: widest
+
+      most = merge(broad*sqrt(real(n, wp)), huge(most), metis_is_there() /= 0)
+      call own_order(n, start, place, order, widest, info, most)
+      if (info /= 0 .or. widest <= most) return
+      if (metis_order(n, start, place, order) /= 0) call own_order(n, start, place, order, widest, info)
+   end subroutine order_of_groups
+
    !> Of a graph given by its lower triangle, which counts from 0, as the order does. widest: vertices
-   !> of the largest cut. info: not 0 where memory does not suffice.
-   subroutine own_order(n, start, place, order, widest, info)
+   !> of the largest cut; where that has more than `most` there is no order. info: not 0 where memory
+   !> does not suffice.
+   subroutine own_order(n, start, place, order, widest, info, most)
       integer, intent(in) :: n, start(:), place(:)
       integer, intent(out) :: order(:), widest, info
+      real(wp), intent(in), optional :: most
       type(sparse_t) :: graph
 
       call both_triangles(n, start, place, graph, info)
-      if (info == 0) call dissection_order(graph, order, widest, info)
+      if (info == 0) call dissection_order(graph, order, widest, info, most)
       if (info == 0) order = order - 1
    end subroutine own_order
 

@@ -1,13 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Orthonormal vectors: made, extended, and taken out of others.
 module flexact_orthonormal
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
+   use flexact_blas, only: blas_share, blas_threads, blas_unshare
    use flexact_dense, only: allocate_work
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgemm, dgeqrf, dorgqr
    use flexact_scaled_norm, only: length_of
    use flexact_sparse_basis, only: sparse_basis_t
+   use flexact_threads, only: run_tasks, piece, pieces_of
    implicit none
    private
    public :: orthonormalise, deflate, extend, take_out, fill_at_random
@@ -19,6 +22,14 @@ module flexact_orthonormal
    !> Vectors that are made orthogonal to a space together: more gain nothing, and the work
    !> among themselves grows with their square.
    integer, parameter :: at_once = 8
+
+   !> Orthonormal vectors (n, m), what is taken out of them (n, k), and how much of it each piece of
+   !> the rows brings forth, (m, k, pieces), until all of it is known.
+   type :: taking_t
+      real(wp), pointer, contiguous :: orthonormal(:, :) => null(), block(:, :) => null()
+      real(wp), allocatable :: part(:, :, :)
+      logical :: is_known = .false.
+   end type taking_t
 
 contains
 
@@ -64,7 +75,7 @@ contains
    !> the first `used` columns are there, and which stays orthogonal to what is deflated. The
    !> block was the space times `products` (columns of the space, k), but for what was
    !> deflated and what was nothing new.
-   pure subroutine extend(deflated, lowest, block, space, used, fresh, products)
+   subroutine extend(deflated, lowest, block, space, used, fresh, products)
       type(sparse_basis_t), intent(in) :: deflated
       real(wp), intent(in), contiguous :: lowest(:, :)
       real(wp), intent(inout), contiguous :: block(:, :), space(:, :)
@@ -84,7 +95,7 @@ contains
    end subroutine extend
 
    !> The same for a few vectors.
-   pure subroutine extend_at_once(deflated, lowest, block, space, used, fresh, whole)
+   subroutine extend_at_once(deflated, lowest, block, space, used, fresh, whole)
       type(sparse_basis_t), intent(in) :: deflated
       real(wp), intent(in), contiguous :: lowest(:, :)
       real(wp), intent(inout), contiguous :: block(:, :), space(:, :)
@@ -130,19 +141,52 @@ contains
 
    !> Make a block (n, k) orthogonal to orthonormal vectors (n, m), all at once; `taken`: of
    !> each how much it had.
-   pure subroutine take_out(orthonormal, block, taken)
-      real(wp), intent(in), contiguous :: orthonormal(:, :)
-      real(wp), intent(inout), contiguous :: block(:, :)
-      real(wp), intent(out), contiguous, optional :: taken(:, :)
-      real(wp) :: part(size(orthonormal, 2), size(block, 2))
+   subroutine take_out(orthonormal, block, taken)
+      real(wp), intent(in), target, contiguous :: orthonormal(:, :)
+      real(wp), intent(inout), target, contiguous :: block(:, :)
+      real(wp), intent(out), optional :: taken(:, :)
+      type(taking_t), target :: taking
+      integer :: pieces, workers, p, round
 
-      associate (n => size(block, 1), m => size(orthonormal, 2), k => size(block, 2))
-         if (n == 0 .or. m == 0 .or. k == 0) return
-         call dgemm('T', 'N', m, k, n, 1.0_wp, orthonormal, n, block, n, 0.0_wp, part, m)
-         call dgemm('N', 'N', n, k, m, -1.0_wp, orthonormal, n, part, m, 1.0_wp, block, n)
-      end associate
-      if (present(taken)) taken = part
+      if (present(taken)) taken = 0.0_wp
+      if (size(block) == 0 .or. size(orthonormal) == 0) return
+      taking%orthonormal => orthonormal
+      taking%block => block
+      pieces = pieces_of(size(block, 1))
+      allocate (taking%part(size(orthonormal, 2), size(block, 2), pieces))
+      workers = blas_threads()
+      call blas_share()
+      do round = 1, 2
+         call run_tasks(int(pieces, c_int), int(workers, c_int), c_funloc(take_out_piece), c_loc(taking))
+         if (taking%is_known) exit
+         do p = 2, pieces
+            taking%part(:, :, 1) = taking%part(:, :, 1) + taking%part(:, :, p)
+         end do
+         taking%is_known = .true.
+      end do
+      call blas_unshare()
+      if (present(taken)) taken = taking%part(:, :, 1)
    end subroutine take_out
+
+   recursive subroutine take_out_piece(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(taking_t), pointer :: taking
+      integer :: ends(2)
+
+      call c_f_pointer(data, taking)
+      ! No worker has anything of its own.
+      if (worker < 1) return
+      ends = piece(size(taking%block, 1), int(task), size(taking%part, 3))
+      associate (v => taking%orthonormal, b => taking%block, n => size(taking%block, 1), some => ends(2) - ends(1) + 1, &
+                 m => size(taking%orthonormal, 2), k => size(taking%block, 2))
+         if (taking%is_known) then
+            call dgemm('N', 'N', some, k, m, -1.0_wp, v(ends(1), 1), n, taking%part, m, 1.0_wp, b(ends(1), 1), n)
+         else
+            call dgemm('T', 'N', m, k, some, 1.0_wp, v(ends(1), 1), n, b(ends(1), 1), n, 0.0_wp, taking%part(1, 1, task), m)
+         end if
+      end associate
+   end subroutine take_out_piece
 
    pure subroutine take_out_twice(orthonormal, vector, taken)
       real(wp), intent(in) :: orthonormal(:, :)

@@ -5,9 +5,9 @@
 module flexact_panel_solve
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
    use flexact_blas, only: blas_share, blas_unshare
-   use flexact_kinds, only: wp, long
+   use flexact_kinds, only: wp
    use flexact_lapack, only: dgemm, dtrsm
-   use flexact_threads, only: run_tasks
+   use flexact_threads, only: run_tasks, piece
    implicit none
    private
    public :: panel_t, divide
@@ -69,12 +69,6 @@ contains
          end if
       end associate
    end subroutine take_part
-
-   pure recursive function piece(count, part, parts) result(ends)
-      integer, intent(in) :: count, part, parts
-      integer :: ends(2)
-      ends = int([(part - 1)*int(count, long)/parts + 1, part*int(count, long)/parts])
-   end function piece
 
    pure recursive subroutine divide_first(rows, columns, k, panel, some)
       integer, intent(in) :: rows, columns, k

@@ -1,7 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Sparse matrices, compressed column by column, and products with them.
 module flexact_sparse
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use flexact_blas, only: blas_threads
    use flexact_kinds, only: wp
+   use flexact_threads, only: run_tasks, piece, pieces_of
    implicit none
    private
    public :: sparse_t, operator_t, operator_of, compress, transposed, times, times_transposed, submatrix, norm_bound
@@ -22,6 +25,12 @@ module flexact_sparse
       type(sparse_t) :: by_column
       type(sparse_t) :: by_row
    end type operator_t
+
+   !> y = A' x, to be made some rows of y at a time.
+   type :: product_t
+      type(sparse_t), pointer :: matrix => null()
+      real(wp), pointer, contiguous :: x(:, :) => null(), y(:, :) => null()
+   end type product_t
 
 contains
 
@@ -79,15 +88,41 @@ contains
    end subroutine transposed
 
    !> y = A' x for a matrix A, x (rows, k), y (columns, k).
-   pure subroutine times_transposed(matrix, x, y)
+   subroutine times_transposed(matrix, x, y)
+      type(sparse_t), intent(in), target :: matrix
+      real(wp), intent(in), target, contiguous :: x(:, :)
+      real(wp), intent(out), target, contiguous :: y(:, :)
+      type(product_t), target :: product
+
+      product%matrix => matrix
+      product%x => x
+      product%y => y
+      call run_tasks(int(pieces_of(matrix%columns), c_int), int(blas_threads(), c_int), c_funloc(multiply_piece), c_loc(product))
+   end subroutine times_transposed
+
+   recursive subroutine multiply_piece(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(product_t), pointer :: product
+      integer :: ends(2)
+
+      call c_f_pointer(data, product)
+      ! No worker has anything of its own.
+      if (worker < 1) return
+      ends = piece(product%matrix%columns, int(task), pieces_of(product%matrix%columns))
+      call multiply_some(product%matrix, product%x, ends(1), ends(2), product%y)
+   end subroutine multiply_piece
+
+   pure recursive subroutine multiply_some(matrix, x, first, last, y)
       type(sparse_t), intent(in) :: matrix
       real(wp), intent(in), contiguous :: x(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
+      integer, intent(in) :: first, last
+      real(wp), intent(inout), contiguous :: y(:, :)
       real(wp) :: total
       integer :: j, k, entry
 
       do k = 1, size(x, 2)
-         do j = 1, matrix%columns
+         do j = first, last
             total = 0.0_wp
             do entry = matrix%start(j), matrix%start(j + 1) - 1
                total = total + matrix%value(entry)*x(matrix%place(entry), k)
@@ -95,7 +130,7 @@ contains
             y(j, k) = total
          end do
       end do
-   end subroutine times_transposed
+   end subroutine multiply_some
 
    !> y = A x for a matrix A, x (columns, k), y (rows, k).
    pure subroutine times(matrix, x, y)

@@ -33,7 +33,8 @@ module flexact_supernodal_solve
 
    type :: job_t
       type(cholesky_t), pointer :: factor => null()
-      !> Right-hand sides side by side (k, n), in the order of elimination.
+      !> Right-hand sides (n, k), and the same side by side (k, n), in the order of elimination.
+      real(wp), pointer, contiguous :: x(:, :) => null()
       integer :: k = together
       real(wp), allocatable :: all(:)
       type(worker_t), allocatable :: worker(:)
@@ -45,7 +46,7 @@ contains
    !> Solve L L' x = b in place, column by column.
    subroutine solve(factor, x, error)
       type(cholesky_t), intent(in), target :: factor
-      real(wp), intent(inout), contiguous :: x(:, :)
+      real(wp), intent(inout), target, contiguous :: x(:, :)
       type(error_t), allocatable, intent(out) :: error
       type(job_t), target :: job
       integer :: first, last, info
@@ -59,11 +60,10 @@ contains
             call fail(error_memory, error)
             return
          end if
-         call take(factor%pattern%order, x(:, first:last), job%all)
+         job%x => x(:, first:last)
          call on_all_tasks(job, forward_in)
          call work_above(job)
          call on_all_tasks(job, backward_in)
-         call give(factor%pattern%order, job%all, x(:, first:last))
       end do
    end subroutine solve
 
@@ -118,6 +118,7 @@ contains
          root = job%factor%tasks%root(task)
          last = pattern%first(root + 1) - 1
          left = 0.0_wp
+         call take(job%factor, job%factor%tasks%from(task), root, job%x, job%all)
          do i = 1, size(left, 2)
             own%place(pattern%row(pattern%rows_from(root + 1) - size(left, 2) + i - 1)) = i
          end do
@@ -139,6 +140,7 @@ contains
             call backward(pattern, s, job%k, 1, job%factor%value, job%worker(worker)%some, job%all)
          end do
       end associate
+      call give(job%factor, job%factor%tasks%from(task), job%factor%tasks%root(task), job%all, job%x)
    end subroutine backward_in
 
    !> What stands above the tasks, after what they have left for it, in their order.
@@ -147,6 +149,9 @@ contains
       integer :: s, t
 
       associate (pattern => job%factor%pattern, tasks => job%factor%tasks, own => job%worker(1))
+         do s = 1, pattern%supernodes
+            if (tasks%of_supernode(s) == 0) call take(job%factor, s, s, job%x, job%all)
+         end do
          do t = 1, tasks%count
             call add_left(pattern, tasks%root(t), job%k, job%left(t)%value, job%all)
          end do
@@ -156,8 +161,9 @@ contains
                             own%place, own%some, job%all, job%left(1)%value)
          end do
          do s = pattern%supernodes, 1, -1
-            if (tasks%of_supernode(s) == 0) &
-               call backward(pattern, s, job%k, job%factor%threads, job%factor%value, own%some, job%all)
+            if (tasks%of_supernode(s) /= 0) cycle
+            call backward(pattern, s, job%k, job%factor%threads, job%factor%value, own%some, job%all)
+            call give(job%factor, s, s, job%all, job%x)
          end do
       end associate
    end subroutine work_above
@@ -176,25 +182,29 @@ contains
       end do
    end subroutine add_left
 
-   pure recursive subroutine take(order, x, all)
-      integer, intent(in) :: order(:)
+   !> The right-hand sides of supernodes from to root, side by side.
+   pure recursive subroutine take(factor, from, root, x, all)
+      type(cholesky_t), intent(in) :: factor
+      integer, intent(in) :: from, root
       real(wp), intent(in) :: x(:, :)
-      real(wp), intent(out) :: all(size(x, 2), *)
+      real(wp), intent(inout) :: all(size(x, 2), *)
       integer :: i
 
-      do i = 1, size(order)
-         all(:, i) = x(order(i), :)
+      do i = factor%pattern%first(from), factor%pattern%first(root + 1) - 1
+         all(:, i) = x(factor%pattern%order(i), :)
       end do
    end subroutine take
 
-   pure recursive subroutine give(order, all, x)
-      integer, intent(in) :: order(:)
-      real(wp), intent(out) :: x(:, :)
+   !> What has become of them.
+   pure recursive subroutine give(factor, from, root, all, x)
+      type(cholesky_t), intent(in) :: factor
+      integer, intent(in) :: from, root
+      real(wp), intent(inout) :: x(:, :)
       real(wp), intent(in) :: all(size(x, 2), *)
       integer :: i
 
-      do i = 1, size(order)
-         x(order(i), :) = all(:, i)
+      do i = factor%pattern%first(from), factor%pattern%first(root + 1) - 1
+         x(factor%pattern%order(i), :) = all(:, i)
       end do
    end subroutine give
 

@@ -94,7 +94,7 @@ contains
       integer :: s
 
       s = tasks%child(0)
-      do while (s /= 0 .and. tasks%count < most_tasks)
+      do while (s /= 0)
          call insert(s)
          s = tasks%sibling(s)
       end do
@@ -104,7 +104,7 @@ contains
             if (tasks%child(s) == 0) exit
             call remove_first()
             s = tasks%child(s)
-            do while (s /= 0 .and. tasks%count < most_tasks)
+            do while (s /= 0)
                call insert(s)
                s = tasks%sibling(s)
             end do
@@ -114,11 +114,15 @@ contains
          tasks%from(s) = first_below(tasks%root(s))
       end do
    contains
-      !> Descending work.
+      !> Descending work; of more than there may be those with the least stay above.
       subroutine insert(s)
          integer, intent(in) :: s
          integer :: t
 
+         if (tasks%count == most_tasks) then
+            if (work(tasks%root(most_tasks)) >= work(s)) return
+            tasks%count = most_tasks - 1
+         end if
          t = tasks%count
          do while (t > 0)
             if (work(tasks%root(t)) >= work(s)) exit

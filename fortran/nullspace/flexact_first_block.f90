@@ -55,7 +55,7 @@ contains
 
    !> Make the vectors orthogonal to others, (columns, k), which have changed a little, and forget
    !> what inverse(F) made of them if it was more than a little.
-   pure subroutine follow(self, others)
+   subroutine follow(self, others)
       class(first_block_t), intent(inout) :: self
       real(wp), intent(in), contiguous :: others(:, :)
       real(wp) :: part(size(others, 2), size(self%vectors, 2))

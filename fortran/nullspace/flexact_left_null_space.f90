@@ -117,7 +117,7 @@ contains
    !> A step of the conjugate gradients of least squares, with F as the preconditioner (Bjorck,
    !> Numerical Methods for Least Squares Problems, 1996, section 7.4), for each vector alone.
    !> is_plain: the projection itself, which never makes what is left larger, as rounding may.
-   pure subroutine descend(a, known, is_plain, descent, vectors)
+   subroutine descend(a, known, is_plain, descent, vectors)
       type(operator_t), intent(in) :: a
       real(wp), intent(in), contiguous :: known(:, :)
       logical, intent(in) :: is_plain

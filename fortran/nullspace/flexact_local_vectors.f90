@@ -17,6 +17,8 @@ module flexact_local_vectors
    !> Neighbourhoods are tried up to these numbers of columns: a joint, a cell, some
    !> cells of a lattice; a larger one costs more than the vector among the others.
    integer, parameter :: reach(3) = [10, 30, 100]
+   !> Where too many are left among the others, for so many of them farther out: some milliseconds each.
+   integer, parameter :: far = 300, most_far = 200
    !> The same where the null space of the neighbourhood is wanted, and how many
    !> places are tried for each vector.
    integer, parameter :: wide(4) = [40, 70, 120, 300]
@@ -29,10 +31,11 @@ module flexact_local_vectors
 contains
 
    !> For each pinned column the vector with a one there, none at other pins and
-   !> no image under A, if it is local; `rest` lists the columns without one.
-   subroutine find_local_vectors(a, pin, found, rest)
+   !> no image under A, if it is local; `rest` lists the columns without one, of which
+   !> no more than `most` are wanted.
+   subroutine find_local_vectors(a, pin, most, found, rest)
       type(operator_t), intent(in) :: a
-      integer, intent(in) :: pin(:)
+      integer, intent(in) :: pin(:), most
       type(sparse_basis_t), intent(out) :: found
       integer, allocatable, intent(out) :: rest(:)
       type(neighbourhood_t) :: near
@@ -44,9 +47,14 @@ contains
       is_pinned(pin) = .true.
       call prepare(a, near)
       do k = 1, size(pin)
-         call find_one(a, pin(k), is_pinned, near, found, is_found(k))
+         call find_one(a, pin(k), is_pinned, reach, near, found, is_found(k))
       end do
       rest = pack(pin,.not. is_found)
+      if (size(rest) <= most) return
+      do k = 1, min(size(rest), most_far)
+         call find_one(a, rest(k), is_pinned, [far], near, found, is_found(k))
+      end do
+      rest = [pack(rest(:k - 1),.not. is_found(:k - 1)), rest(k:)]
    end subroutine find_local_vectors
 
    !> Up to `wanted` independent vectors (columns) without an image under A, each
@@ -101,9 +109,9 @@ contains
    end subroutine take_first
 
    !> Try wider and wider neighbourhoods of a column.
-   subroutine find_one(a, column, is_pinned, near, found, is_found)
+   subroutine find_one(a, column, is_pinned, reach, near, found, is_found)
       type(operator_t), intent(in) :: a
-      integer, intent(in) :: column
+      integer, intent(in) :: column, reach(:)
       logical, intent(in) :: is_pinned(:)
       type(neighbourhood_t), intent(inout) :: near
       type(sparse_basis_t), intent(inout) :: found

@@ -66,6 +66,8 @@ module flexact_low_end
    !> of time, some seconds; beyond, the count is not confirmed.
    integer, parameter :: most_dense = 800
    real(wp), parameter :: most_work = 4.5e8_wp
+   !> The same where nothing is shown anyway: as much memory as the factor takes.
+   real(wp), parameter :: most_unshown = 2.9e7_wp
    !> A pinned space that has less of a unit vector at the pins is pinned anew: the
    !> condition of F grows with its inverse squared.
    real(wp), parameter :: weak = 0.05_wp
@@ -252,11 +254,12 @@ contains
       call new_sparse_basis(low%deflated)
       pin = pinned%pin
       if (pinned%pins <= few) return
-      call find_local_vectors(a, pinned%pin, low%local, pin)
+      most = int(sqrt(merge(most_unshown, most_work, pinned%is_shifted)/pinned%n))
+      most = min(most_dense, max(few, most))
+      call find_local_vectors(a, pinned%pin, most, low%local, pin)
       call add_scaled_sparse(low%local, [(i, i=1, pinned%n)], [(1.0_wp, i=1, pinned%n)], low%deflated, error, is_orthonormal)
       ! What follows takes the vectors for orthonormal.
       if (.not. is_orthonormal) low%confirmed = .false.
-      most = min(most_dense, max(few, int(sqrt(most_work/pinned%n))))
       if (size(pin) <= most) return
       low%confirmed = .false.
       pin = pin(:most)

@@ -10,16 +10,18 @@
 !> BIT 46, 2006; `flexact_backward_error`): what is shown holds up to the root of
 !> t**2 - d. Where d is large, t is raised; theory.md (30), (31) and (34).
 module flexact_pinned
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
    use flexact_backward_error, only: error_of_gram
    use flexact_blas, only: blas_threads
    use flexact_error, only: error_t, fail, is_kind, error_memory, error_not_definite
    use flexact_factor, only: factor_t, analyse, factorise, get_pivots, error_of_factor, solve, release_factor => release
-   use flexact_gram, only: gram_t, make_gram
+   use flexact_gram, only: gram_t, make_gram, most_bytes
    use flexact_kinds, only: wp
    use flexact_nested_order, only: elimination_order
    use flexact_pin_groups, only: pin_groups
    use flexact_progress, only: progress_t, stage_ordering, stage_factorising
    use flexact_sparse, only: sparse_t, operator_t
+   use flexact_threads, only: run_tasks
    implicit none
    private
    public :: pinned_t, make_pinned, assure, shift, shift_and_mark, pin, apply_inverse, release
@@ -63,6 +65,20 @@ module flexact_pinned
       type(factor_t) :: factor
       type(progress_t) :: progress
    end type pinned_t
+
+   !> A'A and its order of elimination, which know nothing of each other.
+   type :: start_t
+      type(operator_t), pointer :: a => null()
+      integer, pointer, contiguous :: group(:) => null()
+      type(pinned_t), pointer :: pinned => null()
+      real(wp) :: memory = 0.0_wp
+      !> Whether A'A fits for certain, so that nothing waits for it.
+      logical :: is_certain = .false.
+      integer, allocatable :: order(:)
+      type(error_t), allocatable :: error
+   end type start_t
+   !> Columns from which threads are worth their start.
+   integer, parameter :: worth_threads = 20000
 
 contains
 
@@ -127,20 +143,25 @@ contains
 
    !> A'A, and all that its factorisation needs but the numbers.
    subroutine analyse_pattern(a, group, memory, progress, pinned, error)
-      type(operator_t), intent(in) :: a
-      integer, intent(in) :: group(:)
+      type(operator_t), intent(in), target :: a
+      integer, intent(in), target, contiguous :: group(:)
       real(wp), intent(in) :: memory
       type(progress_t), intent(in) :: progress
-      type(pinned_t), intent(inout) :: pinned
+      type(pinned_t), intent(inout), target :: pinned
       type(error_t), allocatable, intent(out) :: error
-      integer, allocatable :: order(:)
+      type(start_t), target :: start
 
       call progress%report(stage_ordering)
-      call make_gram(a, memory, pinned%gram, pinned%bytes)
+      start%a => a
+      start%group => group
+      start%pinned => pinned
+      start%memory = memory
+      start%is_certain = pinned%n >= worth_threads .and. most_bytes(a) <= memory
+      call run_tasks(2_c_int, int(merge(blas_threads(), 1, start%is_certain), c_int), c_funloc(make_start), c_loc(start))
       if (allocated(pinned%gram%value)) then
-         call elimination_order(a, group, order, error)
+         call move_alloc(start%error, error)
          if (allocated(error)) return
-         call analyse(pinned%gram%start, pinned%gram%place, order, blas_threads(), pinned%factor, error)
+         call analyse(pinned%gram%start, pinned%gram%place, start%order, blas_threads(), pinned%factor, error)
          if (allocated(error)) return
          pinned%least = max(pinned%least, sqrt(expected*pinned%factor%widest*largest_diagonal(a%by_column)))
          pinned%bytes = pinned%factor%bytes
@@ -148,6 +169,22 @@ contains
       end if
       call fail(error_memory, error)
    end subroutine analyse_pattern
+
+   recursive subroutine make_start(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(start_t), pointer :: start
+      logical :: is_wanted
+
+      call c_f_pointer(data, start)
+      if (task == 1) then
+         call make_gram(start%a, start%memory, start%pinned%gram, start%pinned%bytes)
+      else
+         is_wanted = start%is_certain .and. worker > 0
+         if (.not. is_wanted) is_wanted = allocated(start%pinned%gram%value)
+         if (is_wanted) call elimination_order(start%a, start%group, start%order, start%error)
+      end if
+   end subroutine make_start
 
    !> Pin what depends on others of its group; where that does not do, columns at
    !> which pivots are small even so, of the matrix shifted upwards.

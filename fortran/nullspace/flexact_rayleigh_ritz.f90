@@ -3,17 +3,28 @@
 !> those of A itself, so that they do not suffer from squaring: k orthonormal
 !> vectors with small |A v| show that k singular values are small; theory.md (35).
 module flexact_rayleigh_ritz
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use flexact_blas, only: blas_share, blas_threads, blas_unshare
    use flexact_decomposition, only: decompose
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgemm, dgeqrf
    use flexact_sparse, only: operator_t, sparse_t
+   use flexact_threads, only: run_tasks, piece, pieces_of
    implicit none
    private
    public :: rayleigh_ritz, take_lowest
 
    !> So many fit the cache of a processor beside each other.
    integer, parameter :: rows_at_once = 256
+
+   !> A space (columns, k) and the triangles of pieces of its image, one above the other (k*pieces, k).
+   type :: image_t
+      type(sparse_t), pointer :: by_row => null()
+      real(wp), pointer, contiguous :: space(:, :) => null()
+      integer :: pieces = 1
+      real(wp), allocatable :: triangles(:, :)
+   end type image_t
 
 contains
 
@@ -53,33 +64,80 @@ contains
       call dgemm('N', 'N', size(space, 1), wanted, k, 1.0_wp, space, n, turned, max(1, k), 0.0_wp, vectors, n)
    end subroutine take_lowest
 
-   !> The triangle R of the QR factorisation of the image of a space (columns, k), which is made
-   !> some rows at a time, and is never there as a whole. by_row: the rows of A.
+   !> The triangle R of the QR factorisation of the image of a space (columns, k): that of the
+   !> triangles of its pieces. by_row: the rows of A.
    subroutine triangle_of_image(by_row, space, r)
+      type(sparse_t), intent(in), target :: by_row
+      real(wp), intent(in), target, contiguous :: space(:, :)
+      real(wp), intent(out) :: r(:, :)
+      type(image_t), target :: image
+      real(wp) :: tau(size(r, 1)), work(64*size(r, 1))
+      integer :: workers, info
+
+      image%by_row => by_row
+      image%space => space
+      image%pieces = pieces_of(by_row%columns)
+      workers = blas_threads()
+      associate (k => size(r, 1), pieces => image%pieces)
+         allocate (image%triangles(k*pieces, k))
+         call blas_share()
+         call run_tasks(int(pieces, c_int), int(workers, c_int), c_funloc(make_triangle), c_loc(image))
+         call blas_unshare()
+         if (pieces > 1) call dgeqrf(k*pieces, k, image%triangles, k*pieces, tau, work, size(work), info)
+      end associate
+      call keep_triangle(image%triangles, r)
+   end subroutine triangle_of_image
+
+   recursive subroutine make_triangle(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(image_t), pointer :: image
+      integer :: ends(2)
+
+      call c_f_pointer(data, image)
+      ! No worker has anything of its own.
+      if (worker < 1) return
+      ends = piece(image%by_row%columns, int(task), image%pieces)
+      associate (k => size(image%space, 2))
+         call triangle_of_rows(image%by_row, image%space, ends(1), ends(2), image%triangles((task - 1)*k + 1:task*k, :))
+      end associate
+   end subroutine make_triangle
+
+   !> The same of some rows of the image, of which some are made at a time.
+   recursive subroutine triangle_of_rows(by_row, space, from, to, r)
       type(sparse_t), intent(in) :: by_row
       real(wp), intent(in), contiguous :: space(:, :)
+      integer, intent(in) :: from, to
       real(wp), intent(out) :: r(:, :)
       real(wp) :: block(size(r, 1) + rows_at_once, size(r, 1)), tau(size(r, 1)), work(64*size(r, 1))
       integer :: j, k, first, last, info
 
       k = size(r, 1)
       block = 0.0_wp
-      do first = 1, by_row%columns, rows_at_once
-         last = min(first + rows_at_once - 1, by_row%columns)
+      do first = from, to, rows_at_once
+         last = min(first + rows_at_once - 1, to)
          do j = 1, k
             call multiply_rows(by_row, first, last, space(:, j), block(k + 1:k + last - first + 1, j))
             block(j + 1:k, j) = 0.0_wp
          end do
          call dgeqrf(k + last - first + 1, k, block, size(block, 1), tau, work, size(work), info)
       end do
+      call keep_triangle(block, r)
+   end subroutine triangle_of_rows
+
+   pure recursive subroutine keep_triangle(block, r)
+      real(wp), intent(in) :: block(:, :)
+      real(wp), intent(out) :: r(:, :)
+      integer :: j
+
       r = 0.0_wp
-      do j = 1, k
+      do j = 1, size(r, 2)
          r(:j, j) = block(:j, j)
       end do
-   end subroutine triangle_of_image
+   end subroutine keep_triangle
 
    !> Some entries of A x.
-   pure subroutine multiply_rows(by_row, first, last, x, y)
+   pure recursive subroutine multiply_rows(by_row, first, last, x, y)
       type(sparse_t), intent(in) :: by_row
       integer, intent(in) :: first, last
       real(wp), intent(in) :: x(:)

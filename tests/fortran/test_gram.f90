@@ -40,13 +40,15 @@ contains
       integer, allocatable :: taken(:)
       type(operator_t) :: a
       type(error_t), allocatable :: error
+      logical :: is_there
 
       dense = 0.0_wp
       do i = 1, n - 1
          dense(i, modulo(20*[i, i + 1], n) + 1) = 1.0_wp
       end do
       a = operator_of(sparse_of(dense))
-      call breadth_first_order(a, order)
+      call breadth_first_order(a, order, 2.0_wp*n, is_there)
+      call tally%check(is_there, 'an order along the band')
       place_of = 0
       place_of(order) = [(i, i=1, n)]
       call tally%check(all(place_of > 0), 'every column once')
@@ -60,14 +62,17 @@ contains
    subroutine a_broad_matrix_is_ordered_otherwise()
       integer, parameter :: n = 90
       real(wp) :: dense(2, n)
-      integer :: place_of(n), i
+      integer :: place_of(n), order(n), i
       integer, allocatable :: taken(:)
       type(error_t), allocatable :: error
       type(operator_t) :: a
+      logical :: is_there
 
       dense = 1.0_wp
       a = operator_of(sparse_of(dense))
       call tally%near([envelope(a%by_row, [(i, i=1, n)])], [0.5_wp*n*(n + 1)], 0.0_wp, 'all of a triangle')
+      call breadth_first_order(a, order, 0.5_wp*n*(n + 1) - 1, is_there)
+      call tally%check(.not. is_there, 'the search finds it out itself')
       call elimination_order(a, [(i, i=1, n)], taken, error)
       place_of = 0
       place_of(taken + 1) = [(i, i=1, n)]

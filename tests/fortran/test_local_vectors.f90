@@ -226,7 +226,7 @@ contains
       call banded(values, matrix, left, right)
       associate (zero => pack([(k, k=1, n)], values <= 0))
          associate (pin => [(maxloc(abs(right(:, zero(k))), 1), k=1, size(zero))])
-            call find_local_vectors(operator_of(matrix), pin, local, rest)
+            call find_local_vectors(operator_of(matrix), pin, 0, local, rest)
             call tally%check(size(rest) == 0 .and. local%vectors == size(zero), 'one vector for each pin')
             found = dense_of(local, n)
             call tally%near([found(pin, :)], [identity(size(pin))], 0.0_wp, 'a one at its pin, nothing at others')
@@ -245,13 +245,17 @@ contains
       type(sparse_basis_t) :: found
       integer, allocatable :: rest(:)
 
-      call find_local_vectors(operator_of(path(500, .true.)), [7], found, rest)
+      call find_local_vectors(operator_of(path(500, .true.)), [7], 1, found, rest)
       call tally%check(found%vectors == 0 .and. size(rest) == 1, 'a long ring')
       call tally%check(all(rest == [7]), 'its pin is left')
-      call find_local_vectors(operator_of(path(20, .true.)), [7], found, rest)
+      call find_local_vectors(operator_of(path(200, .true.)), [7], 1, found, rest)
+      call tally%check(found%vectors == 0 .and. size(rest) == 1, 'a ring that one pin may keep')
+      call find_local_vectors(operator_of(path(200, .true.)), [7], 0, found, rest)
+      call tally%check(found%vectors == 1 .and. size(rest) == 0, 'a ring that is sought farther out')
+      call find_local_vectors(operator_of(path(20, .true.)), [7], 1, found, rest)
       call tally%check(found%vectors == 1 .and. size(rest) == 0, 'a short ring')
       call tally%near(found%value(:20), spread(1.0_wp, 1, 20), 1.0e-13_wp, 'its null vector')
-      call find_local_vectors(operator_of(path(5, .false.)), [1, 4], found, rest)
+      call find_local_vectors(operator_of(path(5, .false.)), [1, 4], 0, found, rest)
       call tally%check(found%vectors == 0 .and. all(rest == [1, 4]), 'pins where nothing is low')
    end subroutine what_is_not_local_is_left
 
@@ -262,7 +266,7 @@ contains
 
       dense = 0.0_wp
       dense(:, 2) = [1.0_wp, 2.0_wp, 3.0_wp]
-      call find_local_vectors(operator_of(sparse_of(dense)), [3, 1], found, rest)
+      call find_local_vectors(operator_of(sparse_of(dense)), [3, 1], 0, found, rest)
       call tally%check(found%vectors == 2 .and. size(rest) == 0, 'columns that nothing holds')
       call tally%check(all(found%place(:2) == [3, 1]), 'move alone')
    end subroutine columns_without_entries
