@@ -364,8 +364,9 @@ def _long(data: ModelData, length: FloatArray) -> Iterator[Diagnostic]:
     whole = length.copy()
     for chain in data.chains:
         whole[list(chain.elements)] = length[list(chain.elements)].sum()
-    form, _ = forms_of(data.arrays)
-    found = np.isin(form, (Form.SHEET, Form.WIRE)) & (whole > _LONGEST)
+    found = whole > _LONGEST
+    if found.any():
+        found &= np.isin(forms_of(data.arrays)[0], (Form.SHEET, Form.WIRE))
     if found.any():
         most = float(whole[found].max())
         plain = f"give all positions in metres: {most:.4g} mm are {most / 1e3:.4g} m"

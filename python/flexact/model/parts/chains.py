@@ -124,6 +124,8 @@ def chains_of(
     """
     next_of: dict[tuple[int, int], tuple[int, int]] = {}
     beams, ends = _joined(arrays, _is_bendable(arrays))
+    if not len(beams):
+        return ()
     likely = _nearly_in_line(arrays, beams, ends)
     for one, other in _as_pairs(beams[likely], ends[likely]):
         if _go_on(arrays, names, frames, one, other):
@@ -308,9 +310,11 @@ def _is_beam(arrays: ModelArrays) -> BoolArray:
 
 def _is_bendable(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams that do not hold every bending, (elements,)."""
-    bends = np.isin(role_table(), (*XZ, *XY, *PLANAR))[arrays.element_kind]
-    free = bends & (arrays.deformation_class.T != Class.FIXED)
-    return np.asarray(_is_beam(arrays) & free.any(axis=1))
+    beams = _is_beam(arrays)
+    if beams.any():
+        bends = np.isin(role_table(), (*XZ, *XY, *PLANAR))[arrays.element_kind]
+        beams &= (bends & (arrays.deformation_class.T != Class.FIXED)).any(axis=1)
+    return beams
 
 
 #: Beside the largest component of a direction one below this part is small; and an axis is steep
