@@ -92,21 +92,24 @@ contains
    !> Take the shortest row and its rarest column, and that column out of the others.
    pure subroutine eliminate_one(matrix)
       type(matrix_t), intent(inout) :: matrix
-      integer :: pivot, j, at, entry
+      integer :: pivot, j, k, at, entry
 
       do while (matrix%first(matrix%lowest) == 0)
          matrix%lowest = matrix%lowest + 1
       end do
       pivot = matrix%first(matrix%lowest)
       call unlink(matrix, pivot)
-      associate (first => matrix%start(pivot), last => matrix%start(pivot) + matrix%count(pivot) - 1)
-         at = first - 1 + minloc(matrix%in_column(matrix%column(first:last)), 1)
-         matrix%is_left(pivot) = .false.
-         matrix%rows_left = matrix%rows_left - 1
-         matrix%columns_left = matrix%columns_left - 1
-         matrix%in_column(matrix%column(first:last)) = matrix%in_column(matrix%column(first:last)) - 1
-         matrix%entries = matrix%entries - matrix%count(pivot)
-      end associate
+      at = matrix%start(pivot)
+      do k = matrix%start(pivot), matrix%start(pivot) + matrix%count(pivot) - 1
+         if (matrix%in_column(matrix%column(k)) < matrix%in_column(matrix%column(at))) at = k
+      end do
+      do k = matrix%start(pivot), matrix%start(pivot) + matrix%count(pivot) - 1
+         matrix%in_column(matrix%column(k)) = matrix%in_column(matrix%column(k)) - 1
+      end do
+      matrix%is_left(pivot) = .false.
+      matrix%rows_left = matrix%rows_left - 1
+      matrix%columns_left = matrix%columns_left - 1
+      matrix%entries = matrix%entries - matrix%count(pivot)
       j = matrix%column(at)
       entry = matrix%head(j)
       do while (entry > 0)

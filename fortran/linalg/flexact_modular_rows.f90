@@ -150,7 +150,9 @@ contains
       if (at == 0) return
       call unlink(matrix, i)
       new = matrix%count(pivot)
-      matrix%multiple(:new) = matrix%value(matrix%start(pivot):matrix%start(pivot) + new - 1)
+      do k = 1, new
+         matrix%multiple(k) = matrix%value(matrix%start(pivot) + k - 1)
+      end do
       call modular_multiples(new, matrix%multiple, matrix%value(first + at - 1), matrix%modulus)
       call modular_multiples(matrix%count(i), matrix%value(first:), matrix%value(pivot_place), matrix%modulus)
       call make_room(matrix, i, matrix%count(i) + new)
@@ -203,7 +205,8 @@ contains
             call add_to_column(matrix, j, i)
          else
             matrix%value(at) = matrix%value(at) - value
-            if (matrix%value(at) < 0) matrix%value(at) = matrix%value(at) + matrix%modulus
+            ! The modulus is added where that is negative: its sign is as good as random.
+            matrix%value(at) = matrix%value(at) + iand(shifta(matrix%value(at), 63), matrix%modulus)
          end if
       end associate
    end subroutine take_entry

@@ -116,15 +116,16 @@ contains
    pure subroutine leave_out_held(a, row, column)
       type(operator_t), intent(in) :: a
       integer, allocatable, intent(out) :: row(:), column(:)
-      integer :: left(a%by_column%rows), i, j, before
+      integer :: left(a%by_column%rows), met(a%by_column%rows), i, j, before
       logical :: is_free(a%by_column%columns)
 
+      met = 0
       left = a%by_row%start(2:) - a%by_row%start(:size(left))
       is_free = .true.
       do
          before = count(is_free)
          do i = 1, size(left)
-            if (left(i) > 0 .and. left(i) <= most_held) call leave_out_at(a, i, left, is_free)
+            if (left(i) > 0 .and. left(i) <= most_held) call leave_out_at(a, i, left, met, is_free)
          end do
          if (count(is_free) == before) exit
       end do
@@ -133,54 +134,64 @@ contains
    end subroutine leave_out_held
 
    !> Leave out the free columns that row i meets, if the rows that meet no others hold them.
-   !> left (rows): how many free columns each row meets.
-   pure subroutine leave_out_at(a, i, left, is_free)
+   !> left (rows): how many free columns each row meets. met (rows): zeros, to work with.
+   pure subroutine leave_out_at(a, i, left, met, is_free)
       type(operator_t), intent(in) :: a
       integer, intent(in) :: i
-      integer, intent(inout) :: left(:)
+      integer, intent(inout) :: left(:), met(:)
       logical, intent(inout) :: is_free(:)
-      integer :: held(left(i)), met(size(left)), k, entry, other
-      real(wp) :: products(size(held), size(held)), part(size(held))
+      integer :: held(most_held), count, j, k, r, entry, other
+      real(wp) :: products(most_held, most_held), row(most_held)
 
-      associate (there => a%by_row%place(a%by_row%start(i):a%by_row%start(i + 1) - 1))
-         held = pack(there, is_free(there))
-      end associate
-      met = 0
+      count = 0
+      do entry = a%by_row%start(i), a%by_row%start(i + 1) - 1
+         if (.not. is_free(a%by_row%place(entry))) cycle
+         count = count + 1
+         held(count) = a%by_row%place(entry)
+      end do
       products = 0.0_wp
-      do k = 1, size(held)
+      do k = 1, count
          do entry = a%by_column%start(held(k)), a%by_column%start(held(k) + 1) - 1
-            associate (r => a%by_column%place(entry))
-               met(r) = met(r) + 1
-               if (met(r) < left(r)) cycle
-               part = 0.0_wp
-               do other = a%by_row%start(r), a%by_row%start(r + 1) - 1
-                  where (held == a%by_row%place(other)) part = a%by_row%value(other)
+            r = a%by_column%place(entry)
+            met(r) = met(r) + 1
+            if (met(r) < left(r)) cycle
+            row = 0.0_wp
+            do other = a%by_row%start(r), a%by_row%start(r + 1) - 1
+               do j = 1, count
+                  if (held(j) == a%by_row%place(other)) row(j) = a%by_row%value(other)
                end do
-               products = products + spread(part, 1, size(part))*spread(part, 2, size(part))
-            end associate
+            end do
+            do j = 1, count
+               products(:, j) = products(:, j) + row*row(j)
+            end do
          end do
       end do
-      if (.not. is_clearly_regular(products)) return
-      is_free(held) = .false.
-      do k = 1, size(held)
+      do k = 1, count
+         met(a%by_column%place(a%by_column%start(held(k)):a%by_column%start(held(k) + 1) - 1)) = 0
+      end do
+      if (.not. is_clearly_regular(products, count)) return
+      do k = 1, count
+         is_free(held(k)) = .false.
          do entry = a%by_column%start(held(k)), a%by_column%start(held(k) + 1) - 1
             left(a%by_column%place(entry)) = left(a%by_column%place(entry)) - 1
          end do
       end do
    end subroutine leave_out_at
 
-   !> Of the products of a few columns with each other: whether no combination of these is small.
-   pure logical function is_clearly_regular(products)
-      real(wp), intent(in) :: products(:, :)
-      real(wp) :: rest(size(products, 1), size(products, 1)), least
+   !> Of the products of a few columns with each other: whether no combination of the first is
+   !> small.
+   pure logical function is_clearly_regular(products, count)
+      real(wp), intent(in) :: products(most_held, most_held)
+      integer, intent(in) :: count
+      real(wp) :: rest(most_held, most_held), least
       integer :: j, k
 
       rest = products
       least = clearly**2*maxval(products)
       is_clearly_regular = .false.
-      do k = 1, size(rest, 1)
+      do k = 1, count
          if (.not. rest(k, k) > least) return
-         do j = k + 1, size(rest, 1)
+         do j = k + 1, count
             rest(:, j) = rest(:, j) - rest(:, k)*(rest(k, j)/rest(k, k))
          end do
       end do
