@@ -18,6 +18,8 @@ module flexact_supernodal_solve
    !> is quicker than plain loops.
    integer, parameter :: together = 16
    integer, parameter :: worth_blas = 2000
+   !> Right-hand sides that plain loops take at a time.
+   integer, parameter :: lanes = 4
 
    !> The rows of one supernode (rows, k); and where the rows above a task stand among those that
    !> it leaves something for.
@@ -33,7 +35,8 @@ module flexact_supernodal_solve
 
    type :: job_t
       type(cholesky_t), pointer :: factor => null()
-      !> Right-hand sides side by side (k, n), in the order of elimination.
+      !> Right-hand sides side by side (k, n), in the order of elimination; zeros fill them up to a
+      !> multiple of the lanes.
       integer :: k = together
       real(wp), allocatable :: all(:)
       type(worker_t), allocatable :: worker(:)
@@ -54,16 +57,16 @@ contains
       job%factor => factor
       do first = 1, size(x, 2), together
          last = min(first + together - 1, size(x, 2))
-         call make_room(job, last - first + 1, info)
+         call make_room(job, lanes*((last - first + lanes)/lanes), info)
          if (info /= 0) then
             call fail(error_memory, error)
             return
          end if
-         call take(factor%pattern%order, x(:, first:last), job%all)
+         call take(factor%pattern%order, x(:, first:last), job%k, job%all)
          call on_all_tasks(job, forward_in)
          call work_above(job)
          call on_all_tasks(job, backward_in)
-         call give(factor%pattern%order, job%all, x(:, first:last))
+         call give(factor%pattern%order, job%k, job%all, x(:, first:last))
       end do
    end subroutine solve
 
@@ -176,25 +179,26 @@ contains
       end do
    end subroutine add_left
 
-   pure recursive subroutine take(order, x, all)
-      integer, intent(in) :: order(:)
+   pure recursive subroutine take(order, x, k, all)
+      integer, intent(in) :: order(:), k
       real(wp), intent(in) :: x(:, :)
-      real(wp), intent(out) :: all(size(x, 2), *)
+      real(wp), intent(out) :: all(k, *)
       integer :: i
 
       do i = 1, size(order)
-         all(:, i) = x(order(i), :)
+         all(:size(x, 2), i) = x(order(i), :)
+         all(size(x, 2) + 1:, i) = 0.0_wp
       end do
    end subroutine take
 
-   pure recursive subroutine give(order, all, x)
-      integer, intent(in) :: order(:)
+   pure recursive subroutine give(order, k, all, x)
+      integer, intent(in) :: order(:), k
+      real(wp), intent(in) :: all(k, *)
       real(wp), intent(out) :: x(:, :)
-      real(wp), intent(in) :: all(size(x, 2), *)
       integer :: i
 
       do i = 1, size(order)
-         x(order(i), :) = all(:, i)
+         x(order(i), :) = all(:size(x, 2), i)
       end do
    end subroutine give
 
@@ -208,13 +212,13 @@ contains
       real(wp), intent(inout) :: all(k, *), left(k, *)
 
       associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
-         call take_some(pattern, s, rows, columns, k, all, some)
          if (is_worth_blas(rows, columns, k)) then
+            call take_some(pattern, s, rows, columns, k, all, some)
             call divide(panel_t(rows, columns, k, threads, .false., panel_of(pattern, s, value), some))
+            call give_some(pattern, s, last, rows, columns, k, place, some, all, left)
          else
-            call divide_by_loops(rows, columns, k, panel_of(pattern, s, value), some)
+            call forward_by_loops(pattern, s, last, rows, columns, k, place, panel_of(pattern, s, value), some, all, left)
          end if
-         call give_some(pattern, s, last, rows, columns, k, place, some, all, left)
       end associate
    end subroutine forward
 
@@ -259,19 +263,40 @@ contains
       end do
    end subroutine give_some
 
-   pure recursive subroutine divide_by_loops(rows, columns, k, panel, some)
-      integer, intent(in) :: rows, columns, k
+   !> A few right-hand sides at a time, so that as many sums are made side by side.
+   pure recursive subroutine forward_by_loops(pattern, s, last, rows, columns, k, place, panel, some, all, left)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, last, rows, columns, k, place(:)
       real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(rows, k)
-      integer :: j, r
+      real(wp), intent(inout) :: some(lanes, rows), all(k, *), left(k, *)
+      real(wp) :: x(lanes)
+      integer :: i, j, r, row
 
-      do j = 1, columns
-         do r = 1, k
-            some(j, r) = some(j, r)/panel(j, j)
-            some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
+      do r = 1, k, lanes
+         some = 0.0_wp
+         do i = 1, columns
+            some(:, i) = all(r:r + lanes - 1, pattern%first(s) + i - 1)
+         end do
+         do j = 1, columns
+            x = some(:, j)/panel(j, j)
+            some(:, j) = x
+            do i = j + 1, rows
+               some(:, i) = some(:, i) - x*panel(i, j)
+            end do
+         end do
+         do i = 1, columns
+            all(r:r + lanes - 1, pattern%first(s) + i - 1) = some(:, i)
+         end do
+         do i = columns + 1, rows
+            row = pattern%row(pattern%rows_from(s) + i - 1)
+            if (row <= last) then
+               all(r:r + lanes - 1, row) = all(r:r + lanes - 1, row) + some(:, i)
+            else
+               left(r:r + lanes - 1, place(row)) = left(r:r + lanes - 1, place(row)) + some(:, i)
+            end if
          end do
       end do
-   end subroutine divide_by_loops
+   end subroutine forward_by_loops
 
    !> Take the part of the rows below from the places of supernode s, and divide by the transpose.
    recursive subroutine backward(pattern, s, k, threads, value, some, all)
@@ -324,19 +349,24 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, columns, k
       real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(rows, k), all(k, *)
+      real(wp), intent(inout) :: some(lanes, rows), all(k, *)
+      real(wp) :: x(lanes)
       integer :: i, j, r
 
-      do i = 1, rows
-         some(i, :) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
-      end do
-      do j = columns, 1, -1
-         do r = 1, k
-            some(j, r) = (some(j, r) - dot_product(panel(j + 1:, j), some(j + 1:, r)))/panel(j, j)
+      do r = 1, k, lanes
+         do i = 1, rows
+            some(:, i) = all(r:r + lanes - 1, pattern%row(pattern%rows_from(s) + i - 1))
          end do
-      end do
-      do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(i, :)
+         do j = columns, 1, -1
+            x = some(:, j)
+            do i = j + 1, rows
+               x = x - some(:, i)*panel(i, j)
+            end do
+            some(:, j) = x/panel(j, j)
+         end do
+         do i = 1, columns
+            all(r:r + lanes - 1, pattern%first(s) + i - 1) = some(:, i)
+         end do
       end do
    end subroutine backward_by_loops
 
