@@ -1,43 +1,26 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The Euclidean norm of a vector of any magnitude, and products of vectors.
+!> The Euclidean norm of a vector of any magnitude.
 module flexact_scaled_norm
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: length_of, inner_product
+   public :: length_of
 
-   !> Sums of squares between these have lost nothing to underflow or overflow.
-   real(wp), parameter :: tiny_square = 1.0e-200_wp, huge_square = 1.0e200_wp
-   !> Sums that are made side by side, as a sum waits for the one before.
-   integer, parameter :: lanes = 8
+   !> Of entries up to between these, squares neither vanish nor overflow, nor does their sum.
+   real(wp), parameter :: tiny_entry = 1.0e-100_wp, huge_entry = 1.0e100_wp
 
 contains
 
    !> Intrinsic norm2 of gfortran 12 gives zero where the squares underflow.
    pure real(wp) function length_of(vector) result(length)
-      real(wp), intent(in), contiguous :: vector(:)
+      real(wp), intent(in) :: vector(:)
       real(wp) :: largest
 
-      length = inner_product(vector, vector)
-      if (length > tiny_square .and. length < huge_square) then
-         length = sqrt(length)
+      largest = maxval(abs(vector))
+      if (largest > tiny_entry .and. largest < huge_entry) then
+         length = sqrt(dot_product(vector, vector))
       else
-         largest = maxval(abs(vector))
          length = scale(norm2(scale(vector, -exponent(largest))), exponent(largest))
       end if
    end function length_of
-
-   !> The same as the intrinsic one but for rounding.
-   pure real(wp) function inner_product(a, b) result(total)
-      real(wp), intent(in), contiguous :: a(:), b(:)
-      real(wp) :: sums(lanes)
-      integer :: i, last
-
-      last = size(a) - mod(size(a), lanes)
-      sums = 0.0_wp
-      do i = 1, last, lanes
-         sums = sums + a(i:i + lanes - 1)*b(i:i + lanes - 1)
-      end do
-      total = sum(sums) + dot_product(a(last + 1:), b(last + 1:))
-   end function inner_product
 end module flexact_scaled_norm

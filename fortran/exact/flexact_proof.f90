@@ -130,7 +130,7 @@ contains
    end function places_in_components
 
    pure subroutine prove_component(model, problem, i, arithmetic, node_place, limits, place, component_of, is_joined, &
-                                 proof)
+                                   proof)
       type(model_t), intent(in) :: model
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: i, place(:), component_of(:)

@@ -6,7 +6,7 @@ module flexact_orthonormal
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgemm, dgeqrf, dorgqr
-   use flexact_scaled_norm, only: length_of, inner_product
+   use flexact_scaled_norm, only: length_of
    use flexact_sparse_basis, only: sparse_basis_t
    implicit none
    private
@@ -49,13 +49,13 @@ contains
 
    !> Make vectors orthogonal to orthonormal ones.
    pure subroutine deflate(orthonormal, vectors)
-      real(wp), intent(in), contiguous :: orthonormal(:, :)
-      real(wp), intent(inout), contiguous :: vectors(:, :)
+      real(wp), intent(in) :: orthonormal(:, :)
+      real(wp), intent(inout) :: vectors(:, :)
       integer :: j, k
 
       do k = 1, size(vectors, 2)
          do j = 1, size(orthonormal, 2)
-            vectors(:, k) = vectors(:, k) - inner_product(orthonormal(:, j), vectors(:, k))*orthonormal(:, j)
+            vectors(:, k) = vectors(:, k) - dot_product(orthonormal(:, j), vectors(:, k))*orthonormal(:, j)
          end do
       end do
    end subroutine deflate
@@ -145,8 +145,8 @@ contains
    end subroutine take_out
 
    pure subroutine take_out_twice(orthonormal, vector, taken)
-      real(wp), intent(in), contiguous :: orthonormal(:, :)
-      real(wp), intent(inout), contiguous :: vector(:)
+      real(wp), intent(in) :: orthonormal(:, :)
+      real(wp), intent(inout) :: vector(:)
       real(wp), intent(out) :: taken(:)
       real(wp) :: part
       integer :: j, round
@@ -154,7 +154,7 @@ contains
       taken = 0.0_wp
       do round = 1, 2
          do j = 1, size(orthonormal, 2)
-            part = inner_product(orthonormal(:, j), vector)
+            part = dot_product(orthonormal(:, j), vector)
             vector = vector - part*orthonormal(:, j)
             taken(j) = taken(j) + part
          end do

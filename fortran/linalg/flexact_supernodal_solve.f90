@@ -35,8 +35,7 @@ module flexact_supernodal_solve
 
    type :: job_t
       type(cholesky_t), pointer :: factor => null()
-      !> Right-hand sides side by side (k, n), in the order of elimination; zeros fill them up to a
-      !> multiple of the lanes.
+      !> Right-hand sides side by side (padded(k), n), in the order of elimination.
       integer :: k = together
       real(wp), allocatable :: all(:)
       type(worker_t), allocatable :: worker(:)
@@ -57,16 +56,16 @@ contains
       job%factor => factor
       do first = 1, size(x, 2), together
          last = min(first + together - 1, size(x, 2))
-         call make_room(job, lanes*((last - first + lanes)/lanes), info)
+         call make_room(job, last - first + 1, info)
          if (info /= 0) then
             call fail(error_memory, error)
             return
          end if
-         call take(factor%pattern%order, x(:, first:last), job%k, job%all)
+         call take(factor%pattern%order, x(:, first:last), job%all)
          call on_all_tasks(job, forward_in)
          call work_above(job)
          call on_all_tasks(job, backward_in)
-         call give(factor%pattern%order, job%k, job%all, x(:, first:last))
+         call give(factor%pattern%order, job%all, x(:, first:last))
       end do
    end subroutine solve
 
@@ -82,15 +81,16 @@ contains
       if (allocated(job%all)) deallocate (job%all, job%worker, job%left)
       job%k = k
       associate (factor => job%factor)
-         allocate (job%all(int(factor%n, long)*k), job%worker(factor%threads), job%left(factor%tasks%count), stat=info)
+         allocate (job%all(int(factor%n, long)*padded(k)), job%worker(factor%threads), job%left(factor%tasks%count), stat=info)
          do i = 1, factor%threads
             if (info == 0) allocate (job%worker(i)%some(int(factor%widest, long)*together), &
                                      job%worker(i)%place(factor%n), stat=info)
          end do
          do t = 1, factor%tasks%count
             root = factor%tasks%root(t)
-            if (info == 0) allocate (job%left(t)%value(k, rows_in(factor%pattern, root) - columns_in(factor%pattern, root)), &
-                                     stat=info)
+            associate (left => rows_in(factor%pattern, root) - columns_in(factor%pattern, root))
+               if (info == 0) allocate (job%left(t)%value(padded(k), left), stat=info)
+            end associate
          end do
       end associate
    end subroutine make_room
@@ -169,7 +169,7 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: root, k
       real(wp), intent(in) :: left(:, :)
-      real(wp), intent(inout) :: all(k, *)
+      real(wp), intent(inout) :: all(padded(k), *)
       integer :: i
 
       do i = 1, size(left, 2)
@@ -179,10 +179,16 @@ contains
       end do
    end subroutine add_left
 
-   pure recursive subroutine take(order, x, k, all)
-      integer, intent(in) :: order(:), k
+   !> So many with those that fill up the lanes, which are zero.
+   pure recursive integer function padded(k)
+      integer, intent(in) :: k
+      padded = lanes*((k + lanes - 1)/lanes)
+   end function padded
+
+   pure recursive subroutine take(order, x, all)
+      integer, intent(in) :: order(:)
       real(wp), intent(in) :: x(:, :)
-      real(wp), intent(out) :: all(k, *)
+      real(wp), intent(out) :: all(padded(size(x, 2)), *)
       integer :: i
 
       do i = 1, size(order)
@@ -191,10 +197,10 @@ contains
       end do
    end subroutine take
 
-   pure recursive subroutine give(order, k, all, x)
-      integer, intent(in) :: order(:), k
-      real(wp), intent(in) :: all(k, *)
+   pure recursive subroutine give(order, all, x)
+      integer, intent(in) :: order(:)
       real(wp), intent(out) :: x(:, :)
+      real(wp), intent(in) :: all(padded(size(x, 2)), *)
       integer :: i
 
       do i = 1, size(order)
@@ -209,7 +215,7 @@ contains
       integer, intent(in) :: s, last, k, threads, place(:)
       real(wp), intent(in), target, contiguous :: value(:)
       real(wp), intent(inout), target, contiguous :: some(:)
-      real(wp), intent(inout) :: all(k, *), left(k, *)
+      real(wp), intent(inout) :: all(padded(k), *), left(padded(k), *)
 
       associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
          if (is_worth_blas(rows, columns, k)) then
@@ -233,12 +239,12 @@ contains
    pure recursive subroutine take_some(pattern, s, rows, columns, k, all, some)
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, columns, k
-      real(wp), intent(in) :: all(k, *)
+      real(wp), intent(in) :: all(padded(k), *)
       real(wp), intent(inout) :: some(rows, k)
       integer :: i
 
       do i = 1, columns
-         some(i, :) = all(:, pattern%first(s) + i - 1)
+         some(i, :) = all(:k, pattern%first(s) + i - 1)
       end do
       some(columns + 1:, :) = 0.0_wp
    end subroutine take_some
@@ -247,18 +253,18 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, last, rows, columns, k, place(:)
       real(wp), intent(in) :: some(rows, k)
-      real(wp), intent(inout) :: all(k, *), left(k, *)
+      real(wp), intent(inout) :: all(padded(k), *), left(padded(k), *)
       integer :: i, row
 
       do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(i, :)
+         all(:k, pattern%first(s) + i - 1) = some(i, :)
       end do
       do i = columns + 1, rows
          row = pattern%row(pattern%rows_from(s) + i - 1)
          if (row <= last) then
-            all(:, row) = all(:, row) + some(i, :)
+            all(:k, row) = all(:k, row) + some(i, :)
          else
-            left(:, place(row)) = left(:, place(row)) + some(i, :)
+            left(:k, place(row)) = left(:k, place(row)) + some(i, :)
          end if
       end do
    end subroutine give_some
@@ -268,14 +274,16 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, last, rows, columns, k, place(:)
       real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(lanes, rows), all(k, *), left(k, *)
+      real(wp), intent(inout) :: some(lanes, rows), all(padded(k), *), left(padded(k), *)
       real(wp) :: x(lanes)
       integer :: i, j, r, row
 
       do r = 1, k, lanes
-         some = 0.0_wp
          do i = 1, columns
             some(:, i) = all(r:r + lanes - 1, pattern%first(s) + i - 1)
+         end do
+         do i = columns + 1, rows
+            some(:, i) = 0.0_wp
          end do
          do j = 1, columns
             x = some(:, j)/panel(j, j)
@@ -304,7 +312,7 @@ contains
       integer, intent(in) :: s, k, threads
       real(wp), intent(in), target, contiguous :: value(:)
       real(wp), intent(inout), target, contiguous :: some(:)
-      real(wp), intent(inout) :: all(k, *)
+      real(wp), intent(inout) :: all(padded(k), *)
       integer :: filled
 
       associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
@@ -323,12 +331,12 @@ contains
    pure recursive subroutine take_all(pattern, s, rows, k, filled, all, some)
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, k, filled
-      real(wp), intent(in) :: all(k, *)
+      real(wp), intent(in) :: all(padded(k), *)
       real(wp), intent(inout) :: some(filled, rows)
       integer :: i
 
       do i = 1, rows
-         some(:k, i) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
+         some(:k, i) = all(:k, pattern%row(pattern%rows_from(s) + i - 1))
          some(k + 1:, i) = 0.0_wp
       end do
    end subroutine take_all
@@ -337,11 +345,11 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, columns, k, filled
       real(wp), intent(in) :: some(filled, *)
-      real(wp), intent(inout) :: all(k, *)
+      real(wp), intent(inout) :: all(padded(k), *)
       integer :: i
 
       do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(:k, i)
+         all(:k, pattern%first(s) + i - 1) = some(:k, i)
       end do
    end subroutine give_first
 
@@ -349,7 +357,7 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, columns, k
       real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(lanes, rows), all(k, *)
+      real(wp), intent(inout) :: some(lanes, rows), all(padded(k), *)
       real(wp) :: x(lanes)
       integer :: i, j, r
 
@@ -358,11 +366,11 @@ contains
             some(:, i) = all(r:r + lanes - 1, pattern%row(pattern%rows_from(s) + i - 1))
          end do
          do j = columns, 1, -1
-            x = some(:, j)
+            x = 0.0_wp
             do i = j + 1, rows
-               x = x - some(:, i)*panel(i, j)
+               x = x + some(:, i)*panel(i, j)
             end do
-            some(:, j) = x/panel(j, j)
+            some(:, j) = (some(:, j) - x)/panel(j, j)
          end do
          do i = 1, columns
             all(r:r + lanes - 1, pattern%first(s) + i - 1) = some(:, i)
