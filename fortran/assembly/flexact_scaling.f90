@@ -257,9 +257,9 @@ contains
    !> digits. Bits are lost where the points stand; digits count from the one to the other.
    pure function errors_of_offset(points, p, q, extent) result(error)
       real(wp), intent(in) :: points(:, :), extent
-      type(decimal_t), intent(in) :: p(axes), q(axes)
+      type(decimal_t), intent(in) :: p(:), q(:)
       real(wp) :: error(3)
-      type(decimal_t) :: offset(axes)
+      type(decimal_t) :: offset(size(p))
 
       offset = difference(p, q)
       error = [maxval(last_bits(points, extent)), maxval(last_digit(offset)), maxval(coarsest_digit(offset))]

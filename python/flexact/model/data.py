@@ -259,7 +259,7 @@ _METRES = {"m": "metres", "mm": "mm"}
 def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     """Warnings about a sound model, one of each kind."""
     # Most models are small, and nothing of their size is made for them.
-    if float(np.ptp(data.arrays.node_value[:3], axis=1).max(initial=0.0)) > _LONGEST:
+    if max(map(np.ptp, data.arrays.node_value[:3])) > _LONGEST:
         yield from _long(data, _lengths(data))
     if data.loads is not None:
         yield from _falls(data, float(np.linalg.norm(data.loads.gravity)))

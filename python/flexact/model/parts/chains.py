@@ -123,10 +123,13 @@ def chains_of(
     not belong together. `frames` gives those of the elements, (elements, 3, 3).
     """
     next_of: dict[tuple[int, int], tuple[int, int]] = {}
-    beams, ends = _joined(arrays, _is_bendable(arrays))
+    beams, ends = _joined(arrays, _is_beam(arrays))
     if not len(beams):
         return ()
     likely = _nearly_in_line(arrays, beams, ends)
+    if not likely.any():
+        return ()
+    likely &= _is_bendable(arrays)[beams].all(axis=1)
     for one, other in _as_pairs(beams[likely], ends[likely]):
         if _go_on(arrays, names, frames, one, other):
             next_of[one], next_of[other] = other, one
@@ -310,11 +313,9 @@ def _is_beam(arrays: ModelArrays) -> BoolArray:
 
 def _is_bendable(arrays: ModelArrays) -> BoolArray:
     """Which elements are beams that do not hold every bending, (elements,)."""
-    beams = _is_beam(arrays)
-    if beams.any():
-        bends = np.isin(role_table(), (*XZ, *XY, *PLANAR))[arrays.element_kind]
-        beams &= (bends & (arrays.deformation_class.T != Class.FIXED)).any(axis=1)
-    return beams
+    bends = np.isin(role_table(), (*XZ, *XY, *PLANAR))[arrays.element_kind]
+    free = bends & (arrays.deformation_class.T != Class.FIXED)
+    return np.asarray(_is_beam(arrays) & free.any(axis=1))
 
 
 #: Beside the largest component of a direction one below this part is small; and an axis is steep
