@@ -260,7 +260,7 @@ def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     """Warnings about a sound model, one of each kind."""
     # Most models are small, and nothing of their size is made for them.
     if max(map(np.ptp, data.arrays.node_value[:3])) > _LONGEST:
-        yield from _long(data, _lengths(data))
+        yield from _long(data)
     if data.loads is not None:
         yield from _falls(data, float(np.linalg.norm(data.loads.gravity)))
     if data.properties is None:
@@ -359,8 +359,12 @@ def _lengths(data: ModelData) -> FloatArray:
     return np.where(there, made, 0.0)
 
 
-def _long(data: ModelData, length: FloatArray) -> Iterator[Diagnostic]:
+def _long(data: ModelData) -> Iterator[Diagnostic]:
     """A sheet or wire that is longer than any; of a divided one all of it counts."""
+    # Bars are many, and neither.
+    if not is_member(data.arrays.element_kind, Member.BEAM).any():
+        return
+    length = _lengths(data)
     whole = length.copy()
     for chain in data.chains:
         whole[list(chain.elements)] = length[list(chain.elements)].sum()
