@@ -20,23 +20,28 @@ module flexact_exact_matrix
 
 contains
 
-   !> rows: which ones, ascending.
-   pure subroutine make_exact_matrix(model, partition, rows, arithmetic, matrix)
+   !> rows: which ones, ascending. place (3, nodes): node values as numbers, where there are many.
+   pure subroutine make_exact_matrix(model, partition, rows, arithmetic, matrix, place)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
       integer, intent(in) :: rows(:)
       type(arithmetic_t), intent(in) :: arithmetic
       type(exact_matrix_t), intent(out) :: matrix
+      type(number_t), intent(in), optional :: place(:, :)
       type(exact_element_t) :: element
       type(number_t) :: row(axes*slots)
-      integer :: i, used, latest
+      integer :: i, used, most, latest
 
-      allocate (matrix%start(size(rows) + 1), matrix%column(size(row)*size(rows)), matrix%entry(size(row)*size(rows)))
+      most = 0
+      do i = 1, size(rows)
+         most = most + columns_of(model, partition, partition%row_label(1, rows(i)))
+      end do
+      allocate (matrix%start(size(rows) + 1), matrix%column(most), matrix%entry(most))
       used = 0
       latest = 0
       do i = 1, size(rows)
          associate (k => partition%row_label(1, rows(i)), deformation => partition%row_label(2, rows(i)))
-            if (k /= latest) call make_exact_element(model, k, arithmetic, element)
+            if (k /= latest) call make_exact_element(model, k, arithmetic, element, place)
             latest = k
             call exact_row(element, deformation, row)
             matrix%start(i) = used + 1
@@ -44,9 +49,25 @@ contains
          end associate
       end do
       matrix%start(size(rows) + 1) = used + 1
+      if (used == most) return
       matrix%column = matrix%column(:used)
       matrix%entry = matrix%entry(:used)
    end subroutine make_exact_matrix
+
+   !> Columns of D(c) that an element meets.
+   pure integer function columns_of(model, partition, k) result(columns)
+      type(model_t), intent(in) :: model
+      type(partition_t), intent(in) :: partition
+      integer, intent(in) :: k
+      integer :: slot
+
+      columns = 0
+      do slot = 1, slots
+         associate (node => model%element_node(slot, k))
+            if (node > 0) columns = columns + count(partition%column_of(:, node) > 0)
+         end associate
+      end do
+   end function columns_of
 
    !> Keep what stands in columns of D(c) and is not zero.
    pure subroutine add_row(model, partition, k, row, matrix, used)

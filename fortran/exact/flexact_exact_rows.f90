@@ -26,11 +26,13 @@ module flexact_exact_rows
 
 contains
 
-   pure subroutine make_exact_element(model, k, arithmetic, element)
+   !> place (3, nodes): node values as numbers, where many elements ask for them.
+   pure subroutine make_exact_element(model, k, arithmetic, element, place)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
       type(arithmetic_t), intent(in) :: arithmetic
       type(exact_element_t), intent(out) :: element
+      type(number_t), intent(in), optional :: place(:, :)
       real(wp) :: chord(3)
       integer :: seen
 
@@ -42,9 +44,14 @@ contains
             ! A planar element sees x and y alone.
             seen = merge(2, 3, row%slot_kind(1) == node_planar_position)
             chord(:seen) = model%node_value(:seen, q) - model%node_value(:seen, p)
-            element%offset(:seen) = number_of(model%node_value(:seen, q), arithmetic) &
-                                    - number_of(model%node_value(:seen, p), arithmetic)
+            if (present(place)) then
+               element%offset(:seen) = place(:seen, q) - place(:seen, p)
+            else
+               element%offset(:seen) = number_of(model%node_value(:seen, q), arithmetic) &
+                                       - number_of(model%node_value(:seen, p), arithmetic)
+            end if
          end if
+         if (all(row%role <= role_elongation)) return
          element%square = dot(element%offset, element%offset)
          call make_frame(row%frame, chord, model%element_vector(:, k), stand_in(model, k), arithmetic, element)
       end associate

@@ -7,7 +7,7 @@ module flexact_proof
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_components, only: components_t, component_of_columns, shape_of
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix
-   use flexact_exact_number, only: arithmetic_t, modular_arithmetic
+   use flexact_exact_number, only: arithmetic_t, number_t, modular_arithmetic, number_of
    use flexact_modular, only: random_prime
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
@@ -84,6 +84,7 @@ contains
       real(wp), intent(in) :: memory
       type(proof_t), intent(out) :: proof
       type(arithmetic_t) :: arithmetic
+      type(number_t), allocatable :: node_place(:, :)
       integer, allocatable :: place(:), component_of(:)
       logical, allocatable :: is_joined(:)
       type(limits_t) :: limits
@@ -104,9 +105,11 @@ contains
       bits_of_row = row_bits(model, proof%as_typed)
       proof%primes = 1
       arithmetic = modular_arithmetic(random_prime(seed_of(model)), proof%as_typed)
+      node_place = number_of(model%node_value(:3, :), arithmetic)
       do i = 1, problem%components%count
          associate (sides => shape_of(problem%components, i))
-            call prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)
+            call prove_component(model, problem, i, arithmetic, node_place, limits, place, component_of, is_joined, &
+                                 proof)
             if (proof%rank(i) >= 0 .and. proof%rank(i) < minval(sides)) &
                proof%failure = proof%failure + minval(sides)*bits_of_row/bits_of_prime/primes_at_hand
          end associate
@@ -126,11 +129,13 @@ contains
       end do
    end function places_in_components
 
-   pure subroutine prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)
+   pure subroutine prove_component(model, problem, i, arithmetic, node_place, limits, place, component_of, is_joined, &
+                                   proof)
       type(model_t), intent(in) :: model
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: i, place(:), component_of(:)
       type(arithmetic_t), intent(in) :: arithmetic
+      type(number_t), intent(in) :: node_place(:, :)
       type(limits_t), intent(in) :: limits
       logical, intent(inout) :: is_joined(:)
       type(proof_t), intent(inout) :: proof
@@ -141,7 +146,8 @@ contains
       proof%rank(i) = 0
       if (any(sides == 0)) return
       associate (c => problem%components)
-         call make_exact_matrix(model, problem%partition, c%row(c%row_start(i):c%row_start(i + 1) - 1), arithmetic, matrix)
+         call make_exact_matrix(model, problem%partition, c%row(c%row_start(i):c%row_start(i + 1) - 1), arithmetic, matrix, &
+                                node_place)
       end associate
       ! What rounding made zero may join components: they are not two then.
       do k = 1, size(matrix%column)

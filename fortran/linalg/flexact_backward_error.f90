@@ -42,7 +42,8 @@ contains
       type(operator_t), intent(in) :: a
       real(wp), intent(in) :: largest, enough
       real(wp) :: w(a%by_column%columns), x(a%by_column%columns), z(a%by_column%columns), y(a%by_column%rows)
-      integer :: j, round
+      real(wp) :: total
+      integer :: j, round, entry
 
       w = growth(a%by_column%start(2:) - a%by_column%start(:a%by_column%columns) + extra)
       x = w
@@ -50,14 +51,16 @@ contains
       do round = 1, rounds
          y = 0.0_wp
          do j = 1, size(x)
-            associate (from => a%by_column%start(j), to => a%by_column%start(j + 1) - 1)
-               y(a%by_column%place(from:to)) = y(a%by_column%place(from:to)) + abs(a%by_column%value(from:to))*x(j)
-            end associate
+            do entry = a%by_column%start(j), a%by_column%start(j + 1) - 1
+               y(a%by_column%place(entry)) = y(a%by_column%place(entry)) + abs(a%by_column%value(entry))*x(j)
+            end do
          end do
          do j = 1, size(x)
-            associate (from => a%by_column%start(j), to => a%by_column%start(j + 1) - 1)
-               z(j) = w(j)*dot_product(abs(a%by_column%value(from:to)), y(a%by_column%place(from:to)))
-            end associate
+            total = 0.0_wp
+            do entry = a%by_column%start(j), a%by_column%start(j + 1) - 1
+               total = total + abs(a%by_column%value(entry))*y(a%by_column%place(entry))
+            end do
+            z(j) = w(j)*total
          end do
          bound = min(bound, maxval(z/x))
          if (bound <= enough) exit

@@ -11,19 +11,20 @@ module flexact_minimum_degree
    private
    public :: minimum_degree_order, column_groups
 
-   !> Of which the first `count` are there.
-   type :: list_t
-      integer :: count = 0
-      integer, allocatable :: item(:)
-   end type list_t
+   !> Lists in one array: the items of list g are `count(g)` from `start(g)` on.
+   type :: lists_t
+      integer, allocatable :: start(:), count(:), item(:)
+   end type lists_t
 
    !> Groups not yet eliminated: which are joined with each directly (near), and through
    !> which eliminated ones (through); which are joined by each eliminated one (joined).
    type :: quotient_t
-      type(list_t), allocatable :: near(:), through(:), joined(:)
+      type(lists_t) :: near, through, joined
       integer, allocatable :: weight(:), degree(:), mark(:)
       logical, allocatable :: is_gone(:), is_swallowed(:)
-      integer :: stamp = 0
+      !> What a group is joined with, the one that was looked at last.
+      integer, allocatable :: reach(:)
+      integer :: found = 0, stamp = 0, used = 0
    end type quotient_t
 
 contains
@@ -56,9 +57,9 @@ contains
       integer :: parent(size(of_groups)), order(size(of_groups)), room(2*size(of_groups) + 1), i
 
       do i = 1, size(of_groups)
-         associate (joined => graph%joined(of_groups(i))%item)
+         associate (first => graph%joined%start(of_groups(i)), count => graph%joined%count(of_groups(i)))
             parent(i) = 0
-            if (size(joined) > 0) parent(i) = minval(place_of(joined))
+            if (count > 0) parent(i) = minval(place_of(graph%joined%item(first:first + count - 1)))
          end associate
       end do
       call postorder(parent, order, room(:size(order) + 1), room(size(order) + 2:))
@@ -102,29 +103,38 @@ contains
       type(sparse_t), intent(in) :: pattern
       integer, intent(in) :: group(:), groups
       type(quotient_t), intent(out) :: graph
-      integer :: j, g, entry, found, list(groups)
+      integer :: j, g, k, entry
 
-      allocate (graph%near(groups), graph%through(groups), graph%joined(groups))
-      allocate (graph%weight(groups), graph%degree(groups), graph%mark(groups), source=0)
+      allocate (graph%weight(groups), graph%degree(groups), graph%mark(groups), graph%reach(groups), source=0)
       allocate (graph%is_gone(groups), graph%is_swallowed(groups), source=.false.)
+      allocate (graph%near%start(groups), graph%near%count(groups), graph%through%count(groups), &
+                graph%joined%start(groups), graph%joined%count(groups), source=0)
+      allocate (graph%near%item(size(pattern%place)), graph%joined%item(size(pattern%place)))
       do j = 1, size(group)
          graph%weight(group(j)) = graph%weight(group(j)) + 1
       end do
+      k = 0
       do j = 1, size(group)
          g = group(j)
-         if (allocated(graph%near(g)%item)) cycle
-         found = 0
+         if (graph%near%start(g) > 0) cycle
+         graph%found = 0
          graph%mark(g) = j
          do entry = pattern%start(j), pattern%start(j + 1) - 1
-            call meet(group(pattern%place(entry)), j, graph%mark, list, found)
+            call meet(group(pattern%place(entry)), j, graph%mark, graph%reach, graph%found)
          end do
-         graph%near(g) = list_t(found, list(:found))
-         ! Each that joins takes the place of one.
-         graph%through(g) = list_t(0, list(:found))
+         graph%near%start(g) = k + 1
+         graph%near%count(g) = graph%found
+         graph%near%item(k + 1:k + graph%found) = graph%reach(:graph%found)
+         k = k + graph%found
       end do
+      ! Each that joins takes the place of one.
+      graph%through%start = graph%near%start
+      graph%through%item = graph%near%item
       graph%stamp = size(group)
       do g = 1, groups
-         graph%degree(g) = sum(graph%weight(graph%near(g)%item))
+         do k = graph%near%start(g), graph%near%start(g) + graph%near%count(g) - 1
+            graph%degree(g) = graph%degree(g) + graph%weight(graph%near%item(k))
+         end do
       end do
    end subroutine make_quotient
 
@@ -148,68 +158,78 @@ contains
    pure subroutine eliminate(graph, pivot)
       type(quotient_t), intent(inout) :: graph
       integer, intent(in) :: pivot
-      integer :: reach(size(graph%weight)), found, i
+      integer :: i, k, g, kept
 
-      call collect(graph, pivot, reach, found)
+      call collect(graph, pivot)
       graph%is_gone(pivot) = .true.
-      graph%is_swallowed(graph%through(pivot)%item(:graph%through(pivot)%count)) = .true.
-      graph%joined(pivot) = list_t(found, reach(:found))
-      do i = 1, found
-         associate (near => graph%near(reach(i)), through => graph%through(reach(i)))
-            ! What the new list joins needs no entry of its own.
-            call keep(graph%mark(near%item(:near%count)) /= graph%stamp, near)
-            call keep(.not. graph%is_swallowed(through%item(:through%count)), through)
-            through%count = through%count + 1
-            through%item(through%count) = pivot
-         end associate
+      do k = graph%through%start(pivot), graph%through%start(pivot) + graph%through%count(pivot) - 1
+         graph%is_swallowed(graph%through%item(k)) = .true.
       end do
-      do i = 1, found
-         call find_degree(graph, reach(i))
+      call keep_joined(graph, pivot)
+      do i = 1, graph%found
+         g = graph%reach(i)
+         ! What the new list joins needs no entry of its own.
+         kept = graph%near%start(g) - 1
+         do k = graph%near%start(g), kept + graph%near%count(g)
+            if (graph%mark(graph%near%item(k)) == graph%stamp) cycle
+            kept = kept + 1
+            graph%near%item(kept) = graph%near%item(k)
+         end do
+         graph%near%count(g) = kept + 1 - graph%near%start(g)
+         kept = graph%through%start(g) - 1
+         do k = graph%through%start(g), kept + graph%through%count(g)
+            if (graph%is_swallowed(graph%through%item(k))) cycle
+            kept = kept + 1
+            graph%through%item(kept) = graph%through%item(k)
+         end do
+         graph%through%item(kept + 1) = pivot
+         graph%through%count(g) = kept + 2 - graph%through%start(g)
+      end do
+      do k = graph%joined%start(pivot), graph%joined%start(pivot) + graph%joined%count(pivot) - 1
+         g = graph%joined%item(k)
+         call collect(graph, g)
+         graph%degree(g) = 0
+         do i = 1, graph%found
+            graph%degree(g) = graph%degree(g) + graph%weight(graph%reach(i))
+         end do
       end do
    end subroutine eliminate
 
-   pure subroutine keep(is_kept, list)
-      logical, intent(in) :: is_kept(:)
-      type(list_t), intent(inout) :: list
-      integer :: i
+   !> What was collected is what an eliminated group joins.
+   pure subroutine keep_joined(graph, pivot)
+      type(quotient_t), intent(inout) :: graph
+      integer, intent(in) :: pivot
+      integer, allocatable :: longer(:)
 
-      list%count = 0
-      do i = 1, size(is_kept)
-         if (.not. is_kept(i)) cycle
-         list%count = list%count + 1
-         list%item(list%count) = list%item(i)
-      end do
-   end subroutine keep
+      if (graph%used + graph%found > size(graph%joined%item)) then
+         allocate (longer(2*(graph%used + graph%found)))
+         longer(:graph%used) = graph%joined%item(:graph%used)
+         call move_alloc(longer, graph%joined%item)
+      end if
+      graph%joined%start(pivot) = graph%used + 1
+      graph%joined%count(pivot) = graph%found
+      graph%joined%item(graph%used + 1:graph%used + graph%found) = graph%reach(:graph%found)
+      graph%used = graph%used + graph%found
+   end subroutine keep_joined
 
    !> All groups that one is joined with, itself left out; they are marked, and so is it.
-   pure subroutine collect(graph, g, reach, found)
+   pure subroutine collect(graph, g)
       type(quotient_t), intent(inout) :: graph
       integer, intent(in) :: g
-      integer, intent(inout) :: reach(:)
-      integer, intent(out) :: found
-      integer :: i, k
+      integer :: i, k, other
 
       graph%stamp = graph%stamp + 1
       graph%mark(g) = graph%stamp
-      found = 0
-      do i = 1, graph%near(g)%count
-         call meet(graph%near(g)%item(i), graph%stamp, graph%mark, reach, found)
+      graph%found = 0
+      do i = graph%near%start(g), graph%near%start(g) + graph%near%count(g) - 1
+         call meet(graph%near%item(i), graph%stamp, graph%mark, graph%reach, graph%found)
       end do
-      do k = 1, graph%through(g)%count
-         associate (joined => graph%joined(graph%through(g)%item(k))%item)
-            do i = 1, size(joined)
-               if (.not. graph%is_gone(joined(i))) call meet(joined(i), graph%stamp, graph%mark, reach, found)
-            end do
-         end associate
+      do k = graph%through%start(g), graph%through%start(g) + graph%through%count(g) - 1
+         other = graph%through%item(k)
+         do i = graph%joined%start(other), graph%joined%start(other) + graph%joined%count(other) - 1
+            if (graph%is_gone(graph%joined%item(i))) cycle
+            call meet(graph%joined%item(i), graph%stamp, graph%mark, graph%reach, graph%found)
+         end do
       end do
    end subroutine collect
-
-   pure subroutine find_degree(graph, g)
-      type(quotient_t), intent(inout) :: graph
-      integer, intent(in) :: g
-      integer :: reach(size(graph%weight)), found
-
-      call collect(graph, g, reach, found)
-      graph%degree(g) = sum(graph%weight(reach(:found)))
-   end subroutine find_degree
 end module flexact_minimum_degree

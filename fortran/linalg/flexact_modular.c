@@ -120,6 +120,21 @@ int64_t flexact_modular_inverse(int64_t a, int64_t prime)
     return before < 0 ? before + prime : before;
 }
 
+/* factor * number / 2**64 modulo an odd modulus, which both are below, without a division: a
+ * multiple of the modulus that ends in the same 64 bits is taken off (Montgomery, Mathematics of
+ * Computation 44, 1985). */
+void flexact_modular_multiples(int count, int64_t *number, int64_t factor, int64_t modulus)
+{
+    const uint64_t m = (uint64_t)modulus, f = (uint64_t)factor;
+    uint64_t inverse = m;
+    /* Each step doubles the number of bits that are right, three at first. */
+    for (int step = 0; step < 5; step++) inverse *= 2 - m * inverse;
+    for (int j = 0; j < count; j++) {
+        const uint64_t a = (uint64_t)number[j], taken = times_high(f * a * inverse, m), high = times_high(f, a);
+        number[j] = (int64_t)(high < taken ? high + m - taken : high - taken);
+    }
+}
+
 /* row := row + factor * pivot, all below twice the modulus, which factor is below. Products with
  * one factor need no division: its quotient by the modulus is known beforehand (Shoup; see
  * Harvey, Journal of Symbolic Computation 60, 2014). */

@@ -4,7 +4,7 @@ module flexact_modular
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    implicit none
    private
-   public :: random_prime, modular_product, modular_inverse, dense_modular_rank, modular_echelon
+   public :: random_prime, modular_product, modular_inverse, modular_multiples, dense_modular_rank, modular_echelon
 
    interface
       !> A prime from 2**60 to 2**61, as likely as any other; the same for the same seed.
@@ -27,6 +27,15 @@ module flexact_modular
          integer(c_int64_t), value :: a, prime
          integer(c_int64_t) :: inverse
       end function modular_inverse
+
+      !> Multiply numbers with a factor over 2**64 modulo an odd modulus below 2**63; they and
+      !> the factor are below it and not negative.
+      pure subroutine modular_multiples(count, number, factor, modulus) bind(c, name='flexact_modular_multiples')
+         import :: c_int, c_int64_t
+         integer(c_int), value :: count
+         integer(c_int64_t), intent(inout) :: number(*)
+         integer(c_int64_t), value :: factor, modulus
+      end subroutine modular_multiples
 
       !> The rank modulo a prime of a matrix given as (columns, rows); -1 where there is no room.
       pure function dense_modular_rank(rows, columns, entry, modulus) bind(c, name='flexact_dense_modular_rank') result(rank)

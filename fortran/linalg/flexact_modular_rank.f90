@@ -4,7 +4,7 @@
 !> Science 3, 1957), and the rest, once it has filled in, as a dense matrix; theory.md (17).
 module flexact_modular_rank
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_modular, only: modular_inverse, dense_modular_rank
+   use flexact_modular, only: dense_modular_rank
    use flexact_kinds, only: wp
    use flexact_modular_rows, only: matrix_t, make_matrix, unlink, subtract
    use flexact_singletons, only: take_singletons
@@ -92,28 +92,29 @@ contains
    !> Take the shortest row and its rarest column, and that column out of the others.
    pure subroutine eliminate_one(matrix)
       type(matrix_t), intent(inout) :: matrix
-      integer :: pivot, j, at, k
-      integer(int64) :: scale
+      integer :: pivot, j, k, at, entry
 
       do while (matrix%first(matrix%lowest) == 0)
          matrix%lowest = matrix%lowest + 1
       end do
       pivot = matrix%first(matrix%lowest)
       call unlink(matrix, pivot)
-      associate (row => matrix%row(pivot))
-         at = minloc(matrix%in_column(row%column(:row%count)), 1)
-         j = row%column(at)
-         scale = modular_inverse(row%value(at), matrix%modulus)
-         matrix%is_left(pivot) = .false.
-         matrix%rows_left = matrix%rows_left - 1
-         matrix%columns_left = matrix%columns_left - 1
-         matrix%in_column(row%column(:row%count)) = matrix%in_column(row%column(:row%count)) - 1
-         matrix%entries = matrix%entries - row%count
-      end associate
-      do k = 1, matrix%column(j)%count
-         associate (i => matrix%column(j)%row(k))
-            if (matrix%is_left(i)) call subtract(matrix, i, pivot, j, scale)
-         end associate
+      at = matrix%start(pivot)
+      do k = matrix%start(pivot), matrix%start(pivot) + matrix%count(pivot) - 1
+         if (matrix%in_column(matrix%column(k)) < matrix%in_column(matrix%column(at))) at = k
+      end do
+      do k = matrix%start(pivot), matrix%start(pivot) + matrix%count(pivot) - 1
+         matrix%in_column(matrix%column(k)) = matrix%in_column(matrix%column(k)) - 1
+      end do
+      matrix%is_left(pivot) = .false.
+      matrix%rows_left = matrix%rows_left - 1
+      matrix%columns_left = matrix%columns_left - 1
+      matrix%entries = matrix%entries - matrix%count(pivot)
+      j = matrix%column(at)
+      entry = matrix%head(j)
+      do while (entry > 0)
+         if (matrix%is_left(matrix%met(entry))) call subtract(matrix, matrix%met(entry), pivot, at)
+         entry = matrix%next(entry)
       end do
       matrix%in_column(j) = -1
    end subroutine eliminate_one
@@ -136,11 +137,11 @@ contains
       if (info /= 0) return
       number = unpack([(j, j=1, columns)], matrix%in_column > 0, 0)
       k = 0
-      do i = 1, size(matrix%row)
+      do i = 1, size(matrix%start)
          if (.not. matrix%is_left(i)) cycle
          k = k + 1
-         associate (row => matrix%row(i))
-            dense(number(row%column(:row%count)), k) = row%value(:row%count)
+         associate (first => matrix%start(i), last => matrix%start(i) + matrix%count(i) - 1)
+            dense(number(matrix%column(first:last)), k) = matrix%value(first:last)
          end associate
       end do
       rank = dense_modular_rank(rows, columns, dense, matrix%modulus)

@@ -155,7 +155,7 @@ contains
       type(sparse_t), intent(in) :: matrix
       integer, intent(in) :: rows, columns(:), new_row(:)
       type(sparse_t), intent(out) :: sub
-      integer :: j, first, last
+      integer :: j, entry, used
 
       sub%rows = rows
       sub%columns = size(columns)
@@ -165,11 +165,13 @@ contains
          sub%start(j + 1) = sub%start(j) + matrix%start(columns(j) + 1) - matrix%start(columns(j))
       end do
       allocate (sub%place(sub%start(sub%columns + 1) - 1), sub%value(sub%start(sub%columns + 1) - 1))
+      used = 0
       do j = 1, sub%columns
-         first = matrix%start(columns(j))
-         last = matrix%start(columns(j) + 1) - 1
-         sub%place(sub%start(j):sub%start(j + 1) - 1) = new_row(matrix%place(first:last))
-         sub%value(sub%start(j):sub%start(j + 1) - 1) = matrix%value(first:last)
+         do entry = matrix%start(columns(j)), matrix%start(columns(j) + 1) - 1
+            used = used + 1
+            sub%place(used) = new_row(matrix%place(entry))
+            sub%value(used) = matrix%value(entry)
+         end do
       end do
    end subroutine submatrix
 

@@ -18,6 +18,8 @@ module flexact_supernodal_solve
    !> is quicker than plain loops.
    integer, parameter :: together = 16
    integer, parameter :: worth_blas = 2000
+   !> Right-hand sides that plain loops take at a time.
+   integer, parameter :: lanes = 4
 
    !> The rows of one supernode (rows, k); and where the rows above a task stand among those that
    !> it leaves something for.
@@ -33,7 +35,7 @@ module flexact_supernodal_solve
 
    type :: job_t
       type(cholesky_t), pointer :: factor => null()
-      !> Right-hand sides (n, k), and the same side by side (k, n), in the order of elimination.
+      !> Right-hand sides (n, k), and the same side by side (padded(k), n), in the order of elimination.
       real(wp), pointer, contiguous :: x(:, :) => null()
       integer :: k = together
       real(wp), allocatable :: all(:)
@@ -79,15 +81,16 @@ contains
       if (allocated(job%all)) deallocate (job%all, job%worker, job%left)
       job%k = k
       associate (factor => job%factor)
-         allocate (job%all(int(factor%n, long)*k), job%worker(factor%threads), job%left(factor%tasks%count), stat=info)
+         allocate (job%all(int(factor%n, long)*padded(k)), job%worker(factor%threads), job%left(factor%tasks%count), stat=info)
          do i = 1, factor%threads
             if (info == 0) allocate (job%worker(i)%some(int(factor%widest, long)*together), &
                                      job%worker(i)%place(factor%n), stat=info)
          end do
          do t = 1, factor%tasks%count
             root = factor%tasks%root(t)
-            if (info == 0) allocate (job%left(t)%value(k, rows_in(factor%pattern, root) - columns_in(factor%pattern, root)), &
-                                     stat=info)
+            associate (left => rows_in(factor%pattern, root) - columns_in(factor%pattern, root))
+               if (info == 0) allocate (job%left(t)%value(padded(k), left), stat=info)
+            end associate
          end do
       end associate
    end subroutine make_room
@@ -172,7 +175,7 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: root, k
       real(wp), intent(in) :: left(:, :)
-      real(wp), intent(inout) :: all(k, *)
+      real(wp), intent(inout) :: all(padded(k), *)
       integer :: i
 
       do i = 1, size(left, 2)
@@ -182,16 +185,23 @@ contains
       end do
    end subroutine add_left
 
+   !> So many with those that fill up the lanes, which are zero.
+   pure recursive integer function padded(k)
+      integer, intent(in) :: k
+      padded = lanes*((k + lanes - 1)/lanes)
+   end function padded
+
    !> The right-hand sides of supernodes from to root, side by side.
    pure recursive subroutine take(factor, from, root, x, all)
       type(cholesky_t), intent(in) :: factor
       integer, intent(in) :: from, root
       real(wp), intent(in) :: x(:, :)
-      real(wp), intent(inout) :: all(size(x, 2), *)
+      real(wp), intent(inout) :: all(padded(size(x, 2)), *)
       integer :: i
 
       do i = factor%pattern%first(from), factor%pattern%first(root + 1) - 1
-         all(:, i) = x(factor%pattern%order(i), :)
+         all(:size(x, 2), i) = x(factor%pattern%order(i), :)
+         all(size(x, 2) + 1:, i) = 0.0_wp
       end do
    end subroutine take
 
@@ -200,11 +210,11 @@ contains
       type(cholesky_t), intent(in) :: factor
       integer, intent(in) :: from, root
       real(wp), intent(inout) :: x(:, :)
-      real(wp), intent(in) :: all(size(x, 2), *)
+      real(wp), intent(in) :: all(padded(size(x, 2)), *)
       integer :: i
 
       do i = factor%pattern%first(from), factor%pattern%first(root + 1) - 1
-         x(factor%pattern%order(i), :) = all(:, i)
+         x(factor%pattern%order(i), :) = all(:size(x, 2), i)
       end do
    end subroutine give
 
@@ -215,16 +225,16 @@ contains
       integer, intent(in) :: s, last, k, threads, place(:)
       real(wp), intent(in), target, contiguous :: value(:)
       real(wp), intent(inout), target, contiguous :: some(:)
-      real(wp), intent(inout) :: all(k, *), left(k, *)
+      real(wp), intent(inout) :: all(padded(k), *), left(padded(k), *)
 
       associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
-         call take_some(pattern, s, rows, columns, k, all, some)
          if (is_worth_blas(rows, columns, k)) then
+            call take_some(pattern, s, rows, columns, k, all, some)
             call divide(panel_t(rows, columns, k, threads, .false., panel_of(pattern, s, value), some))
+            call give_some(pattern, s, last, rows, columns, k, place, some, all, left)
          else
-            call divide_by_loops(rows, columns, k, panel_of(pattern, s, value), some)
+            call forward_by_loops(pattern, s, last, rows, columns, k, place, panel_of(pattern, s, value), some, all, left)
          end if
-         call give_some(pattern, s, last, rows, columns, k, place, some, all, left)
       end associate
    end subroutine forward
 
@@ -239,12 +249,12 @@ contains
    pure recursive subroutine take_some(pattern, s, rows, columns, k, all, some)
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, columns, k
-      real(wp), intent(in) :: all(k, *)
+      real(wp), intent(in) :: all(padded(k), *)
       real(wp), intent(inout) :: some(rows, k)
       integer :: i
 
       do i = 1, columns
-         some(i, :) = all(:, pattern%first(s) + i - 1)
+         some(i, :) = all(:k, pattern%first(s) + i - 1)
       end do
       some(columns + 1:, :) = 0.0_wp
    end subroutine take_some
@@ -253,35 +263,58 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, last, rows, columns, k, place(:)
       real(wp), intent(in) :: some(rows, k)
-      real(wp), intent(inout) :: all(k, *), left(k, *)
+      real(wp), intent(inout) :: all(padded(k), *), left(padded(k), *)
       integer :: i, row
 
       do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(i, :)
+         all(:k, pattern%first(s) + i - 1) = some(i, :)
       end do
       do i = columns + 1, rows
          row = pattern%row(pattern%rows_from(s) + i - 1)
          if (row <= last) then
-            all(:, row) = all(:, row) + some(i, :)
+            all(:k, row) = all(:k, row) + some(i, :)
          else
-            left(:, place(row)) = left(:, place(row)) + some(i, :)
+            left(:k, place(row)) = left(:k, place(row)) + some(i, :)
          end if
       end do
    end subroutine give_some
 
-   pure recursive subroutine divide_by_loops(rows, columns, k, panel, some)
-      integer, intent(in) :: rows, columns, k
+   !> A few right-hand sides at a time, so that as many sums are made side by side.
+   pure recursive subroutine forward_by_loops(pattern, s, last, rows, columns, k, place, panel, some, all, left)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, last, rows, columns, k, place(:)
       real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(rows, k)
-      integer :: j, r
+      real(wp), intent(inout) :: some(lanes, rows), all(padded(k), *), left(padded(k), *)
+      real(wp) :: x(lanes)
+      integer :: i, j, r, row
 
-      do j = 1, columns
-         do r = 1, k
-            some(j, r) = some(j, r)/panel(j, j)
-            some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
+      do r = 1, k, lanes
+         do i = 1, columns
+            some(:, i) = all(r:r + lanes - 1, pattern%first(s) + i - 1)
+         end do
+         do i = columns + 1, rows
+            some(:, i) = 0.0_wp
+         end do
+         do j = 1, columns
+            x = some(:, j)/panel(j, j)
+            some(:, j) = x
+            do i = j + 1, rows
+               some(:, i) = some(:, i) - x*panel(i, j)
+            end do
+         end do
+         do i = 1, columns
+            all(r:r + lanes - 1, pattern%first(s) + i - 1) = some(:, i)
+         end do
+         do i = columns + 1, rows
+            row = pattern%row(pattern%rows_from(s) + i - 1)
+            if (row <= last) then
+               all(r:r + lanes - 1, row) = all(r:r + lanes - 1, row) + some(:, i)
+            else
+               left(r:r + lanes - 1, place(row)) = left(r:r + lanes - 1, place(row)) + some(:, i)
+            end if
          end do
       end do
-   end subroutine divide_by_loops
+   end subroutine forward_by_loops
 
    !> Take the part of the rows below from the places of supernode s, and divide by the transpose.
    recursive subroutine backward(pattern, s, k, threads, value, some, all)
@@ -289,7 +322,7 @@ contains
       integer, intent(in) :: s, k, threads
       real(wp), intent(in), target, contiguous :: value(:)
       real(wp), intent(inout), target, contiguous :: some(:)
-      real(wp), intent(inout) :: all(k, *)
+      real(wp), intent(inout) :: all(padded(k), *)
       integer :: filled
 
       associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
@@ -308,12 +341,12 @@ contains
    pure recursive subroutine take_all(pattern, s, rows, k, filled, all, some)
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, k, filled
-      real(wp), intent(in) :: all(k, *)
+      real(wp), intent(in) :: all(padded(k), *)
       real(wp), intent(inout) :: some(filled, rows)
       integer :: i
 
       do i = 1, rows
-         some(:k, i) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
+         some(:k, i) = all(:k, pattern%row(pattern%rows_from(s) + i - 1))
          some(k + 1:, i) = 0.0_wp
       end do
    end subroutine take_all
@@ -322,11 +355,11 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, columns, k, filled
       real(wp), intent(in) :: some(filled, *)
-      real(wp), intent(inout) :: all(k, *)
+      real(wp), intent(inout) :: all(padded(k), *)
       integer :: i
 
       do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(:k, i)
+         all(:k, pattern%first(s) + i - 1) = some(:k, i)
       end do
    end subroutine give_first
 
@@ -334,19 +367,24 @@ contains
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, columns, k
       real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(rows, k), all(k, *)
+      real(wp), intent(inout) :: some(lanes, rows), all(padded(k), *)
+      real(wp) :: x(lanes)
       integer :: i, j, r
 
-      do i = 1, rows
-         some(i, :) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
-      end do
-      do j = columns, 1, -1
-         do r = 1, k
-            some(j, r) = (some(j, r) - dot_product(panel(j + 1:, j), some(j + 1:, r)))/panel(j, j)
+      do r = 1, k, lanes
+         do i = 1, rows
+            some(:, i) = all(r:r + lanes - 1, pattern%row(pattern%rows_from(s) + i - 1))
          end do
-      end do
-      do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(i, :)
+         do j = columns, 1, -1
+            x = 0.0_wp
+            do i = j + 1, rows
+               x = x + some(:, i)*panel(i, j)
+            end do
+            some(:, j) = (some(:, j) - x)/panel(j, j)
+         end do
+         do i = 1, columns
+            all(r:r + lanes - 1, pattern%first(s) + i - 1) = some(:, i)
+         end do
       end do
    end subroutine backward_by_loops
 

@@ -16,30 +16,33 @@ contains
       integer, intent(in) :: group(:)
       real(wp), intent(in) :: least
       logical, intent(out) :: is_pinned(:)
-      integer :: first, last
+      integer :: starts(size(group) + 1), groups, most, i
+      real(wp), allocatable :: block(:), column(:)
 
-      is_pinned = .false.
-      first = 1
-      do while (first <= size(group))
-         last = first
-         do while (last < size(group))
-            if (group(last + 1) /= group(first)) exit
-            last = last + 1
-         end do
-         call pin_group(by_column, first, last, least, is_pinned)
-         first = last + 1
+      groups = 0
+      do i = 1, size(group)
+         if (i > 1) then
+            if (group(i) == group(i - 1)) cycle
+         end if
+         groups = groups + 1
+         starts(groups) = i
+      end do
+      starts(groups + 1) = size(group) + 1
+      most = max(0, maxval([(starts(i + 1) - starts(i), i=1, groups)]))
+      allocate (block(most**2), column(most))
+      do i = 1, groups
+         call pin_group(by_column, starts(i), starts(i + 1) - 1, least, block, column, is_pinned(starts(i):starts(i + 1) - 1))
       end do
    end subroutine pin_groups
 
    !> The block of A'A of columns first to last, of which there are few, is eliminated,
    !> the largest pivot first: what is not pinned holds the others by as much as can be.
-   pure subroutine pin_group(by_column, first, last, least, is_pinned)
+   pure subroutine pin_group(by_column, first, last, least, block, column, is_left)
       type(sparse_t), intent(in) :: by_column
       integer, intent(in) :: first, last
       real(wp), intent(in) :: least
-      logical, intent(inout) :: is_pinned(:)
-      real(wp) :: block(first:last, first:last), column(first:last)
-      logical :: is_left(first:last)
+      real(wp), intent(inout) :: block(first:last, first:last), column(first:last)
+      logical, intent(out) :: is_left(first:last)
       integer :: i, j, step
 
       do j = first, last
@@ -50,7 +53,12 @@ contains
       end do
       is_left = .true.
       do step = first, last
-         j = first - 1 + maxloc([(block(i, i), i=first, last)], 1, is_left)
+         j = 0
+         do i = first, last
+            if (.not. is_left(i)) cycle
+            if (j == 0) j = i
+            if (block(i, i) > block(j, j)) j = i
+         end do
          if (block(j, j) < least) exit
          is_left(j) = .false.
          column = block(:, j)
@@ -58,7 +66,6 @@ contains
             block(:, i) = block(:, i) - column*(column(i)/column(j))
          end do
       end do
-      is_pinned(first:last) = is_left
    end subroutine pin_group
 
    !> The product of two columns.

@@ -96,7 +96,7 @@ def test_memory_that_runs_out_on_the_way(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_what_is_not_worth_a_look_may_always_be_used(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "available", lambda: 0.0)
-    assert memory.allowance() == 2**26
+    assert memory.allowance() == 2**27
     assert analyse(ring(3)).rank == 9
 
 

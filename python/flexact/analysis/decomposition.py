@@ -448,8 +448,7 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
     """
     data.require_sound()
     # Below a bound of what it may need, nobody has to look how much there is.
-    most = data.packed.nodes.size + data.packed.elements.size
-    room = memory.allowance(memory.dense_needed(most, most))
+    room = memory.allowance(memory.dense_needed(data.count.rows, data.count.columns))
 
     is_beyond = asked.most_columns is not None and data.count.columns > asked.most_columns
     method = "auto" if is_beyond else asked.method

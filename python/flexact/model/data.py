@@ -259,8 +259,8 @@ _METRES = {"m": "metres", "mm": "mm"}
 def slips_in(data: ModelData) -> Iterator[Diagnostic]:
     """Warnings about a sound model, one of each kind."""
     # Most models are small, and nothing of their size is made for them.
-    if float(np.ptp(data.arrays.node_value[:3], axis=1).max(initial=0.0)) > _LONGEST:
-        yield from _long(data, _lengths(data))
+    if max(map(np.ptp, data.arrays.node_value[:3])) > _LONGEST:
+        yield from _long(data)
     if data.loads is not None:
         yield from _falls(data, float(np.linalg.norm(data.loads.gravity)))
     if data.properties is None:
@@ -359,13 +359,18 @@ def _lengths(data: ModelData) -> FloatArray:
     return np.where(there, made, 0.0)
 
 
-def _long(data: ModelData, length: FloatArray) -> Iterator[Diagnostic]:
+def _long(data: ModelData) -> Iterator[Diagnostic]:
     """A sheet or wire that is longer than any; of a divided one all of it counts."""
+    # Bars are many, and neither.
+    if not is_member(data.arrays.element_kind, Member.BEAM).any():
+        return
+    length = _lengths(data)
     whole = length.copy()
     for chain in data.chains:
         whole[list(chain.elements)] = length[list(chain.elements)].sum()
-    form, _ = forms_of(data.arrays)
-    found = np.isin(form, (Form.SHEET, Form.WIRE)) & (whole > _LONGEST)
+    found = whole > _LONGEST
+    if found.any():
+        found &= np.isin(forms_of(data.arrays)[0], (Form.SHEET, Form.WIRE))
     if found.any():
         most = float(whole[found].max())
         plain = f"give all positions in metres: {most:.4g} mm are {most / 1e3:.4g} m"

@@ -22,7 +22,7 @@ if sys.platform != "win32":
     import resource
 
 #: Needs below this are not compared with what the machine has [bytes].
-_SMALL = 2**26
+_SMALL = 2**27
 #: Of an address space that is limited, what is left for others: stacks, and gaps [bytes].
 _ASIDE = 2**23
 _ROOT = Path("/")

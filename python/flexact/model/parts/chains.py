@@ -123,8 +123,13 @@ def chains_of(
     not belong together. `frames` gives those of the elements, (elements, 3, 3).
     """
     next_of: dict[tuple[int, int], tuple[int, int]] = {}
-    beams, ends = _joined(arrays, _is_bendable(arrays))
+    beams, ends = _joined(arrays, _is_beam(arrays))
+    if not len(beams):
+        return ()
     likely = _nearly_in_line(arrays, beams, ends)
+    if not likely.any():
+        return ()
+    likely &= _is_bendable(arrays)[beams].all(axis=1)
     for one, other in _as_pairs(beams[likely], ends[likely]):
         if _go_on(arrays, names, frames, one, other):
             next_of[one], next_of[other] = other, one

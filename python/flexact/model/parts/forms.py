@@ -41,13 +41,13 @@ class Form(IntEnum):
 
 def is_member(kind: IntArray, *members: Member) -> np.ndarray:
     """(elements,) whether elements of these kinds are one of some members."""
-    return np.isin(member_table()[kind], members)
+    return np.isin(member_table(), members)[kind]
 
 
 def _held_of(arrays: ModelArrays, roles: tuple[Role, ...]) -> np.ndarray:
     """(elements,) how many of the deformations of some roles are held."""
     held = arrays.deformation_class.T == Class.FIXED
-    return np.asarray(np.sum(held & np.isin(role_table()[arrays.element_kind], roles), axis=1))
+    return np.asarray(np.sum(held & np.isin(role_table(), roles)[arrays.element_kind], axis=1))
 
 
 def all_held(arrays: ModelArrays) -> np.ndarray:
@@ -69,7 +69,7 @@ def forms_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
     """
     kind = arrays.element_kind
     in_xz, in_xy = bending_held(arrays)
-    planar = np.any(np.isin(role_table()[kind], PLANAR), axis=1)
+    planar = np.any(np.isin(role_table(), PLANAR), axis=1)[kind]
     spatial = is_member(kind, Member.BEAM) & ~planar
     form = np.zeros(kind.size, np.int64)
     form[spatial] = Form.WIRE
