@@ -33,7 +33,7 @@ from ..deck.rendering import DeckError, ModelError
 from ..model.data import ModelData
 from ..model.model import Model
 from ..model.parts.chains import perhaps_condensed
-from ..model.parts.condensing import condensed
+from ..model.parts.condensing import Condensed, condensed
 from ..model.variation import classes_held, varied
 from ..util import machine as memory
 from ..util.machine import processors
@@ -271,15 +271,21 @@ def swept(
         for c in columns_of(want)
     }
     made["error"] = np.full(count, "", object)
-    # Where only positions differ, what is held does not.
-    common = _perhaps_condensed(every.taken(slice(0, 1))) if every.held is None else None
+    whole = None
+    if (
+        every.positions is not None
+        and every.held is None
+        and _perhaps_condensed(every.taken(slice(0, 1))).all()
+    ):
+        # Where only positions differ, what is held does not.
+        whole = condensed(every.data)
     threads = workers or processors()
     step = max(1, min(_MOST_AT_ONCE, -(-count // (4 * threads))))
     room = memory.allowance() / threads
 
     def run(first: int) -> int:
         some = slice(first, min(first + step, count))
-        _fill(every.taken(some), want, room, common, {k: v[some] for k, v in made.items()})
+        _fill(every.taken(some), want, room, whole, {k: v[some] for k, v in made.items()})
         return some.stop - first
 
     done = 0
@@ -303,13 +309,27 @@ def _perhaps_condensed(some: Positions) -> BoolArray:
     return perhaps_condensed(some.data.arrays, some.data.element_names, some.classes())
 
 
-def _fill(some: Positions, want: str, room: float, common: BoolArray | None, part: Columns) -> None:
-    """Put what is known of some variants into their part of the columns; room: bytes."""
-    condensed = _perhaps_condensed(some) if common is None else common
+def _fill(some: Positions, want: str, room: float, whole: Condensed | None, part: Columns) -> None:
+    """Put what is known of some variants into their part of the columns.
+
+    Args:
+        some: The variants.
+        want: One of `WANTS`.
+        room: Bytes that may be used.
+        whole: Where rows of beams may count as one beam each, and only positions differ: the model
+            of which they are variants, with what is analysed in its place.
+        part: The columns.
+    """
+    analysed, is_so = some, np.ones(1, np.bool_)
+    if whole is not None and some.positions is not None:
+        analysed = Positions(whole.data, some.positions[:, whole.nodes], None)
+        is_so = whole.holds_at(some.positions)
+    elif some.held is not None:
+        is_so = ~_perhaps_condensed(some)
     decided = np.zeros(some.count, np.bool_)
-    if not condensed.all():
-        known, by_core = _decided_by_core(some, want != "verdict", room)
-        decided = by_core & ~condensed
+    if is_so.any():
+        known, by_core = _decided_by_core(analysed, want != "verdict", room)
+        decided = by_core & is_so
         for name, array in known.items():
             part[name][decided] = array[decided]
     for i in np.flatnonzero(~decided).tolist():
