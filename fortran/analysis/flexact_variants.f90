@@ -1,24 +1,27 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One of many variants of a model: its rank, whether there is a doubt in it, and the
-!> values that tell how near another rank is, each by the cheapest route that can confirm it.
+!> Many variants of a model: their ranks, whether there is a doubt in them, and the values that
+!> tell how near another rank is, each by the cheapest route that can confirm it.
 module flexact_variants
    use flexact_determinacy, only: analyse
    use flexact_error, only: error_t
    use flexact_full_rank, only: make_dense_gram, is_above
    use flexact_geometry, only: is_sound
+   use flexact_gram_lanes, only: lanes, gram_pattern_t, make_gram_pattern, make_gram, find_above, traces_of
    use flexact_kinds, only: wp
    use flexact_lowest_pairs, only: lowest_pairs, find_ends
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t
    use flexact_problem, only: problem_t
+   use flexact_problem_lanes, only: layout_t, make_layout, problem_lanes_t, new_problem_lanes, take_variant, scale_lanes, &
+                                    scaling_of, matrix_of, plain_matrix_of
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_scaling, only: scaling_t
    use flexact_sensitivity, only: sensitivity_t, find_sensitivities
-   use flexact_small_problem, only: small_problem_t, make_small_problem, plain_matrix
+   use flexact_slots, only: axes, has_axis, is_position
    use flexact_zero_margins, only: zero_limits_t, find_zero_changes
    implicit none
    private
-   public :: analyse_variant, variant_t, question_t
+   public :: analyse_variants, variant_t, question_t
 
    !> Up to these sides a matrix is looked at as a whole.
    integer, parameter :: small_side = 200, small_longer_side = 600
@@ -56,69 +59,177 @@ module flexact_variants
 
 contains
 
-   subroutine analyse_variant(model, partition, question, variant)
-      type(model_t), intent(in) :: model
+   !> Variants that differ in places alone, (3, nodes, variants), or in nothing, (3, nodes, 1).
+   subroutine analyse_variants(model, partition, place, question, variant)
+      type(model_t), intent(inout) :: model
       type(partition_t), intent(in) :: partition
+      real(wp), intent(in) :: place(:, :, :)
       type(question_t), intent(in) :: question
-      type(variant_t), intent(out) :: variant
-      type(small_problem_t) :: problem
-      logical :: is_small, is_full
+      type(variant_t), intent(out) :: variant(:)
+      type(layout_t) :: layout
+      type(gram_pattern_t) :: pattern
+      type(problem_lanes_t) :: problem
+      logical :: is_small
+      integer :: first, width
 
-      if (.not. is_sound(model)) return
       associate (m => partition%count%rows, n => partition%count%columns)
          is_small = min(m, n) > 0 .and. min(m, n) <= small_side .and. max(m, n) <= small_longer_side
       end associate
-      is_full = .false.
-      if (is_small) call make_small_problem(model, partition, problem, is_small)
-      if (is_small) call look_for_full_rank(model, problem, question, is_full, variant)
-      if (.not. is_full) call analyse_completely(model, question, variant)
-   end subroutine analyse_variant
+      ! The pattern of the factor takes as long as some variants.
+      width = merge(lanes, 1, is_small .and. size(variant) >= lanes)
+      if (is_small) then
+         call make_layout(model, partition, layout)
+         if (width > 1) call make_gram_pattern(layout%rows, layout%columns, layout%row, layout%column, pattern)
+         call new_problem_lanes(layout, width, problem)
+      end if
+      do first = 1, size(variant), width
+         associate (some => variant(first:min(first + width - 1, size(variant))))
+            if (is_small) then
+               call analyse_block(model, partition, layout, pattern, place, first, question, problem, some)
+            else
+               call place_nodes(place, first, model)
+               if (is_sound(model)) call analyse_completely(model, question, some(1))
+            end if
+         end associate
+      end do
+   end subroutine analyse_variants
 
-   !> is_full: whether all singular values are clearly not zero, which decides the rank.
-   subroutine look_for_full_rank(model, problem, question, is_full, variant)
-      type(model_t), intent(in) :: model
-      type(small_problem_t), intent(in) :: problem
+   !> What stands for other nodes than positions, and for z in the plane, is passed over.
+   pure subroutine place_nodes(place, variant, model)
+      real(wp), intent(in) :: place(:, :, :)
+      integer, intent(in) :: variant
+      type(model_t), intent(inout) :: model
+      integer :: node, axis, i
+
+      i = min(variant, size(place, 3))
+      do node = 1, model%nodes
+         if (.not. is_position(model%node_kind(node))) cycle
+         do axis = 1, axes
+            if (has_axis(model%node_kind(node), axis)) model%node_value(axis, node) = place(axis, node, i)
+         end do
+      end do
+   end subroutine place_nodes
+
+   subroutine analyse_block(model, partition, layout, pattern, place, first, question, problem, variant)
+      type(model_t), intent(inout) :: model
+      type(partition_t), intent(in) :: partition
+      type(layout_t), intent(in) :: layout
+      type(gram_pattern_t), intent(in) :: pattern
+      real(wp), intent(in) :: place(:, :, :)
+      integer, intent(in) :: first
       type(question_t), intent(in) :: question
-      logical, intent(out) :: is_full
-      type(variant_t), intent(inout) :: variant
-      real(wp) :: gram(minval(shape(problem%matrix)), minval(shape(problem%matrix))), told, reach
-      logical :: is_clear
+      type(problem_lanes_t), intent(inout) :: problem
+      type(variant_t), intent(inout) :: variant(:)
+      logical, dimension(size(problem%is_made)) :: is_there, is_full, is_clear
+      integer :: i
 
-      associate (scaling => problem%scaling, side => maxval(shape(problem%matrix)))
-         ! The norm by the sum of squares is no less than the largest value.
-         told = max(question%near*(scaling%error_of_bits + epsilon(1.0_wp)*side*norm2(problem%matrix)), &
-                    scaling%error_of_digits)
-      end associate
-      reach = reach_of(problem%scaling, question)
-      call make_dense_gram(problem%matrix, gram)
-      call is_above(gram, sum(shape(problem%matrix)), max(told, reach), is_clear)
+      is_there = .false.
+      problem%is_made = .false.
+      do i = 1, size(variant)
+         call place_nodes(place, first + i - 1, model)
+         is_there(i) = is_sound(model)
+         if (is_there(i)) call take_variant(model, partition, layout, i, problem)
+      end do
+      call scale_lanes(layout, problem)
+      if (size(is_full) == 1) then
+         call look_at_one(layout, problem, question, is_full(1), is_clear(1))
+      else
+         call look_at_lanes(layout, pattern, problem, question, is_full, is_clear)
+      end if
+      do i = 1, size(variant)
+         if (.not. is_there(i)) cycle
+         if (size(variant) > 1 .and. .not. (is_clear(i) .and. .not. question%with_values)) &
+            call place_nodes(place, first + i - 1, model)
+         if (is_full(i)) then
+            variant(i)%rank = min(layout%rows, layout%columns)
+            variant(i)%is_decided = is_clear(i)
+            variant(i)%characteristic_length = problem%scaling(i)%characteristic_length
+            if (question%with_values .or. .not. is_clear(i)) call find_values(model, layout, problem, i, question, variant(i))
+         else
+            call analyse_completely(model, question, variant(i))
+         end if
+      end do
+   end subroutine analyse_block
+
+   !> is_full: whether all singular values are clearly not zero, which decides the rank; is_clear:
+   !> whether digits can make none of them, either.
+   subroutine look_at_one(layout, problem, question, is_full, is_clear)
+      type(layout_t), intent(in) :: layout
+      type(problem_lanes_t), intent(in) :: problem
+      type(question_t), intent(in) :: question
+      logical, intent(out) :: is_full, is_clear
+      real(wp) :: matrix(layout%rows, layout%columns), gram(min(layout%rows, layout%columns), min(layout%rows, layout%columns))
+      real(wp) :: told, reach
+
+      is_full = .false.
+      is_clear = .false.
+      if (.not. problem%is_made(1)) return
+      matrix = matrix_of(layout, problem, 1)
+      call make_dense_gram(matrix, gram)
+      told = told_of(problem%scaling(1), question, maxval(shape(matrix)), norm2(matrix))
+      reach = reach_of(problem%scaling(1), question)
+      call is_above(gram, sum(shape(matrix)), max(told, reach), is_clear)
       is_full = is_clear
-      if (.not. is_full .and. reach > told) call is_above(gram, sum(shape(problem%matrix)), told, is_full)
-      if (.not. is_full) return
-      variant%rank = size(gram, 1)
-      variant%is_decided = is_clear
-      variant%characteristic_length = problem%scaling%characteristic_length
-      if (question%with_values .or. .not. is_clear) call find_values(model, problem, gram, question, reach, variant)
-   end subroutine look_for_full_rank
+      if (.not. is_full .and. reach > told) call is_above(gram, sum(shape(matrix)), told, is_full)
+   end subroutine look_at_one
+
+   !> The same of all lanes at once.
+   subroutine look_at_lanes(layout, pattern, problem, question, is_full, is_clear)
+      type(layout_t), intent(in) :: layout
+      type(gram_pattern_t), intent(in) :: pattern
+      type(problem_lanes_t), intent(in) :: problem
+      type(question_t), intent(in) :: question
+      logical, intent(out) :: is_full(lanes), is_clear(lanes)
+      real(wp) :: gram(lanes, size(pattern%place, 2)), norm(lanes), told(lanes), reach(lanes)
+      integer :: i
+
+      call make_gram(pattern, problem%value, gram)
+      norm = sqrt(traces_of(pattern, gram))
+      told = [(told_of(problem%scaling(i), question, max(layout%rows, layout%columns), norm(i)), i=1, lanes)]
+      reach = [(reach_of(problem%scaling(i), question), i=1, lanes)]
+      call find_above(pattern, gram, max(told, reach), is_clear)
+      is_clear = is_clear .and. problem%is_made
+      is_full = is_clear
+      if (.not. any(problem%is_made .and. .not. is_full .and. reach > told)) return
+      call find_above(pattern, gram, told, is_full)
+      is_full = is_clear .or. (is_full .and. problem%is_made)
+   end subroutine look_at_lanes
+
+   !> Below this a value may be near rounding, or a digit may have made it. norm: by the sum of
+   !> squares, no less than the largest value.
+   pure real(wp) function told_of(scaling, question, side, norm) result(told)
+      type(scaling_t), intent(in) :: scaling
+      type(question_t), intent(in) :: question
+      integer, intent(in) :: side
+      real(wp), intent(in) :: norm
+
+      told = max(question%near*(scaling%error_of_bits + epsilon(1.0_wp)*side*norm), scaling%error_of_digits)
+   end function told_of
 
    !> The smallest values with what changes them, and whether digits may make one zero.
-   subroutine find_values(model, problem, gram, question, reach, variant)
+   subroutine find_values(model, layout, problem, lane, question, variant)
       type(model_t), intent(in) :: model
-      type(small_problem_t), intent(in) :: problem
-      real(wp), intent(in) :: gram(:, :), reach
+      type(layout_t), intent(in) :: layout
+      type(problem_lanes_t), intent(in) :: problem
+      integer, intent(in) :: lane
       type(question_t), intent(in) :: question
       type(variant_t), intent(inout) :: variant
-      real(wp) :: left(size(problem%matrix, 1), most_pairs), right(size(problem%matrix, 2), most_pairs)
+      real(wp) :: matrix(layout%rows, layout%columns), gram(min(layout%rows, layout%columns), min(layout%rows, layout%columns))
+      real(wp) :: left(layout%rows, most_pairs), right(layout%columns, most_pairs)
+      type(scaling_t) :: scaling
       type(error_t), allocatable :: error
 
-      call lowest_pairs(problem%matrix, gram, variant%value, left, right, variant%pairs, error)
+      matrix = matrix_of(layout, problem, lane)
+      call make_dense_gram(matrix, gram)
+      call lowest_pairs(matrix, gram, variant%value, left, right, variant%pairs, error)
       if (.not. allocated(error) .and. question%with_values) &
-         call find_ends(plain_matrix(problem), variant%smallest, variant%largest, error)
+         call find_ends(plain_matrix_of(layout, problem, lane), variant%smallest, variant%largest, error)
       if (allocated(error)) then
          variant%is_decided = .false.
          return
       end if
-      call judge(model, problem%scaling, left(:, :variant%pairs), right(:, :variant%pairs), question, reach, variant)
+      scaling = scaling_of(layout, problem, lane)
+      call judge(model, scaling, left(:, :variant%pairs), right(:, :variant%pairs), question, reach_of(scaling, question), variant)
    end subroutine find_values
 
    !> Values up to here may be made by digits that are missing.
