@@ -11,7 +11,7 @@ module flexact_problem_lanes
    implicit none
    private
    public :: layout_t, make_layout, problem_lanes_t, new_problem_lanes, take_variant, scale_lanes
-   public :: scaling_of, matrix_of, plain_matrix_of
+   public :: scaling_of, matrix_of
 
    !> What variants that differ in places alone have in common.
    type :: layout_t
@@ -170,25 +170,8 @@ contains
       scaling%column = merge(1/scaling%characteristic_length, 1.0_wp, layout%is_turn)
    end function scaling_of
 
-   !> The scaled D(c) of a lane as a dense matrix.
-   pure function matrix_of(layout, problem, lane) result(matrix)
-      type(layout_t), intent(in) :: layout
-      type(problem_lanes_t), intent(in) :: problem
-      integer, intent(in) :: lane
-      real(wp) :: matrix(layout%rows, layout%columns)
-      matrix = dense(layout, problem%value, lane)
-   end function matrix_of
-
-   !> D(c) itself.
-   pure function plain_matrix_of(layout, problem, lane) result(matrix)
-      type(layout_t), intent(in) :: layout
-      type(problem_lanes_t), intent(in) :: problem
-      integer, intent(in) :: lane
-      real(wp) :: matrix(layout%rows, layout%columns)
-      matrix = dense(layout, problem%plain, lane)
-   end function plain_matrix_of
-
-   pure function dense(layout, entries, lane) result(matrix)
+   !> D(c) of a lane as a dense matrix, of its plain entries or of the scaled ones.
+   pure function matrix_of(layout, entries, lane) result(matrix)
       type(layout_t), intent(in) :: layout
       real(wp), intent(in) :: entries(:, :)
       integer, intent(in) :: lane
@@ -199,5 +182,5 @@ contains
       do entry = 1, size(layout%row)
          if (layout%column(entry) > 0) matrix(layout%row(entry), layout%column(entry)) = entries(lane, entry)
       end do
-   end function dense
+   end function matrix_of
 end module flexact_problem_lanes

@@ -5,7 +5,6 @@ module flexact_variant_exchange
    use flexact_exchange, only: unpack_model
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
-   use flexact_partition, only: partition_t, make_partition
    use flexact_variants, only: analyse_variants, question_t, variant_t
    use flexact_zero_margins, only: zero_limits_t
    implicit none
@@ -28,10 +27,9 @@ contains
       real(wp), intent(out) :: facts(:, :), pair_value(:, :), by_move(:, :), by_turn(:, :)
       type(model_t) :: model
       type(question_t) :: question
-      type(partition_t) :: partition
       type(variant_t) :: variant(size(facts, 2))
       type(blas_work_t) :: work
-      integer :: i, k, last
+      integer :: i
 
       facts = 0
       pair_value = 0
@@ -47,30 +45,21 @@ contains
       question%zeros = zero_limits_t(zero_counts(1), zero_counts(2), zero_limits(1), zero_limits(2))
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       call unpack_model(nodes, places, elements, vectors, model)
-      i = 1
-      do while (i <= size(facts, 2))
-         last = merge(i, size(facts, 2), size(class, 3) > 1)
-         model%deformation_class = class(:, :, min(i, size(class, 3)))
-         call make_partition(model, partition)
-         call analyse_variants(model, partition, position(:, :, min(i, size(position, 3)):min(last, size(position, 3))), question, &
-                               variant(i:last))
-         do k = i, last
-            facts(:, k) = facts_of(partition, variant(k))
-            pair_value(:, k) = variant(k)%value
-            by_move(:, k) = variant(k)%by_move
-            by_turn(:, k) = variant(k)%by_turn
-         end do
-         i = last + 1
+      call analyse_variants(model, position, class, question, variant)
+      do i = 1, size(variant)
+         facts(:, i) = facts_of(variant(i))
+         pair_value(:, i) = variant(i)%value
+         by_move(:, i) = variant(i)%by_move
+         by_turn(:, i) = variant(i)%by_turn
       end do
       call blas_end(work)
    end subroutine run_variants
 
-   pure function facts_of(partition, variant) result(facts)
-      type(partition_t), intent(in) :: partition
+   pure function facts_of(variant) result(facts)
       type(variant_t), intent(in) :: variant
       real(wp) :: facts(size(variant_fact_names))
 
-      facts = [real([merge(1, 0, variant%is_decided), partition%count%rows, partition%count%columns, variant%rank], wp), &
+      facts = [real([merge(1, 0, variant%is_decided), variant%rows, variant%columns, variant%rank], wp), &
                variant%largest_zero, real([merge(1, 0, variant%zero_moves), merge(1, 0, variant%zero_turns)], wp), &
                variant%smallest, variant%largest, variant%characteristic_length, real(variant%pairs, wp)]
    end function facts_of

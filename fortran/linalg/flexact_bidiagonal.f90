@@ -19,7 +19,7 @@ module flexact_bidiagonal
    !> that are a choice, or have lost too many digits.
    real(wp), parameter :: apart = 1.0e-5_wp
    !> What good vectors leave, as a part of the matrix, and how far their halves differ in length.
-   real(wp), parameter :: good = 1.0e-14_wp, alike = 1.0e-9_wp
+   real(wp), parameter :: good = 1.0e-14_wp, rounding = 2*epsilon(1.0_wp), alike = 1.0e-9_wp
    integer, parameter :: most_steps = 4
 
    !> Q' A P = B, upper bidiagonal, as dgebrd leaves it: reflections in place of A, diagonal and
@@ -148,8 +148,8 @@ contains
       is_found = .false.
       do step = 1, most_steps
          call solve(beside, shift, least, z)
-         is_found = step > 1
-         if (is_found) is_found = residual(beside, shift, z) <= good*norm
+         ! The shifts are exact to the last bits: mostly the first solution is as good as any other.
+         is_found = residual(beside, shift, z) <= merge(rounding, good, step == 1)*norm
          if (is_found) exit
       end do
       right = sum(z(:, 1::2)**2, 2)
@@ -179,7 +179,7 @@ contains
       do i = 1, n - 1
          is_next = abs(p) < abs(beside(i))
          inverse(:, i) = merge(beside(i), p, is_next)
-         inverse(:, i) = 1/merge(sign(least, inverse(:, i)), inverse(:, i), abs(inverse(:, i)) < least)
+         inverse(:, i) = 1/sign(max(abs(inverse(:, i)), least), inverse(:, i))
          factor = inverse(:, i)*merge(p, beside(i), is_next)
          first(:, i) = merge(-shift, q, is_next)
          second(:, i) = merge(beside(i + 1), 0.0_wp, is_next)
@@ -189,7 +189,7 @@ contains
          z(:, i) = merge(z(:, i + 1), x, is_next)
          x = squares
       end do
-      inverse(:, n) = 1/merge(sign(least, p), p, abs(p) < least)
+      inverse(:, n) = 1/sign(max(abs(p), least), p)
       z(:, n) = x*inverse(:, n)
       squares = z(:, n)**2
       do i = n - 1, 1, -1

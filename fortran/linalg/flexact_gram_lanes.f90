@@ -3,15 +3,13 @@
 !> singular values are above a bound, by one Cholesky factorisation; theory.md (48). The order and
 !> the pattern of the factor are found once for all of them.
 module flexact_gram_lanes
-   use flexact_kinds, only: wp
+   use flexact_kinds, only: wp, lanes
    use flexact_sparse, only: sparse_t, compress
    use flexact_symmetric_pattern, only: symmetric_pattern_t, analyse_pattern
    implicit none
    private
-   public :: lanes, gram_pattern_t, make_gram_pattern, make_gram, traces_of, find_above
+   public :: gram_pattern_t, make_gram_pattern, make_gram, traces_of, find_above, shift_of, spread_gram
 
-   !> Matrices that are taken at a time.
-   integer, parameter :: lanes = 8
    real(wp), parameter :: unit = 0.5_wp*epsilon(1.0_wp)
    !> Roundings beside those of the products: roots, divisions, what is subtracted, the bound.
    integer, parameter :: extra = 10
@@ -194,6 +192,21 @@ contains
       end associate
    end subroutine make_gram
 
+   !> The lower triangles of A'A as dense matrices, (lanes, side, side); the upper ones are left.
+   pure subroutine spread_gram(pattern, gram, dense)
+      type(gram_pattern_t), intent(in) :: pattern
+      real(wp), intent(in), contiguous :: gram(:, :)
+      real(wp), intent(inout), contiguous :: dense(:, :, :)
+      integer :: j, t
+
+      do j = 1, pattern%side
+         dense(:, j:pattern%side, j) = 0.0_wp
+      end do
+      do t = 1, size(gram, 2)
+         dense(:lanes, maxval(pattern%place(:, t)), minval(pattern%place(:, t))) = gram(:lanes, t)
+      end do
+   end subroutine spread_gram
+
    !> The sum of all squares of A.
    pure function traces_of(pattern, gram) result(traces)
       type(gram_pattern_t), intent(in) :: pattern
@@ -207,12 +220,7 @@ contains
       end do
    end function traces_of
 
-   !> That the factorisation of A'A - s I runs to its end shows that no singular value of A is
-   !> below `least`, if s is the square of that and what rounding may make: the sums of k
-   !> products of A'A and of the factor are off by at most k roundings times sums of magnitudes,
-   !> together no more than (rows + columns) roundings times the sum of all squares of A
-   !> (Higham, Accuracy and Stability of Numerical Algorithms, 2002, lemma 8.4 and theorem
-   !> 10.3; Rump, BIT 46, 2006). gram: by make_gram.
+   !> Whether no singular value is below `least`, in each lane; theory.md (48). gram: by make_gram.
    pure subroutine find_above(pattern, gram, least, above)
       type(gram_pattern_t), intent(in) :: pattern
       real(wp), intent(in), contiguous :: gram(:, :)
@@ -223,7 +231,7 @@ contains
       integer :: j, t, p
 
       above = pattern%side > 0
-      shift = (least**2 + (pattern%terms + extra)*unit*traces_of(pattern, gram))*(1 + extra*unit)
+      shift = shift_of(least, pattern%terms, traces_of(pattern, gram))
       associate (start => pattern%of_factor%start, pair => pattern%of_factor%pair)
          do j = 1, pattern%side
             do t = pattern%start(j), pattern%start(j + 1) - 1
@@ -244,4 +252,16 @@ contains
          end do
       end associate
    end subroutine find_above
+
+   !> That the factorisation of A'A - s I runs to its end shows that no singular value of A is
+   !> below `least`, if s is the square of that and what rounding may make: the sums of k
+   !> products of A'A and of the factor are off by at most k roundings times sums of magnitudes,
+   !> together no more than (rows + columns, `terms`) roundings times the sum of all squares of A
+   !> (Higham, Accuracy and Stability of Numerical Algorithms, 2002, lemma 8.4 and theorem
+   !> 10.3; Rump, BIT 46, 2006).
+   elemental real(wp) function shift_of(least, terms, squares) result(shift)
+      real(wp), intent(in) :: least, squares
+      integer, intent(in) :: terms
+      shift = (least**2 + (terms + extra)*unit*squares)*(1 + extra*unit)
+   end function shift_of
 end module flexact_gram_lanes

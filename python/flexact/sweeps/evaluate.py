@@ -244,8 +244,6 @@ def made_by(make: Make, row: Row) -> ModelData:
 
 
 Columns = dict[str, np.ndarray]
-#: Singular values that differ by less than this part of them are equal up to rounding.
-_EQUAL = 1e-7
 #: So many variants at once: some milliseconds of work, and few numbers.
 _MOST_AT_ONCE = 256
 _VERDICTS = np.array([v.value for v in (Verdict.EXACT, Verdict.UNDER, Verdict.OVER, Verdict.BOTH)])
@@ -330,12 +328,8 @@ def _fill(some: Positions, want: str, room: float, whole: Condensed | None, part
         is_so = ~_perhaps_condensed(some)
     decided = np.zeros(some.count, np.bool_)
     if is_so.any():
-        raw = _by_core(analysed, want != "verdict", room)
-        known, decided = _columns(raw, want != "verdict"), raw.decided & is_so
-        if whole is not None and want != "verdict":
-            # Of equal values the vectors, and so the margin, are a choice: that of one analysis.
-            values = raw.pair_value
-            decided &= ~(np.diff(values, axis=1) < _EQUAL * values[:, 1:]).any(axis=1)
+        known, by_core = _decided_by_core(analysed, want != "verdict", room)
+        decided = by_core & is_so
         for name, array in known.items():
             part[name][decided] = array[decided]
     for i in np.flatnonzero(~decided).tolist():
@@ -347,19 +341,15 @@ def _fill(some: Positions, want: str, room: float, whole: Condensed | None, part
             part[name][i] = value
 
 
-def _by_core(some: Positions, with_values: bool, room: float) -> RawVariants:
-    """What the core says of some variants, within so many bytes."""
+def _decided_by_core(some: Positions, with_values: bool, room: float) -> tuple[Columns, BoolArray]:
+    """The columns that the core gives, and (variants,) for which of them they hold."""
     own = some.data.arrays.node_value[:3].T[None]
     positions = own if some.positions is None else some.positions
-    return calls.analyse_variants(
+    raw = calls.analyse_variants(
         *(some.data.packed, positions, some.classes(), (NEAR, CUT_OFF, REACH_OF_DIGITS)),
         *(with_values, room, some.data.has_long_numbers),
         zeros=(MOST_ZEROS, MOST_OTHERS, MOST_WORK, NO_CHANGE),
     )
-
-
-def _columns(raw: RawVariants, with_values: bool) -> Columns:
-    """The columns that the core gives, of variants that are decided."""
     under, over = raw.columns - raw.rank, raw.rows - raw.rank
     made: Columns = {
         "verdict": _VERDICTS[(under > 0) + 2 * (over > 0)],
@@ -368,7 +358,7 @@ def _columns(raw: RawVariants, with_values: bool) -> Columns:
         "rank": raw.rank,
         "certainty": np.full(raw.rank.size, Certainty.CERTAIN.value),
     }
-    return made | _values(raw) if with_values else made
+    return (made | _values(raw) if with_values else made), raw.decided
 
 
 def _values(raw: RawVariants) -> Columns:
