@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -287,30 +286,29 @@ class Links(NamedTuple):
     Attributes:
         way: (2, 2, pairs) position nodes between which the one and the other beam go on.
         limit: (pairs,) cosine above which they do.
-        in_row: (pairs,) whether they do in the model.
-        by_frame: Whether it counts, too, how some of those are turned against each other.
+        by_frame: (pairs,) whether it counts, too, how they are turned against each other.
     """
 
     way: IntArray
     limit: FloatArray
-    in_row: BoolArray
-    by_frame: bool
+    by_frame: BoolArray
 
-    def stay(self, place: FloatArray) -> BoolArray:
-        """(variants,) whether the same pairs clearly do with the nodes at (variants, nodes, 3)."""
-        if self.by_frame:
-            return np.zeros(len(place), np.bool_)
-        way = place[:, self.way[:, 1]] - place[:, self.way[:, 0]]
-        lengths = np.sqrt(np.einsum("vbpi,vbpi->vbp", way, way)).prod(axis=1)
-        above = np.einsum("vpi,vpi->vp", way[:, 0], way[:, 1]) - self.limit * lengths
-        above = np.where(self.in_row, above, -above)
-        return np.asarray((above > _CLEAR * lengths).all(axis=1))
+    def go_on(self, place: FloatArray) -> IntArray:
+        """(variants, pairs) whether they do with the nodes at (variants, nodes, 3): 1, 0.
+
+        What is not clear is -1.
+        """
+        with np.errstate(all="ignore"):
+            way = place[:, self.way[:, 1]] - place[:, self.way[:, 0]]
+            lengths = np.sqrt(np.einsum("vbpi,vbpi->vbp", way, way)).prod(axis=1)
+            above = np.einsum("vpi,vpi->vp", way[:, 0], way[:, 1]) - self.limit * lengths
+            found = np.where(above > _CLEAR * lengths, np.where(self.by_frame, -1, 1), -1)
+            return np.where(above < -_CLEAR * lengths, 0, found).astype(np.int8)
 
 
-def links_of(arrays: ModelArrays, names: Sequence[str], chains: Sequence[Chain]) -> Links:
-    """The pairs of beams that may go on in line, of a model with these rows."""
-    neighbours = {frozenset(two) for chain in chains for two in pairwise(chain.elements)}
-    ways, limits, in_row, by_frame = [], [], [], False
+def links_of(arrays: ModelArrays, names: Sequence[str]) -> Links:
+    """The pairs of beams of a model that may go on in line."""
+    ways, limits, by_frame = [], [], []
     for one, other in _as_pairs(*_joined(arrays, _is_bendable(arrays))):
         limit = _limit_of(arrays, names, one, other)
         if limit is None:
@@ -320,10 +318,9 @@ def links_of(arrays: ModelArrays, names: Sequence[str], chains: Sequence[Chain])
         ends = [(2 - 2 * at_i, i), (2 * at_i, i)], [(2 * at_j, j), (2 - 2 * at_j, j)]
         ways.append([[arrays.element_node[end] - 1 for end in way] for way in ends])
         limits.append(limit)
-        in_row.append(frozenset((i, j)) in neighbours)
-        by_frame |= in_row[-1] and _turns_with_frame(arrays, one, j)
+        by_frame.append(_turns_with_frame(arrays, one, j))
     way = np.array(ways, np.int32).reshape(-1, 2, 2).T
-    return Links(way, np.array(limits), np.array(in_row, np.bool_), by_frame)
+    return Links(way, np.array(limits), np.array(by_frame, np.bool_))
 
 
 def _classes_of(arrays: ModelArrays, element: int, turned: bool) -> tuple[int, ...]:

@@ -17,7 +17,7 @@ from ...core.elements import Class, NodeKind
 from ...util.records import Frozen, cached_property
 from ..data import Appearance, ModelData
 from ..names import part_name
-from .chains import Chain, Links, links_of, stretch_of
+from .chains import Chain, links_of, stretch_of
 
 #: Sine below which a vector is taken for one along the chord.
 _ALONG = 1.0e-3
@@ -51,10 +51,6 @@ class Condensed(Frozen):
         """The nodes inside the chains, in their order."""
         return tuple(_inner_nodes(self.given.arrays, chain) for chain in self.chains)
 
-    @cached_property
-    def _links(self) -> Links:
-        return links_of(self.given.arrays, self.given.element_names, self.given.chains)
-
     def holds_at(self, place: FloatArray) -> BoolArray:
         """(variants,) whether clearly the same rows are one beam each also in another geometry.
 
@@ -62,13 +58,11 @@ class Condensed(Frozen):
         row is without a length or has its vector along it. What is not clear is False.
 
         Args:
-            place: (variants, nodes of `given`, 3) [m]; what is no coordinate is ignored.
+            place: (variants, nodes of `given`, 3) [m], in which the same pairs of beams go on as
+                `ways_on` says.
         """
-        arrays = self.given.arrays
-        if (arrays.node_kind == NodeKind.PLANAR_POSITION).any():
-            place = place * [1.0, 1.0, 0.0]
+        holds = np.ones(len(place), np.bool_)
         with np.errstate(all="ignore"):
-            holds = self._links.stay(place)
             for chain in self.given.chains:
                 row = place[:, list(chain.positions)]
                 way = np.diff(row, axis=1)
@@ -307,6 +301,24 @@ def condensed(data: ModelData) -> Condensed:
         nodes,
         elements,
     )
+
+
+def ways_on(data: ModelData, place: FloatArray) -> IntArray:
+    """(variants, pairs) which pairs of beams go on in line, 1 or 0, or -1 where that is not clear.
+
+    Where the same do, and rows of them are stretched in both, rows of beams are the same.
+
+    Args:
+        data: The model.
+        place: (variants, nodes, 3) [m], as `places_in` gives them.
+    """
+    return links_of(data.arrays, data.element_names).go_on(place)
+
+
+def places_in(data: ModelData, positions: FloatArray) -> FloatArray:
+    """(variants, nodes, 3) of positions [m], of which what is no coordinate is zero."""
+    is_planar = (data.arrays.node_kind == NodeKind.PLANAR_POSITION).any()
+    return positions * [1.0, 1.0, 0.0] if is_planar else positions
 
 
 def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
