@@ -2,6 +2,7 @@
 !> The rank of each component from its complete decomposition, and where exact
 !> arithmetic or more digits know better.
 module flexact_component_ranks
+   use flexact_bidiagonal, only: bidiagonal_t
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t
@@ -15,11 +16,12 @@ module flexact_component_ranks
 
    !> Singular values of a component, descending, and all its singular vectors; of a
    !> long one, which stands upright, only as many left ones as there are columns. Values
-   !> from rank + 1 on count as zero.
+   !> from rank + 1 on count as zero. As long as only the values are known, there is the form.
    type :: component_t
       logical :: is_transposed = .false.
       integer, allocatable :: row(:), column(:)
       real(wp), allocatable :: values(:), u(:, :), vt(:, :)
+      type(bidiagonal_t), allocatable :: form
       integer :: rank = 0
    end type component_t
 

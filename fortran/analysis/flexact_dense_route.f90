@@ -4,15 +4,16 @@
 !> Of a component that is many times as long as wide no square of its longer side is
 !> made: time and memory stay in proportion to its entries.
 module flexact_dense_route
+   use flexact_bidiagonal, only: is_worth_steps, bidiagonalise, find_all_vectors, find_lowest_vectors
    use flexact_complement, only: add_complement
    use flexact_component_ranks, only: component_t, settle, merge_values
    use flexact_components, only: shape_of
-   use flexact_decomposition, only: is_feasible, decompose_by, singular_values_by
+   use flexact_decomposition, only: is_feasible, decompose_by, method_svd, singular_values_by
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t
-   use flexact_proof, only: proof_t
+   use flexact_proof, only: proof_t, unknown
    use flexact_rank, only: rank_rule_t, decide_rank
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_scaled_basis, only: add_scaled, add_scaled_sparse
@@ -46,12 +47,16 @@ contains
       end if
       allocate (component(problem%components%count))
       do i = 1, size(component)
-         call decompose_component(problem, i, options, result%method, component(i), result%error)
+         call decompose_component(problem, i, proof%rank(i), options, result%method, component(i), result%error)
          if (allocated(result%error)) return
       end do
       call merge_values(component, result)
       if (options%only_plain_values) return
       result%decision = decide_rank(rule, result%scaled_values)
+      do i = 1, size(component)
+         call find_vectors(result%decision%tolerance, component(i), result%error)
+         if (allocated(result%error)) return
+      end do
       call settle(model, problem, proof, component, result)
       result%bound = result%decision%noise
       do i = 1, size(component)
@@ -120,13 +125,15 @@ contains
       end do
    end function entries_of_bases
 
-   subroutine decompose_component(problem, i, options, method, component, error)
+   !> Of a square one that may be regular only the values, if few vectors will do then.
+   subroutine decompose_component(problem, i, proven, options, method, component, error)
       type(problem_t), intent(in) :: problem
-      integer, intent(in) :: i, method
+      integer, intent(in) :: i, proven, method
       type(options_t), intent(in) :: options
       type(component_t), intent(out) :: component
       type(error_t), allocatable, intent(out) :: error
       real(wp), allocatable :: dense(:, :)
+      logical :: in_steps
       integer :: m, n, left
 
       associate (c => problem%components)
@@ -152,13 +159,35 @@ contains
       else
          call fill(problem%matrix%by_column, component%row, component%column, dense)
       end if
+      in_steps = method == method_svd .and. (proven == n .or. proven == unknown) .and. is_worth_steps(dense)
       if (options%only_plain_values) then
          call singular_values_by(method, dense, component%values, error)
+      else if (in_steps) then
+         allocate (component%form)
+         call bidiagonalise(dense, component%form, component%values, error)
       else
          allocate (component%u(m, left), component%vt(n, n))
          call decompose_by(method, dense, component%values, component%u, component%vt, error)
       end if
    end subroutine decompose_component
+
+   !> The vectors of a component of which only the values are known: if it is regular those of the
+   !> smallest ones, where they are no choice; else all.
+   subroutine find_vectors(tolerance, component, error)
+      real(wp), intent(in) :: tolerance
+      type(component_t), intent(inout) :: component
+      type(error_t), allocatable, intent(out) :: error
+      logical :: is_found
+
+      if (.not. allocated(component%form)) return
+      associate (n => size(component%values))
+         allocate (component%u(n, n), component%vt(n, n))
+         is_found = component%values(n) > tolerance
+      end associate
+      if (is_found) call find_lowest_vectors(component%form, component%values, component%u, component%vt, is_found)
+      if (.not. is_found) call find_all_vectors(component%form, component%u, component%vt, error)
+      deallocate (component%form)
+   end subroutine find_vectors
 
    !> The rows and columns of a component with their zeros. Rows ascend.
    pure subroutine fill(matrix, row, column, dense)

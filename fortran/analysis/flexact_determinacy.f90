@@ -13,6 +13,7 @@ module flexact_determinacy
    use flexact_rank, only: rank_rule_t
    use flexact_result, only: options_t, result_t, method_auto, method_svd, method_sparse
    use flexact_scaling, only: rank_rule_of
+   use flexact_smallest_values, only: settle_equal
    use flexact_sparse_basis, only: new_sparse_basis
    use flexact_sparse_route, only: analyse_sparse
    implicit none
@@ -63,6 +64,7 @@ contains
       else
          call analyse_dense(model, problem, options, rule, result%proof, result)
       end if
+      if (.not. allocated(result%error)) call settle_equal(result%pair_value, result%pair_motion, result%pair_stress)
    end subroutine analyse
 
    !> A complete decomposition where the sparse route leaves doubt, if it is feasible.

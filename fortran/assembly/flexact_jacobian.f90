@@ -11,7 +11,7 @@ module flexact_jacobian
    use flexact_slots, only: axes, most_deformations
    implicit none
    private
-   public :: jacobian_t, make_jacobian
+   public :: jacobian_t, make_jacobian, element_derivative
 
    !> Entry i stands at deformation row(2, i) of element row(1, i) and at axis
    !> column(2, i) of node column(1, i). No place occurs twice; the entries of
@@ -50,9 +50,25 @@ contains
          call element_deformation(model%element_kind(k), reference, p, q, &
                                   jacobian%deformation(:, k), derivative)
          jacobian%length(k) = reference%length
+         call join_ends(model%element_node(:, k), derivative)
          call add_element(model, k, derivative, jacobian)
       end do
    end subroutine make_jacobian
+
+   !> The derivatives of the deformations of element k at rest, and its length.
+   pure subroutine element_derivative(model, k, derivative, length)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      real(wp), intent(out) :: derivative(most_deformations, 12), length
+      type(reference_t) :: reference
+      type(pose_t) :: p, q
+      real(wp) :: deformation(most_deformations)
+
+      call element_reference(model, k, reference, p, q)
+      call element_deformation(model%element_kind(k), reference, p, q, deformation, derivative)
+      call join_ends(model%element_node(:, k), derivative)
+      length = reference%length
+   end subroutine element_derivative
 
    !> D_x has no more entries than this: deformations of each element times the
    !> axes of its nodes.
@@ -73,11 +89,10 @@ contains
    pure subroutine add_element(model, k, derivative, jacobian)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
-      real(wp), intent(inout) :: derivative(:, :)
+      real(wp), intent(in) :: derivative(:, :)
       type(jacobian_t), intent(inout) :: jacobian
       integer :: i, slot, axis, node
 
-      call join_ends(model%element_node(:, k), derivative)
       do i = 1, deformations_of(model%element_kind(k))
          do slot = 1, 4
             node = model%element_node(slot, k)

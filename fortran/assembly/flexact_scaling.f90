@@ -13,7 +13,7 @@ module flexact_scaling
    use flexact_scaled_norm, only: length_of
    implicit none
    private
-   public :: scaling_t, make_scaling, make_single_scaling, rank_rule_of, extent_of
+   public :: scaling_t, make_scaling, make_single_length, bound_errors, sound_squares, rank_rule_of, extent_of
 
    !> A component this many times larger or smaller than the whole has its own length:
    !> lengths within one mechanism differ less, and keep one scale.
@@ -72,34 +72,20 @@ contains
          end do
       end do
       call scale_rows(model, partition, jacobian, row_length, scaling)
-      call bound_errors(model, partition, jacobian, scaling)
+      call bound_errors(model, partition, jacobian%length, scaling)
    end subroutine make_scaling
 
-   !> The same where all lengths are of one size, so that components do not count; else
-   !> is_single is false, and nothing else is to be used.
-   pure subroutine make_single_scaling(model, partition, jacobian, scaling, is_single)
-      type(model_t), intent(in) :: model
-      type(partition_t), intent(in) :: partition
-      type(jacobian_t), intent(in) :: jacobian
-      type(scaling_t), intent(out) :: scaling
+   !> The characteristic length where all lengths are of one size, so that components do not
+   !> count; else is_single is false.
+   pure subroutine make_single_length(length, characteristic_length, is_single)
+      real(wp), intent(in) :: length(:)
+      real(wp), intent(out) :: characteristic_length
       logical, intent(out) :: is_single
-      real(wp) :: row_length(partition%count%rows)
-      integer :: j
 
-      associate (length => jacobian%length)
-         is_single = .not. any(length > 0)
-         if (.not. is_single) is_single = maxval(length) < another_size*minval(length, length > 0)
-      end associate
-      if (.not. is_single) return
-      scaling%characteristic_length = geometric_mean(jacobian%length)
-      allocate (scaling%column(partition%count%columns), source=1.0_wp)
-      do j = 1, partition%count%columns
-         if (is_rotation(model, partition%column_label(1, j))) scaling%column(j) = 1/scaling%characteristic_length
-      end do
-      row_length = scaling%characteristic_length
-      call scale_rows(model, partition, jacobian, row_length, scaling)
-      call bound_errors(model, partition, jacobian, scaling)
-   end subroutine make_single_scaling
+      characteristic_length = geometric_mean(length)
+      is_single = .not. any(length > 0)
+      if (.not. is_single) is_single = maxval(length) < another_size*minval(length, length > 0)
+   end subroutine make_single_length
 
    !> By which the rank of the scaled matrix is decided.
    pure function rank_rule_of(scaling, tolerance) result(rule)
@@ -145,7 +131,7 @@ contains
          if (row > 0) squares(row) = squares(row) + value**2
       end do
       scaling%row = sqrt(squares)
-      if (any(squares > 0 .and. squares < least_square) .or. any(.not. squares < 1/least_square)) then
+      if (.not. all(sound_squares(squares))) then
          ! Unlike a sum of squares, this neither overflows nor vanishes.
          scaling%row = 0.0_wp
          do entry = 1, jacobian%entries
@@ -159,6 +145,12 @@ contains
          scaling%row = 1.0_wp
       end where
    end subroutine scale_rows
+
+   !> Whether sums of squares have lost nothing.
+   elemental logical function sound_squares(squares)
+      real(wp), intent(in) :: squares
+      sound_squares = (squares >= least_square .or. .not. squares > 0) .and. squares < 1/least_square
+   end function sound_squares
 
    !> The row of an entry, or 0, and its value without the unit of length: by a rotation over the length of the row.
    pure subroutine take_entry(model, partition, jacobian, row_length, entry, row, value)
@@ -198,10 +190,10 @@ contains
    !> one column: |E x|**2 <= sum over i of e_i**2 sum over P(i) of x_j**2, which is the sum
    !> over j of x_j**2 times the sum of e_i**2 over the rows i with j in P(i).
    !> P(i) is all that the element joins: an entry may be zero and its error not.
-   pure subroutine bound_errors(model, partition, jacobian, scaling)
+   pure subroutine bound_errors(model, partition, length, scaling)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
-      type(jacobian_t), intent(in) :: jacobian
+      real(wp), intent(in) :: length(:)
       type(scaling_t), intent(inout) :: scaling
       real(wp), allocatable :: squares(:, :)
       type(decimal_t) :: number(axes, model%nodes)
@@ -216,12 +208,12 @@ contains
       do k = 1, model%elements
          associate (rows => count(partition%row_of(:, k) > 0), node => model%element_node(:, k))
             if (rows == 0) cycle
-            error = errors_of_direction(model, k, number, jacobian%length(k), scaling%characteristic_length, extent)
+            error = rows*errors_of_direction(model, k, number, length(k), scaling%characteristic_length, extent)**2
             do slot = 1, slots
                if (node(slot) == 0 .or. any(node(:slot - 1) == node(slot))) cycle
                do axis = 1, axes
                   associate (column => partition%column_of(axis, node(slot)))
-                     if (column > 0) squares(:, column) = squares(:, column) + rows*error**2
+                     if (column > 0) squares(:, column) = squares(:, column) + error
                   end associate
                end do
             end do
@@ -259,9 +251,14 @@ contains
       real(wp), intent(in) :: points(:, :), extent
       type(decimal_t), intent(in) :: p(:), q(:)
       real(wp) :: error(3)
-      type(decimal_t) :: offset(size(p))
+      type(decimal_t) :: offset
+      integer :: axis
 
-      offset = difference(p, q)
-      error = [maxval(last_bits(points, extent)), maxval(last_digit(offset)), maxval(coarsest_digit(offset))]
+      error = [maxval(last_bits(points, extent)), 0.0_wp, 0.0_wp]
+      do axis = 1, size(p)
+         if (.not. (p(axis)%short .and. q(axis)%short)) cycle
+         offset = difference(p(axis), q(axis))
+         error(2:) = max(error(2:), [last_digit(offset), coarsest_digit(offset)])
+      end do
    end function errors_of_offset
 end module flexact_scaling

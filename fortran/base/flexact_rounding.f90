@@ -28,6 +28,11 @@ module flexact_rounding
    !> half a unit each, times the root of six.
    real(wp), parameter :: units = 1.25_wp
 
+   !> Powers of ten that are exact, and their inverses.
+   integer, parameter :: most_exact = 22
+   integer :: i
+   real(wp), parameter :: power_of_ten(-most_exact:most_exact) = [(10.0_wp**i, i=-most_exact, most_exact)]
+
    !> A number as it was typed: mantissa * 10**place, without trailing zeros.
    type :: decimal_t
       !> Whether so few digits give it.
@@ -105,7 +110,11 @@ contains
       ! No model has other numbers than these, and their powers of ten overflow.
       if (.not. (abs(value) > 1.0e-200_wp .and. abs(value) < 1.0e200_wp)) return
       decimal%place = floor(log10(abs(value))) - most_digits + 1
-      mantissa = abs(value)/10.0_wp**decimal%place
+      if (abs(decimal%place) <= most_exact) then
+         mantissa = abs(value)/power_of_ten(decimal%place)
+      else
+         mantissa = abs(value)/10.0_wp**decimal%place
+      end if
       if (abs(mantissa - anint(mantissa)) > 4*epsilon(value)*mantissa) return
       decimal%mantissa = sign(nint(mantissa, int64), merge(-1_int64, 1_int64, value < 0))
       ! Fourteen digits come near to many a number by chance.

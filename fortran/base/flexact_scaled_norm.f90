@@ -4,7 +4,7 @@ module flexact_scaled_norm
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: length_of
+   public :: length_of, tiny_entry, huge_entry
 
    !> Of entries up to between these, squares neither vanish nor overflow, nor does their sum.
    real(wp), parameter :: tiny_entry = 1.0e-100_wp, huge_entry = 1.0e100_wp

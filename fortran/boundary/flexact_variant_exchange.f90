@@ -5,9 +5,7 @@ module flexact_variant_exchange
    use flexact_exchange, only: unpack_model
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
-   use flexact_partition, only: partition_t, make_partition
-   use flexact_slots, only: axes, has_axis, is_position
-   use flexact_variants, only: analyse_variant, question_t, variant_t
+   use flexact_variants, only: analyse_variants, question_t, variant_t
    use flexact_zero_margins, only: zero_limits_t
    implicit none
    private
@@ -29,10 +27,9 @@ contains
       real(wp), intent(out) :: facts(:, :), pair_value(:, :), by_move(:, :), by_turn(:, :)
       type(model_t) :: model
       type(question_t) :: question
-      type(partition_t) :: partition
-      type(variant_t) :: variant
+      type(variant_t) :: variant(size(facts, 2))
       type(blas_work_t) :: work
-      integer :: i, before
+      integer :: i
 
       facts = 0
       pair_value = 0
@@ -48,43 +45,21 @@ contains
       question%zeros = zero_limits_t(zero_counts(1), zero_counts(2), zero_limits(1), zero_limits(2))
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       call unpack_model(nodes, places, elements, vectors, model)
-      before = 0
-      do i = 1, size(facts, 2)
-         call place_nodes(position(:, :, min(i, size(position, 3))), model)
-         if (min(i, size(class, 3)) /= before) then
-            before = min(i, size(class, 3))
-            model%deformation_class = class(:, :, before)
-            call make_partition(model, partition)
-         end if
-         call analyse_variant(model, partition, question, variant)
-         facts(:, i) = facts_of(partition, variant)
-         pair_value(:, i) = variant%value
-         by_move(:, i) = variant%by_move
-         by_turn(:, i) = variant%by_turn
+      call analyse_variants(model, position, class, question, variant)
+      do i = 1, size(variant)
+         facts(:, i) = facts_of(variant(i))
+         pair_value(:, i) = variant(i)%value
+         by_move(:, i) = variant(i)%by_move
+         by_turn(:, i) = variant(i)%by_turn
       end do
       call blas_end(work)
    end subroutine run_variants
 
-   !> What stands for other nodes than positions, and for z in the plane, is passed over.
-   pure subroutine place_nodes(position, model)
-      real(wp), intent(in) :: position(:, :)
-      type(model_t), intent(inout) :: model
-      integer :: node, axis
-
-      do node = 1, model%nodes
-         if (.not. is_position(model%node_kind(node))) cycle
-         do axis = 1, axes
-            if (has_axis(model%node_kind(node), axis)) model%node_value(axis, node) = position(axis, node)
-         end do
-      end do
-   end subroutine place_nodes
-
-   pure function facts_of(partition, variant) result(facts)
-      type(partition_t), intent(in) :: partition
+   pure function facts_of(variant) result(facts)
       type(variant_t), intent(in) :: variant
       real(wp) :: facts(size(variant_fact_names))
 
-      facts = [real([merge(1, 0, variant%is_decided), partition%count%rows, partition%count%columns, variant%rank], wp), &
+      facts = [real([merge(1, 0, variant%is_decided), variant%rows, variant%columns, variant%rank], wp), &
                variant%largest_zero, real([merge(1, 0, variant%zero_moves), merge(1, 0, variant%zero_turns)], wp), &
                variant%smallest, variant%largest, variant%characteristic_length, real(variant%pairs, wp)]
    end function facts_of

@@ -4,7 +4,7 @@ module flexact_vectors
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_kinds, only: wp
    use flexact_rounding, only: typed, typed_t
-   use flexact_scaled_norm, only: length_of
+   use flexact_scaled_norm, only: length_of, tiny_entry, huge_entry
    implicit none
    private
    public :: identity, cross, length_of, coincide, unit, axis_across, is_near_tie, frame_along, planar_frame_along, planar_turn
@@ -36,10 +36,12 @@ contains
    !> The direction of a vector of any magnitude; zero for the zero vector.
    pure function unit(vector) result(direction)
       real(wp), intent(in) :: vector(3)
-      real(wp) :: direction(3)
+      real(wp) :: direction(3), largest
 
-      direction = scale(vector, -exponent(maxval(abs(vector))))
-      if (any(abs(direction) > 0)) direction = direction/norm2(direction)
+      largest = maxval(abs(vector))
+      direction = vector
+      if (.not. (largest > tiny_entry .and. largest < huge_entry)) direction = scale(vector, -exponent(largest))
+      if (largest > 0) direction = direction/sqrt(dot_product(direction, direction))
    end function unit
 
    !> Columns ex, ey, ez with ex along the first vector and ey as near to the

@@ -4,7 +4,7 @@ module flexact_lapack
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
+   public :: dgesdd, dgebrd, dbdsqr, dbdsdc, dormbr, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
    public :: dsyrk, dpotrf, dtrsm, dgemm, dgemv, dsyevd, dsygv
 
    interface
@@ -19,6 +19,45 @@ module flexact_lapack
          integer, intent(inout) :: iwork(*)
          integer, intent(out) :: info
       end subroutine dgesdd
+
+      !> Reduction to bidiagonal form, in place of a.
+      pure subroutine dgebrd(m, n, a, lda, d, e, tauq, taup, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(out) :: d(*), e(*), tauq(*), taup(*)
+         integer, intent(out) :: info
+      end subroutine dgebrd
+
+      !> Singular values of a bidiagonal matrix, in place of its diagonal, and what was asked of
+      !> vectors.
+      pure subroutine dbdsqr(uplo, n, ncvt, nru, ncc, d, e, vt, ldvt, u, ldu, c, ldc, work, info)
+         import :: wp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, ncvt, nru, ncc, ldvt, ldu, ldc
+         real(wp), intent(inout) :: d(*), e(*), vt(ldvt, *), u(ldu, *), c(ldc, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dbdsqr
+
+      !> The same by divide and conquer, with all vectors.
+      pure subroutine dbdsdc(uplo, compq, n, d, e, u, ldu, vt, ldvt, q, iq, work, iwork, info)
+         import :: wp
+         character, intent(in) :: uplo, compq
+         integer, intent(in) :: n, ldu, ldvt
+         real(wp), intent(inout) :: d(*), e(*), u(ldu, *), vt(ldvt, *), q(*), work(*)
+         integer, intent(inout) :: iq(*), iwork(*)
+         integer, intent(out) :: info
+      end subroutine dbdsdc
+
+      !> Products with Q or P' of dgebrd, whose a is as before in the end.
+      pure subroutine dormbr(vect, side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+         import :: wp
+         character, intent(in) :: vect, side, trans
+         integer, intent(in) :: m, n, k, lda, ldc, lwork
+         real(wp), intent(in) :: tau(*)
+         real(wp), intent(inout) :: a(lda, *), c(ldc, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dormbr
 
       !> Singular value decomposition by preconditioned Jacobi rotations for
       !> m >= n; a is destroyed, the values are work(1)/work(2)*sva.

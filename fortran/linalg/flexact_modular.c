@@ -54,31 +54,37 @@ static uint64_t quotient_of(uint64_t a, uint64_t modulus)
 
 #endif
 
-static uint64_t power(uint64_t a, uint64_t exponent, uint64_t modulus)
+/* a b / 2**64 modulo an odd modulus, which both are below; inverse: of the modulus, modulo 2**64
+ * (Montgomery, Mathematics of Computation 44, 1985). */
+static uint64_t montgomery(uint64_t a, uint64_t b, uint64_t modulus, uint64_t inverse)
 {
-    uint64_t result = 1;
-    for (; exponent > 0; exponent >>= 1) {
-        if (exponent & 1) result = times(result, a, modulus);
-        a = times(a, a, modulus);
-    }
-    return result;
+    const uint64_t high = times_high(a, b), other = times_high(a * b * inverse, modulus);
+    return high < other ? high + (modulus - other) : high - other;
 }
 
 /* Miller's and Rabin's test with the first twelve primes, which no number below 2**64 passes
- * that is composite (Sorenson and Webster, Mathematics of Computation 86, 2017). */
+ * that is composite (Sorenson and Webster, Mathematics of Computation 86, 2017). Numbers are
+ * held times 2**64. */
 static int is_prime(uint64_t n)
 {
     static const uint64_t base[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
-    uint64_t odd = n - 1;
+    uint64_t odd = n - 1, inverse = n, one;
     int twos = 0;
-    for (; odd % 2 == 0; odd /= 2) twos++;
-    for (size_t i = 0; i < sizeof base / sizeof *base; i++) {
-        uint64_t x;
-        int k = 0;
+    for (size_t i = 0; i < sizeof base / sizeof *base; i++)
         if (n % base[i] == 0) return n == base[i];
-        x = power(base[i], odd, n);
-        if (x == 1) continue;
-        for (; x != n - 1 && k < twos; k++) x = times(x, x, n);
+    for (; odd % 2 == 0; odd /= 2) twos++;
+    /* Each step doubles the bits that are right, of which there are three at first. */
+    for (int step = 0; step < 5; step++) inverse *= 2 - n * inverse;
+    one = -n % n;
+    for (size_t i = 0; i < sizeof base / sizeof *base; i++) {
+        uint64_t x = one, a = times(base[i], one, n);
+        int k = 0;
+        for (uint64_t exponent = odd; exponent > 0; exponent >>= 1) {
+            if (exponent & 1) x = montgomery(x, a, n, inverse);
+            a = montgomery(a, a, n, inverse);
+        }
+        if (x == one) continue;
+        for (; x != n - one && k < twos; k++) x = montgomery(x, x, n, inverse);
         if (k == twos) return 0;
     }
     return 1;

@@ -16,14 +16,17 @@ module flexact_configuration
 
 contains
 
-   !> What element k measures its deformations from.
-   pure subroutine element_reference(model, k, reference)
+   !> What element k measures its deformations from, and where its ends are then.
+   pure subroutine element_reference(model, k, reference, at_p, at_q)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
       type(reference_t), intent(out) :: reference
+      type(pose_t), intent(out), optional :: at_p, at_q
       type(pose_t) :: p, q
 
       call make_poses(model, k, model%node_value, p, q)
+      if (present(at_p)) at_p = p
+      if (present(at_q)) at_q = q
       reference%offset = q%position - p%position
       reference%length = length_of(reference%offset)
       ! A bar's deformation needs no frame, and bars are many.

@@ -60,7 +60,7 @@ contains
             if (kind%needs_length) fault = fault_zero_length
          else if (length > longest .or. length < shortest) then
             fault = fault_out_of_range
-         else if (kind%vector == vector_optional) then
+         else if (kind%vector == vector_optional .and. .not. all(abs(model%element_vector(:, k)) <= 0)) then
             fault = fault_of_vector(model%element_vector(:, k), unit(half))
          end if
       end associate
@@ -72,7 +72,6 @@ contains
       real(wp) :: direction(3)
 
       fault = fault_none
-      if (all(abs(vector) <= 0.0_wp)) return
       if (.not. all(ieee_is_finite(vector))) then
          fault = fault_vector_not_finite
          return

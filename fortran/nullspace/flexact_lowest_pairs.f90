@@ -8,12 +8,11 @@
 module flexact_lowest_pairs
    use flexact_decomposition, only: decompose, singular_values
    use flexact_error, only: error_t
-   use flexact_kinds, only: wp
-   use flexact_full_rank, only: make_dense_gram
-   use flexact_tridiagonal, only: tridiagonal_t, tridiagonalise, ends_of => find_ends, lowest_values, lowest_vectors, lanes
+   use flexact_kinds, only: wp, lanes
+   use flexact_tridiagonal, only: tridiagonal_t, tridiagonalise, ends_of => find_ends, lowest_values, lowest_vectors
    implicit none
    private
-   public :: lowest_pairs, find_ends
+   public :: lowest_spaces, lowest_pairs, find_ends, have_lost_digits, decompose_ends
 
    !> Eigenvalues are wanted to this part of the largest, where their vectors and A follow.
    real(wp), parameter :: rough = 1.0e-7_wp
@@ -27,46 +26,42 @@ module flexact_lowest_pairs
 
 contains
 
-   !> The smallest values, ascending, as many as there is room for and no more than there are
-   !> (used), with left (rows, :) and right (columns, :) vectors of unit norm.
-   !> gram: A'A or A A', by make_dense_gram.
-   subroutine lowest_pairs(a, gram, values, left, right, used, error)
-      real(wp), intent(in), contiguous :: a(:, :), gram(:, :)
-      real(wp), intent(out) :: values(:), left(:, :), right(:, :)
-      integer, intent(out) :: used
-      type(error_t), allocatable, intent(out) :: error
-      real(wp), allocatable :: basis(:, :)
-      logical :: is_found
-
-      used = min(size(values), size(a, 1), size(a, 2), lanes)
-      if (used == 0) return
-      allocate (basis(minval(shape(a)), used))
-      call lowest_space(gram, basis, is_found)
-      if (.not. is_found) then
-         call decompose_whole(a, used, values, left, right, error)
-      else if (size(a, 1) < size(a, 2)) then
-         left(:, :used) = basis
-         right(:, :used) = matmul(transpose(a), basis)
-         call make_orthogonal(right(:, :used), left(:, :used), values(:used))
-      else
-         right(:, :used) = basis
-         left(:, :used) = matmul(a, basis)
-         call make_orthogonal(left(:, :used), right(:, :used), values(:used))
-      end if
-   end subroutine lowest_pairs
-
-   !> Eigenvectors of the smallest eigenvalues of A'A or A A'.
-   subroutine lowest_space(gram, basis, is_found)
-      real(wp), intent(in) :: gram(:, :)
-      real(wp), intent(inout) :: basis(:, :)
-      logical, intent(out) :: is_found
+   !> Eigenvectors (lanes, n, vectors) of the smallest eigenvalues of some A'A or A A' (lanes, n, n), side by
+   !> side; their lower triangles are destroyed. is_found: of each whether they are good.
+   subroutine lowest_spaces(gram, basis, is_found)
+      real(wp), allocatable, intent(inout) :: gram(:, :, :)
+      real(wp), intent(out) :: basis(:, :, :)
+      logical, intent(out) :: is_found(lanes)
       type(tridiagonal_t) :: t
-      real(wp) :: value(size(basis, 2))
+      real(wp) :: value(lanes, size(basis, 3))
 
       call tridiagonalise(gram, t)
       call lowest_values(t, rough, value)
       call lowest_vectors(t, value, basis, is_found)
-   end subroutine lowest_space
+   end subroutine lowest_spaces
+
+   !> The smallest values, ascending, as many as the basis has vectors, with left (rows, :) and right
+   !> (columns, :) vectors of unit norm.
+   !> basis: by `lowest_spaces`, which has found one, or all of A is decomposed.
+   subroutine lowest_pairs(a, basis, is_found, values, left, right, error)
+      real(wp), intent(in), contiguous :: a(:, :)
+      real(wp), intent(in) :: basis(:, :)
+      logical, intent(in) :: is_found
+      real(wp), intent(out) :: values(:), left(:, :), right(:, :)
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. is_found) then
+         call decompose_whole(a, size(values), values, left, right, error)
+      else if (size(a, 1) < size(a, 2)) then
+         left = basis
+         right = matmul(transpose(a), basis)
+         call make_orthogonal(right, left, values)
+      else
+         right = basis
+         left = matmul(a, basis)
+         call make_orthogonal(left, right, values)
+      end if
+   end subroutine lowest_pairs
 
    !> Turn the columns of `image` (the images of the columns of `source`) until they are
    !> orthogonal, by Jacobi rotations of both; they ascend, and their norms are the values.
@@ -145,29 +140,33 @@ contains
       end do
    end subroutine decompose_whole
 
-   !> The smallest and the largest singular value.
-   subroutine find_ends(a, smallest, largest, error)
-      real(wp), intent(in), contiguous :: a(:, :)
+   !> The squares (lanes, 2) of the smallest and the largest singular values of some A, from A'A or A A'
+   !> (lanes, n, n), side by side; their lower triangles are destroyed.
+   subroutine find_ends(gram, squares)
+      real(wp), allocatable, intent(inout) :: gram(:, :, :)
+      real(wp), intent(out) :: squares(lanes, 2)
+      type(tridiagonal_t) :: t
+
+      call tridiagonalise(gram, t)
+      call ends_of(t, squares)
+   end subroutine find_ends
+
+   !> Whether the roots of these squares are not those of a decomposition.
+   pure logical function have_lost_digits(squares)
+      real(wp), intent(in) :: squares(2)
+      have_lost_digits = .not. (squares(1) > max(least_square, least_part*squares(2)) .and. squares(2) < 1/least_square)
+   end function have_lost_digits
+
+   !> The smallest and the largest singular value by a decomposition.
+   subroutine decompose_ends(a, smallest, largest, error)
+      real(wp), intent(in) :: a(:, :)
       real(wp), intent(out) :: smallest, largest
       type(error_t), allocatable, intent(out) :: error
-      type(tridiagonal_t) :: t
-      real(wp) :: gram(minval(shape(a)), minval(shape(a))), values(minval(shape(a))), ends(2)
-      real(wp), allocatable :: copy(:, :)
+      real(wp) :: copy(size(a, 1), size(a, 2)), values(minval(shape(a)))
 
-      smallest = 0.0_wp
-      largest = 0.0_wp
-      if (size(values) == 0) return
-      call make_dense_gram(a, gram)
-      call tridiagonalise(gram, t)
-      call ends_of(t, ends)
-      if (ends(1) > max(least_square, least_part*ends(2)) .and. ends(2) < 1/least_square) then
-         ends = sqrt(ends)
-      else
-         copy = a
-         call singular_values(copy, values, error)
-         ends = values([size(values), 1])
-      end if
-      smallest = ends(1)
-      largest = ends(2)
-   end subroutine find_ends
+      copy = a
+      call singular_values(copy, values, error)
+      smallest = values(size(values))
+      largest = values(1)
+   end subroutine decompose_ends
 end module flexact_lowest_pairs

@@ -19,7 +19,7 @@ module flexact_sensitivity
    use flexact_vectors, only: cross
    implicit none
    private
-   public :: sensitivity_t, find_sensitivities
+   public :: sensitivity_t, find_sensitivities, find_sensitivities_within
 
    !> Of several that change as much as can be told, the first is named.
    real(wp), parameter :: more = 1 + 1.0e-6_wp
@@ -60,6 +60,19 @@ contains
       type(sensitivity_t), intent(out) :: found(:)
       logical, intent(in), optional :: only_margins
       type(partition_t) :: partition
+
+      call make_partition(model, partition)
+      call find_sensitivities_within(model, partition, u, v, pair, found, only_margins)
+   end subroutine find_sensitivities
+
+   !> The same where the rows and columns of D(c) are numbered already.
+   subroutine find_sensitivities_within(model, partition, u, v, pair, found, only_margins)
+      type(model_t), intent(in) :: model
+      type(partition_t), intent(in) :: partition
+      real(wp), intent(in) :: u(:, :), v(:, :)
+      integer, intent(in) :: pair(:, :)
+      type(sensitivity_t), intent(out) :: found(:)
+      logical, intent(in), optional :: only_margins
       type(geometry_t) :: geometry
       real(wp), allocatable :: by_node(:, :, :)
       real(wp) :: ue(6, size(u, 2)), ve(12, size(v, 2)), effect(parameters), nothing(2)
@@ -68,7 +81,6 @@ contains
 
       with_lifts = .true.
       if (present(only_margins)) with_lifts = .not. only_margins
-      call make_partition(model, partition)
       ! Behind the effects of each node stands what is nothing beside them.
       allocate (by_node(axes + 1, size(pair, 2), model%nodes), source=0.0_wp)
       do k = 1, model%elements
@@ -84,7 +96,7 @@ contains
       end do
       call find_moves(model, by_node, found)
       if (with_lifts) call add_lifts_of_nodes(model, by_node, found)
-   end subroutine find_sensitivities
+   end subroutine find_sensitivities_within
 
    !> Rows of a matrix by their numbers; zeros for number 0.
    pure subroutine gather(matrix, number, rows)

@@ -3,6 +3,7 @@
 program test_decomposition
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use flexact_kinds, only: wp
+   use flexact_bidiagonal, only: bidiagonal_t, is_worth_steps, bidiagonalise, find_all_vectors, find_lowest_vectors
    use flexact_decomposition, only: method_svd, method_jacobi, is_feasible, decompose_by, singular_values_by
    use flexact_error, only: error_t, is_kind, error_convergence
    use flexact_orthonormal, only: orthonormalise
@@ -32,6 +33,11 @@ program test_decomposition
       call test_known(method)
       call test_extreme(method)
       call test_not_finite(method)
+   end do
+   do n = 13, 60, 47
+      call test_steps(n, 1.0e-4_wp, .true.)
+      call test_steps(n, 1.0e-7_wp, .false.)
+      call test_steps(n, 1.0_wp + 1.0_wp/n, .false.)
    end do
    call test_pivoted(40, 30, 12)
    call test_pivoted(30, 40, 29)
@@ -100,6 +106,45 @@ contains
       call tally%check(.not. allocated(error), 'status without vectors, '//name_of(method))
       call tally%near(alone, s, 1.0e-13_wp, 'values without vectors, '//name_of(method))
    end subroutine test_random
+
+   !> In steps: the same values, all vectors the same, and those of the smallest values up to
+   !> signs. The smallest is `least`; what is too near to zero, or to the next, has none.
+   subroutine test_steps(n, least, is_apart)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: least
+      logical, intent(in) :: is_apart
+      real(wp), dimension(n, n) :: a, copy, u, vt, left, right
+      real(wp) :: s(n), values(n)
+      type(bidiagonal_t) :: form
+      type(error_t), allocatable :: error
+      logical :: is_found
+      integer :: k
+
+      a = random_of_rank(n, n, n)
+      copy = a
+      call decompose_by(method_svd, copy, s, u, vt, error)
+      s = [(2.0_wp - real(k, wp)/n, k=1, n - 1), least]
+      a = matmul(u*spread(s, 1, n), vt)
+      copy = a
+      call decompose_by(method_svd, copy, s, u, vt, error)
+      call tally%check(is_worth_steps(a), 'worth steps')
+      call bidiagonalise(a, form, values, error)
+      call tally%check(.not. allocated(error), 'status of steps')
+      call tally%near(values, s, 1.0e-13_wp, 'values in steps')
+      call find_lowest_vectors(form, values, left, right, is_found)
+      call tally%check(is_found .eqv. is_apart, 'whether vectors are clear')
+      if (is_found) then
+         call check_zero(left(:, :n - 6), 0.0_wp, 'no other left vectors')
+         do k = n - 5, n
+            call tally%near(matmul(a, right(k, :)), s(k)*left(:, k), 1.0e-13_wp, 'a pair')
+            call tally%near([abs(dot_product(u(:, k), left(:, k))), abs(dot_product(vt(k, :), right(k, :)))], &
+                            [1.0_wp, 1.0_wp], 1.0e-11_wp, 'a pair of vectors')
+         end do
+      end if
+      call find_all_vectors(form, left, right, error)
+      call check_zero(left - u, 1.0e-15_wp, 'all left vectors')
+      call check_zero(right - vt, 1.0e-15_wp, 'all right vectors')
+   end subroutine test_steps
 
    !> [3 0; 4 5] has the singular values 3 sqrt(5) and sqrt(5).
    subroutine test_known(method)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from divided import MAKERS, Division
 
 import flexact
 from flexact import Model, Verdict, analyse, grid, sweep
@@ -71,6 +72,20 @@ def same_as_analysis(table: flexact.Table, models: list[Model]) -> None:
             assert math.isnan(row["condition_number"])
         else:
             assert row["condition_number"] == pytest.approx(one.condition_number, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", MAKERS)
+@pytest.mark.parametrize("scale", [1e-4, 3e-2])
+def test_rows_of_beams_that_count_as_one_are_their_analyses(name: str, scale: float) -> None:
+    """Until they bend so far that they are one sheet no more, or one has no length."""
+    model = MAKERS[name](Division(beams=4, amplitude=1e-4, against=True))
+    rng = np.random.default_rng(7)
+    places = model.positions + scale * rng.standard_normal((8, *model.positions.shape))
+    row = list(model.data.chains[0].positions)
+    places[7, row[1]] = places[7, row[2]]
+    table = sweep(model, positions=places, want="values")
+    same_as_analysis(table[:7], [model.with_positions(each) for each in places[:7]])
+    assert "length" in table[7]["error"]
 
 
 @pytest.mark.parametrize("want", ["verdict", "values", "all"])

@@ -26,8 +26,6 @@ from .sparse_basis import Sparse, index_of
 #: How many zeros are looked at, and each against how many vectors of the other side.
 MOST_ZEROS = 8
 MOST_OTHERS = 64
-#: Singular values that differ by less than this part are equal, and places that move by less.
-_ALIKE, _TIED = 1.0e-9, 1.0e-6
 #: Pairs times nodes and elements: what may be spent (a good second for a large model).
 MOST_WORK = 1_000_000
 
@@ -123,11 +121,10 @@ class Evidence:
         if not most:
             return ()
         each = np.arange(most, dtype=np.int32)
-        stress, motion = settled(raw.pair_value, raw.pair_stress, raw.pair_motion)
         found = calls.find_sensitivities(
             outcome.data.packed,
-            raw.row_scale[:, None] * stress[:, :most],
-            raw.column_scale[:, None] * motion[:, :most],
+            raw.row_scale[:, None] * raw.pair_stress[:, :most],
+            raw.column_scale[:, None] * raw.pair_motion[:, :most],
             np.stack((each, each)),
         )
         return _named(outcome, raw.pair_value[:most], *found)
@@ -157,35 +154,6 @@ class Evidence:
         values[of_zero < given.size] = given[of_zero[of_zero < given.size]]
         named = _named(outcome, values, *found)
         return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
-
-
-def settled(
-    value: FloatArray, stress: FloatArray, motion: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Pairs of vectors (rows, k) and (columns, k), of equal values in a basis of its own.
-
-    Of equal values, as symmetry makes them, any turned pairs are such pairs, and rounding, which
-    differs by machine, decides on them. Here the motions are turned so that the place that moves
-    most in them all is moved by the first alone, and so on; the stresses follow. Values whose
-    equals may go on behind the last are left as they are.
-    """
-    stress, motion = stress.copy(), motion.copy()
-    cuts = np.flatnonzero(np.diff(value) > _ALIKE * value[1:]) + 1
-    for first, last in zip([0, *cuts], [*cuts, value.size], strict=True):
-        if last - first < 2 or (last == value.size == calls.MOST_PAIRS):
-            continue
-        for k in range(first, last - 1):
-            left = motion[:, k:last]
-            size = np.linalg.norm(left, axis=1)
-            row = left[int(np.argmax(size > (1.0 - _TIED) * size.max()))]
-            # Takes the row onto the first of the vectors.
-            way = row / np.linalg.norm(row)
-            mirror = way - np.eye(way.size)[0]
-            if (far := float(mirror @ mirror)) > 0.0:
-                turn = np.eye(way.size) - 2.0 / far * np.outer(mirror, mirror)
-                motion[:, k:last] = left @ turn
-                stress[:, k:last] = stress[:, k:last] @ turn
-    return stress, motion
 
 
 def largest_remainder(outcome: Decomposition) -> tuple[float, float] | None:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -33,7 +33,7 @@ from ..deck.rendering import DeckError, ModelError
 from ..model.data import ModelData
 from ..model.model import Model
 from ..model.parts.chains import perhaps_condensed
-from ..model.parts.condensing import condensed
+from ..model.parts.condensing import Condensed, condensed, places_in, ways_on
 from ..model.variation import classes_held, varied
 from ..util import machine as memory
 from ..util.machine import processors
@@ -244,6 +244,8 @@ def made_by(make: Make, row: Row) -> ModelData:
 
 
 Columns = dict[str, np.ndarray]
+#: So many variants are tried until one is sound.
+_MOST_TRIED = 3
 #: So many variants at once: some milliseconds of work, and few numbers.
 _MOST_AT_ONCE = 256
 _VERDICTS = np.array([v.value for v in (Verdict.EXACT, Verdict.UNDER, Verdict.OVER, Verdict.BOTH)])
@@ -271,26 +273,68 @@ def swept(
         for c in columns_of(want)
     }
     made["error"] = np.full(count, "", object)
-    # Where only positions differ, what is held does not.
-    common = _perhaps_condensed(every.taken(slice(0, 1))) if every.held is None else None
     threads = workers or processors()
     step = max(1, min(_MOST_AT_ONCE, -(-count // (4 * threads))))
     room = memory.allowance() / threads
+    parts = [
+        _Alike(alike.which[first : first + step], alike.whole, alike.by_core)
+        for alike in _alike(every)
+        for first in range(0, alike.which.size, step)
+    ]
 
-    def run(first: int) -> int:
-        some = slice(first, min(first + step, count))
-        _fill(every.taken(some), want, room, common, {k: v[some] for k, v in made.items()})
-        return some.stop - first
+    def run(alike: _Alike) -> int:
+        _fill(every, alike, want, room, made)
+        return alike.which.size
 
     done = 0
-    for number in _in_threads(run, range(0, count, step), threads):
+    for number in _in_threads(run, parts, threads):
         done += number
         if progress is not None:
             progress("analysing variants", done / count)
     return made
 
 
-def _in_threads(run: Callable[[int], int], items: Sequence[int], threads: int) -> Iterator[int]:
+class _Alike(NamedTuple):
+    """Variants of which the same rows of beams count as one beam each."""
+
+    which: np.ndarray
+    whole: Condensed | None
+    """What is analysed in their place; None: what they are, unless rows may count as one."""
+    by_core: bool
+    """Whether the core is asked; else they are analysed one by one."""
+
+
+def _alike(every: Positions) -> Iterator[_Alike]:
+    """All variants in groups."""
+    index = np.arange(every.count)
+    positions = every.positions
+    if positions is None or every.held is not None:
+        yield _Alike(index, None, True)
+        return
+    # Where only positions differ, what is held does not.
+    if not _perhaps_condensed(every.taken(slice(0, 1))).all():
+        yield _Alike(index, None, True)
+        return
+    on = ways_on(every.data, places_in(every.data, positions))
+    if not on.size:
+        yield _Alike(index, None, True)
+        return
+    patterns, pattern_of = np.unique(on, axis=0, return_inverse=True)
+    for k, pattern in enumerate(patterns):
+        members = index[pattern_of.ravel() == k]
+        whole = None
+        for i in members[:_MOST_TRIED].tolist() if (pattern >= 0).all() else ():
+            data = varied(every.data, positions[i], None)
+            if not data.problems.errors:
+                whole = condensed(data)
+                break
+        yield _Alike(members, whole, whole is not None)
+
+
+Item = TypeVar("Item")
+
+
+def _in_threads(run: Callable[[Item], int], items: Sequence[Item], threads: int) -> Iterator[int]:
     if threads == 1 or len(items) < 2:
         yield from map(run, items)
         return
@@ -303,22 +347,29 @@ def _perhaps_condensed(some: Positions) -> BoolArray:
     return perhaps_condensed(some.data.arrays, some.data.element_names, some.classes())
 
 
-def _fill(some: Positions, want: str, room: float, common: BoolArray | None, part: Columns) -> None:
-    """Put what is known of some variants into their part of the columns; room: bytes."""
-    condensed = _perhaps_condensed(some) if common is None else common
-    decided = np.zeros(some.count, np.bool_)
-    if not condensed.all():
-        known, by_core = _decided_by_core(some, want != "verdict", room)
-        decided = by_core & ~condensed
+def _fill(every: Positions, alike: _Alike, want: str, room: float, made: Columns) -> None:
+    """Put what is known of some variants into the columns; room: bytes that may be used."""
+    index, whole = alike.which, alike.whole
+    some = every.taken(index)
+    analysed, is_so = some, np.full(index.size, alike.by_core)
+    if whole is not None and some.positions is not None:
+        analysed = Positions(whole.data, some.positions[:, whole.nodes], None)
+        is_so = whole.holds_at(places_in(some.data, some.positions))
+    elif some.held is not None:
+        is_so = ~_perhaps_condensed(some)
+    decided = np.zeros(index.size, np.bool_)
+    if is_so.any():
+        known, by_core = _decided_by_core(analysed, want != "verdict", room)
+        decided = by_core & is_so
         for name, array in known.items():
-            part[name][decided] = array[decided]
+            made[name][index[decided]] = array[decided]
     for i in np.flatnonzero(~decided).tolist():
         try:
             row = row_of(result_of(varied(some.data, *some.one(i)), Asked()), want)
         except (AnalysisError, DeckError, ModelError) as error:
             row = error_row(in_a_line(error), want)
         for name, value in row.items():
-            part[name][i] = value
+            made[name][index[i]] = value
 
 
 def _decided_by_core(some: Positions, with_values: bool, room: float) -> tuple[Columns, BoolArray]:

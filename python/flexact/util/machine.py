@@ -87,9 +87,12 @@ def address_space(limits: dict[int, float] | None = None, root: Path = _ROOT) ->
 def _limits() -> dict[int, float]:
     if sys.platform == "win32":
         return {}
-    places = {0: resource.RLIMIT_AS, 5: resource.RLIMIT_DATA}
-    soft = {place: resource.getrlimit(limit)[0] for place, limit in places.items()}
-    return {place: float(most) for place, most in soft.items() if most != resource.RLIM_INFINITY}
+    of_space, of_data = (
+        resource.getrlimit(resource.RLIMIT_AS),
+        resource.getrlimit(resource.RLIMIT_DATA),
+    )
+    soft = ((0, of_space[0]), (5, of_data[0]))
+    return {place: float(most) for place, most in soft if most != resource.RLIM_INFINITY}
 
 
 def _of_machine(root: Path = _ROOT) -> float:

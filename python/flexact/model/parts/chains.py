@@ -16,8 +16,8 @@ from .forms import PLANAR, XY, XZ, Form, forms_of
 #: Cosine of the largest angle between neighbours in a row; between those of one name.
 _IN_ROW = 0.7071
 _OF_ONE_NAME = 0.2588
-#: Rounding of a cosine, with room.
-_SLACK = 1e-9
+#: Rounding of a cosine, with room; and what is clearly more.
+_SLACK, _CLEAR = 1e-9, 1e-6
 #: A row whose ends are nearer to each other than this part of its length is no sheet.
 _STRAIGHTNESS = 0.5
 #: Deformation at the other end of a beam, by deformation, both from 0.
@@ -151,9 +151,18 @@ def chains_of(
 
 
 def _is_stretched(arrays: ModelArrays, row: Chain) -> bool:
-    place = arrays.node_value[:3, list(row.positions)].T
-    arc = float(np.linalg.norm(np.diff(place, axis=0), axis=1).sum())
-    return float(np.linalg.norm(place[-1] - place[0])) > _STRAIGHTNESS * arc
+    return bool(stretch_of(arrays.node_value[:3, list(row.positions)].T) > 0.0)
+
+
+def stretch_of(place: FloatArray) -> FloatArray:
+    """(...,) by how much the ends of rows are farther apart than those of no sheet, in lengths.
+
+    Args:
+        place: (..., nodes of a row, 3).
+    """
+    arc = np.linalg.norm(np.diff(place, axis=-2), axis=-1).sum(axis=-1)
+    ends = np.linalg.norm(place[..., -1, :] - place[..., 0, :], axis=-1)
+    return np.asarray(ends - _STRAIGHTNESS * arc)
 
 
 def perhaps_condensed(arrays: ModelArrays, names: Sequence[str], classes: IntArray) -> BoolArray:
@@ -238,25 +247,85 @@ def _go_on(
 ) -> bool:
     """Whether two beams, each by its index and the end that is joined, continue each other."""
     (i, at_i), (j, at_j) = one, other
-    if arrays.element_kind[i] != arrays.element_kind[j]:
+    limit = _limit_of(arrays, names, one, other)
+    if limit is None:
         return False
-    # In the sense of the row: i ends where j begins.
-    first, second = _classes_of(arrays, i, at_i == 0), _classes_of(arrays, j, at_j == 1)
-    inner = ((3, 2), (5, 4)) if arrays.deformation_class[3, i] else ((2, 1),)
-    if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
-        return False
-    if not _may_be_one_part(names, i, j):
-        return False
-    mine = part_name(names[i])
-    limit = _OF_ONE_NAME if mine and mine == part_name(names[j]) else _IN_ROW
     along = _direction(arrays, i) * (1.0 if at_i == 1 else -1.0)
     if not along @ _direction(arrays, j) * (1.0 if at_j == 0 else -1.0) > limit:
         return False
-    if Class.FIXED not in first[2:] or np.array_equal(*arrays.element_vector[:, [i, j]].T):
+    if not _turns_with_frame(arrays, one, j):
         return True
     # Their local y axes are nearly one line.
     across = frames()[[i, j], :, 1]
     return bool(abs(across[0] @ across[1]) > _IN_ROW)
+
+
+def _limit_of(
+    arrays: ModelArrays, names: Sequence[str], one: tuple[int, int], other: tuple[int, int]
+) -> float | None:
+    """Above which cosine between them two beams continue each other; None: at no angle."""
+    (i, at_i), (j, at_j) = one, other
+    if arrays.element_kind[i] != arrays.element_kind[j]:
+        return None
+    # In the sense of the row: i ends where j begins.
+    first, second = _classes_of(arrays, i, at_i == 0), _classes_of(arrays, j, at_j == 1)
+    inner = ((3, 2), (5, 4)) if arrays.deformation_class[3, i] else ((2, 1),)
+    if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
+        return None
+    if not _may_be_one_part(names, i, j):
+        return None
+    mine = part_name(names[i])
+    return _OF_ONE_NAME if mine and mine == part_name(names[j]) else _IN_ROW
+
+
+def _turns_with_frame(arrays: ModelArrays, one: tuple[int, int], other: int) -> bool:
+    """Whether it counts how a beam is turned against its neighbour."""
+    i, at_i = one
+    vectors = arrays.element_vector[:, [i, other]].T
+    return Class.FIXED in _classes_of(arrays, i, at_i == 0)[2:] and not np.array_equal(*vectors)
+
+
+class Links(NamedTuple):
+    """Pairs of beams that continue each other at some angle.
+
+    Attributes:
+        way: (2, 2, pairs) position nodes between which the one and the other beam go on.
+        limit: (pairs,) cosine above which they do.
+        by_frame: (pairs,) whether it counts, too, how they are turned against each other.
+    """
+
+    way: IntArray
+    limit: FloatArray
+    by_frame: BoolArray
+
+    def go_on(self, place: FloatArray) -> IntArray:
+        """(variants, pairs) whether they do with the nodes at (variants, nodes, 3): 1, 0.
+
+        What is not clear is -1.
+        """
+        with np.errstate(all="ignore"):
+            way = place[:, self.way[:, 1]] - place[:, self.way[:, 0]]
+            lengths = np.sqrt(np.einsum("vbpi,vbpi->vbp", way, way)).prod(axis=1)
+            above = np.einsum("vpi,vpi->vp", way[:, 0], way[:, 1]) - self.limit * lengths
+            found = np.where(above > _CLEAR * lengths, np.where(self.by_frame, -1, 1), -1)
+            return np.where(above < -_CLEAR * lengths, 0, found).astype(np.int8)
+
+
+def links_of(arrays: ModelArrays, names: Sequence[str]) -> Links:
+    """The pairs of beams of a model that may go on in line."""
+    ways, limits, by_frame = [], [], []
+    for one, other in _as_pairs(*_joined(arrays, _is_bendable(arrays))):
+        limit = _limit_of(arrays, names, one, other)
+        if limit is None:
+            continue
+        # From the far end of the one to the joint, and on to that of the other.
+        (i, at_i), (j, at_j) = one, other
+        ends = [(2 - 2 * at_i, i), (2 * at_i, i)], [(2 * at_j, j), (2 - 2 * at_j, j)]
+        ways.append([[arrays.element_node[end] - 1 for end in way] for way in ends])
+        limits.append(limit)
+        by_frame.append(_turns_with_frame(arrays, one, j))
+    way = np.array(ways, np.int32).reshape(-1, 2, 2).T
+    return Links(way, np.array(limits), np.array(by_frame, np.bool_))
 
 
 def _classes_of(arrays: ModelArrays, element: int, turned: bool) -> tuple[int, ...]:

@@ -12,15 +12,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core.arrays import FloatArray, IntArray, ModelArrays
-from ...core.elements import Class
+from ...core.arrays import BoolArray, FloatArray, IntArray, ModelArrays
+from ...core.elements import Class, NodeKind
 from ...util.records import Frozen, cached_property
 from ..data import Appearance, ModelData
 from ..names import part_name
-from .chains import Chain
+from .chains import Chain, links_of, stretch_of
 
 #: Sine below which a vector is taken for one along the chord.
 _ALONG = 1.0e-3
+#: Of lengths, sines and cosines: what is clearly more than nothing.
+_CLEAR = 1.0e-6
+#: Lengths that are clearly within the range of what is analysed [m].
+_SIZES = (1.0e-80, 1.0e80)
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +50,52 @@ class Condensed(Frozen):
     def inner(self) -> tuple[InnerNodes, ...]:
         """The nodes inside the chains, in their order."""
         return tuple(_inner_nodes(self.given.arrays, chain) for chain in self.chains)
+
+    def holds_at(self, place: FloatArray) -> BoolArray:
+        """(variants,) whether clearly the same rows are one beam each also in another geometry.
+
+        Then `data` with its nodes there is the model that is analysed, and no beam inside of a
+        row is without a length or has its vector along it. What is not clear is False.
+
+        Args:
+            place: (variants, nodes of `given`, 3) [m], in which the same pairs of beams go on as
+                `ways_on` says.
+        """
+        holds = np.ones(len(place), np.bool_)
+        with np.errstate(all="ignore"):
+            for chain in self.given.chains:
+                row = place[:, list(chain.positions)]
+                way = np.diff(row, axis=1)
+                length = np.linalg.norm(way, axis=2)
+                holds &= stretch_of(row) > _CLEAR * length.sum(axis=1)
+                if chain in self.chains:
+                    least = np.maximum(_CLEAR * np.abs(row).max(axis=(1, 2)), _SIZES[0])
+                    holds &= ((length > least[:, None]) & (length < _SIZES[1])).all(axis=1)
+                    holds &= self._keeps_vector(chain, row, way / length[:, :, None])
+        return holds
+
+    def _keeps_vector(self, chain: Chain, row: FloatArray, along: FloatArray) -> BoolArray:
+        """(variants,) whether the y vector of the one beam is the one given to all, `_vector_of`.
+
+        Args:
+            chain: Its row.
+            row: (variants, nodes of the row, 3) [m].
+            along: (variants, beams, 3) unit vectors from node to node.
+        """
+        given = self.given.arrays.element_vector[:, list(chain.elements)].T
+        vector = given[0]
+        if not np.all(given == vector):
+            return np.zeros(len(row), np.bool_)
+        if not vector.any():
+            return np.ones(len(row), np.bool_)
+        vector = vector / np.linalg.norm(vector)
+        chord = row[:, [-1]] - row[:, [0]]
+        along = np.append(along, chord / np.linalg.norm(chord, axis=2, keepdims=True), axis=1)
+        across = vector - (along @ vector)[:, :, None] * along
+        # From beam to beam it stays on one side.
+        products = np.sum(across[:, 1:-1] * across[:, :-2], axis=2)
+        clearly = np.linalg.norm(across, axis=2) > 10.0 * _ALONG
+        return np.asarray(clearly.all(axis=1) & (products > _CLEAR).all(axis=1))
 
     def motion(
         self, displacement: FloatArray, rotation: FloatArray
@@ -251,6 +301,24 @@ def condensed(data: ModelData) -> Condensed:
         nodes,
         elements,
     )
+
+
+def ways_on(data: ModelData, place: FloatArray) -> IntArray:
+    """(variants, pairs) which pairs of beams go on in line, 1 or 0, or -1 where that is not clear.
+
+    Where the same do, and rows of them are stretched in both, rows of beams are the same.
+
+    Args:
+        data: The model.
+        place: (variants, nodes, 3) [m], as `places_in` gives them.
+    """
+    return links_of(data.arrays, data.element_names).go_on(place)
+
+
+def places_in(data: ModelData, positions: FloatArray) -> FloatArray:
+    """(variants, nodes, 3) of positions [m], of which what is no coordinate is zero."""
+    is_planar = (data.arrays.node_kind == NodeKind.PLANAR_POSITION).any()
+    return positions * [1.0, 1.0, 0.0] if is_planar else positions
 
 
 def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
