@@ -231,6 +231,7 @@ contains
       integer :: j, t, p
 
       above = pattern%side > 0
+      inverse = 0.0_wp
       shift = shift_of(least, pattern%terms, traces_of(pattern, gram))
       associate (start => pattern%of_factor%start, pair => pattern%of_factor%pair)
          do j = 1, pattern%side

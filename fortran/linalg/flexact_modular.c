@@ -62,19 +62,26 @@ static uint64_t montgomery(uint64_t a, uint64_t b, uint64_t modulus, uint64_t in
     return high < other ? high + (modulus - other) : high - other;
 }
 
+/* The inverse of an odd number modulo 2**64: each step doubles the bits that are right, three at first. */
+static uint64_t inverse_of(uint64_t odd)
+{
+    uint64_t inverse = odd;
+    for (int step = 0; step < 5; step++) inverse *= 2 - odd * inverse;
+    return inverse;
+}
+
 /* Miller's and Rabin's test with the first twelve primes, which no number below 2**64 passes
  * that is composite (Sorenson and Webster, Mathematics of Computation 86, 2017). Numbers are
  * held times 2**64. */
 static int is_prime(uint64_t n)
 {
     static const uint64_t base[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
-    uint64_t odd = n - 1, inverse = n, one;
+    uint64_t odd = n - 1, one;
+    const uint64_t inverse = inverse_of(n);
     int twos = 0;
     for (size_t i = 0; i < sizeof base / sizeof *base; i++)
         if (n % base[i] == 0) return n == base[i];
     for (; odd % 2 == 0; odd /= 2) twos++;
-    /* Each step doubles the bits that are right, of which there are three at first. */
-    for (int step = 0; step < 5; step++) inverse *= 2 - n * inverse;
     one = -n % n;
     for (size_t i = 0; i < sizeof base / sizeof *base; i++) {
         uint64_t x = one, a = times(base[i], one, n);
@@ -132,13 +139,8 @@ int64_t flexact_modular_inverse(int64_t a, int64_t prime)
 void flexact_modular_multiples(int count, int64_t *number, int64_t factor, int64_t modulus)
 {
     const uint64_t m = (uint64_t)modulus, f = (uint64_t)factor;
-    uint64_t inverse = m;
-    /* Each step doubles the number of bits that are right, three at first. */
-    for (int step = 0; step < 5; step++) inverse *= 2 - m * inverse;
-    for (int j = 0; j < count; j++) {
-        const uint64_t a = (uint64_t)number[j], taken = times_high(f * a * inverse, m), high = times_high(f, a);
-        number[j] = (int64_t)(high < taken ? high + m - taken : high - taken);
-    }
+    const uint64_t inverse = inverse_of(m);
+    for (int j = 0; j < count; j++) number[j] = (int64_t)montgomery(f, (uint64_t)number[j], m, inverse);
 }
 
 /* row := row + factor * pivot, all below twice the modulus, which factor is below. Products with
