@@ -9,17 +9,19 @@ Levenberg and Marquardt's method, with corrections across the motion, so that it
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.limits import ZERO_AT_REFERENCE
+from ..analysis.limits import ZERO_AT_REFERENCE, ZERO_ELSEWHERE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
 from ..util.matrices import complement
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
+from .bordered import Bordered, Smallest, smallest_of
 from .constraints import Held, Place
 
 _MOST_STEPS = 12
@@ -41,57 +43,90 @@ class Near(NamedTuple):
 class Chart:
     """Coordinates of the configurations near one."""
 
-    def __init__(self, held: Held, middle: Configuration, rank: int) -> None:
-        """Decompose D(c) there, of a given rank."""
-        self.held, self.middle = held, middle
-        left, _, right = np.linalg.svd(held.at(middle).jacobian)
-        self.left, self.rest = left[:, :rank], left[:, rank:]
-        self.right, self.null = right[:rank].T, right[rank:].T
+    def __init__(self, middle: Place, rank: int, smallest: Smallest | None = None) -> None:
+        """Find the null vectors of D(c) there, of a given rank.
+
+        Args:
+            middle: Where it is.
+            rank: Of D(c).
+            smallest: Singular values of the scaled matrix there, where it is large.
+        """
+        self.held, self.middle, self.rank = middle.held, middle, rank
+        if self.held.is_small:
+            left, _, right = np.linalg.svd(middle.jacobian)
+            self.rest, self.null = left[:, rank:], right[rank:].T
+        else:
+            known = smallest or smallest_of(middle.scaled, ZERO_ELSEWHERE)
+            rest, null = middle.unscaled(*known.null(rank))
+            self.rest, self.null = np.linalg.qr(rest)[0], np.linalg.qr(null)[0]
+
+    def bordered(self, place: Place) -> Bordered:
+        """The derivatives at a place, bordered with the null vectors of the middle."""
+        return Bordered(place.matrix, self.rest, self.null)
+
+    @cached_property
+    def _sign(self) -> float:
+        return self.bordered(self.middle).sign
+
+    def sign(self, place: Place) -> float:
+        """-1 where a singular value passes zero between the middle and a place.
+
+        The determinant of the bordered matrix is that of U' D V, U and V across the null vectors,
+        but for a sign that stays; at the middle U' D V is regular.
+        """
+        return self.bordered(place.here).sign * self._sign
 
     def near(self, ahead: FloatArray) -> Near | None:
         """The place after a change (n,) in the null space; None where Newton finds none."""
-        start, limits = np.zeros(self.right.shape[1]), (_MOST_STEPS, _ROUNDING, _SHRINKS)
-        return solved(self.held, self.middle, ahead, (self.left, self.right), start, limits)
+        limits = _MOST_STEPS, _ROUNDING, _SHRINKS
+        return solved(self.middle, ahead, (self.rest, self.null), np.zeros(ahead.size), limits)
+
+    def nulls(self, place: Place) -> FloatArray:
+        """(n, n - rank) orthonormal null vectors at a place that is near, of the same rank."""
+        if self.held.is_small:
+            return np.asarray(np.linalg.svd(place.here.jacobian)[2][self.rank :].T)
+        rows, many = self.held.shape[0], self.null.shape[1]
+        vectors = self.bordered(place.here).solved(np.zeros((rows, many)), np.eye(many))[0]
+        return np.asarray(np.linalg.qr(vectors)[0])
 
 
 def solved(
-    held: Held,
-    middle: Configuration,
+    middle: Configuration | Place,
     ahead: FloatArray,
-    bases: tuple[FloatArray, FloatArray],
-    share: FloatArray,
+    nulls: tuple[FloatArray, FloatArray],
+    across: FloatArray,
     limits: tuple[int, float, float],
 ) -> Near | None:
-    """The place, by Newton's method, at which some combinations of the held deformations are zero.
+    """The place, by Newton's method, at which the held deformations are zero but for a few.
 
     Args:
-        held: What is held.
         middle: Where it begins.
         ahead: (n,) a change that stays.
-        bases: Orthonormal columns: the combinations, and the changes that are sought.
-        share: With so much of these it begins.
+        nulls: Orthonormal columns: combinations of the held deformations that are left out, and
+            changes to which those that are sought are across.
+        across: (n,) with this of those it begins.
         limits: How many steps; up to where a correction that no longer gets smaller is rounding;
             by how much they have to.
 
     Returns:
         None where it does not converge.
     """
-    (left, right), (most, rounding, shrinks), last = bases, limits, np.inf
+    (most, rounding, shrinks), last = limits, np.inf
+    still = np.zeros(nulls[1].shape[1])
     for _ in range(most):
-        across = right @ share
-        place = held.at(middle, ahead + across)
+        place = middle.held.at(middle, ahead + across)
         if not place.is_finite:
             return None
         try:
-            change = np.linalg.solve(left.T @ place.jacobian @ right, left.T @ place.error)
+            change, _ = Bordered(place.matrix, *nulls).solved(place.error, still)
         except np.linalg.LinAlgError:
             return None
-        now = float(np.linalg.norm(change))
+        now = math.sqrt(change @ change)
         if now <= _SETTLED or shrinks * last < now <= rounding:
             return Near(place, across)
-        if now > max(shrinks * last, rounding) or not np.isfinite(now):
+        if not now <= max(shrinks * last, rounding):
             return None
-        share, last = share - change, now
+        across, last = across - change, now
     return None
 
 
@@ -100,21 +135,36 @@ class Station(Frozen):
     """A configuration of a path.
 
     Attributes:
-        within: As `Held` has it, in its unit.
+        place: Where it is.
         arc: How far it is along the path, in sizes: of the node that moves farthest,
             displacements by the size, rotations in radians.
-        residual: The largest held deformation, lengths by the size, angles in radians.
         tangent: (n,) along the path, displacements by the size, rotations in radians; norm 1.
         rank: How many singular values of the scaled matrix, theory.md (2), are not zero.
         signed: The smallest of these, with a sign that changes where it passes zero.
+        smallest: The smallest singular values of that matrix.
     """
 
-    within: Configuration
+    place: Place
     arc: float
-    residual: float
     tangent: FloatArray
     rank: int
     signed: float
+    smallest: Smallest
+
+    @property
+    def within(self) -> Configuration:
+        """As `Held` has it, in its unit."""
+        return self.place.configuration
+
+    @property
+    def residual(self) -> float:
+        """The largest held deformation, lengths by the size, angles in radians."""
+        return self.place.residual
+
+    @cached_property
+    def chart(self) -> Chart:
+        """Coordinates of what is near."""
+        return Chart(self.place, self.rank, self.smallest)
 
     @property
     def directions(self) -> int:
@@ -125,19 +175,22 @@ class Station(Frozen):
 class Between:
     """The path between two stations, by the share of the way."""
 
-    def __init__(self, held: Held, one: Station, other: Station) -> None:
+    def __init__(self, one: Station, other: Station) -> None:
         """Use the chart of the end with the higher rank: there the path is regular."""
-        self.held, self.one, self.other = held, one, other
+        self.one, self.other = one, other
         self.is_backward = one.rank < other.rank
         self.base, self.far = (other, one) if self.is_backward else (one, other)
-        self.chart = Chart(held, self.base.within, self.base.rank)
+        self.chart, self.held = self.base.chart, one.place.held
         along = self.base.tangent
-        way = float(along @ held.difference(self.base.within, self.far.within))
+        way = float(along @ self.held.way(self.base.place.value, self.far.place.value))
         self._way = way * along
+        self._known: dict[float, Near | None] = {}
 
     def near(self, share: float) -> Near | None:
         """The place at a share of the way, also a little outside of it."""
-        return self.chart.near(self.ahead(share))
+        if share not in self._known:
+            self._known[share] = self.chart.near(self.ahead(share))
+        return self._known[share]
 
     def ahead(self, share: float) -> FloatArray:
         """(n,) the change in the null space, from the chart's middle, at a share of the way."""
@@ -145,16 +198,15 @@ class Between:
 
     def direction(self, near: Near) -> FloatArray:
         """(n,) the tangent at a place, of norm 1."""
-        jacobian = self.held.at(near.place.configuration).jacobian
-        right = np.linalg.svd(jacobian)[2]
-        null = right[self.base.rank :].T
+        null = self.chart.nulls(near.place)
         along = null @ (null.T @ self.base.tangent)
         return np.asarray(along / np.linalg.norm(along))
 
 
-def arc_between(held: Held, here: Station, where: Configuration, along: FloatArray) -> float:
+def arc_between(here: Station, where: Place, along: FloatArray) -> float:
     """How far the node goes that moves farthest: on arcs of circles over the chords."""
-    chord = np.linalg.norm(held.at_nodes(held.difference(here.within, where)), axis=1)
+    held = where.held
+    chord = np.linalg.norm(held.at_nodes(held.way(here.place.value, where.value)), axis=1)
     before, behind = held.at_nodes(here.tangent), held.at_nodes(along)
     sizes = np.linalg.norm(before, axis=1) * np.linalg.norm(behind, axis=1)
     cosine = np.sum(before * behind, axis=1) / np.where(sizes > 0.0, sizes, 1.0)
@@ -169,16 +221,16 @@ _CUT = 1.0e-4
 _FARTHEST = 0.5
 
 
-def settle(held: Held, start: Place, ahead: FloatArray, step: float) -> Place | None:
+def settle(start: Place, ahead: FloatArray, step: float) -> Place | None:
     """The place after a step, where the held deformations are least; None without any near.
 
     Args:
-        held: What is held.
         start: Where the step begins.
         ahead: (n,) its direction, of norm one.
         step: Its length.
     """
-    here, went = held.at(start.configuration, step * ahead), 0.0
+    held = start.held
+    here, went = held.at(start, step * ahead), 0.0
     for _ in range(_MOST_STEPS):
         if not here.is_finite:
             return None
@@ -191,7 +243,7 @@ def settle(held: Held, start: Place, ahead: FloatArray, step: float) -> Place | 
         went += correction
         if went > _FARTHEST * step:
             return None
-        here = held.at(held.moved(here.configuration, back))
+        here = held.at(here, back).here
     return None
 
 
@@ -219,7 +271,7 @@ class Passing(NamedTuple):
     """A place between two stations."""
 
     arc: float
-    where: Configuration
+    where: Place
     tangent: FloatArray
     """(n,) along the path, of norm 1."""
 
@@ -278,14 +330,14 @@ def _refined(
     weights = np.array(rest) / apart.prod(axis=1)
     changes = [way.ahead(s) + near.across for s, near in zip(shares.tolist(), known, strict=True)]
     change = np.asarray(weights @ np.array(changes))
-    where = way.held.at(way.chart.middle, change).configuration
+    where = way.held.at(way.chart.middle, change).here
     tangent = weights @ np.array([way.direction(near) for near in known])
-    rank = int(np.count_nonzero(way.held.values(where) > _SMALL))
-    near = Chart(way.held, where, rank).near(np.zeros(change.size))
+    smallest = smallest_of(where.scaled, _SMALL, way.base.smallest)
+    near = Chart(where, smallest.rank(_SMALL), smallest).near(np.zeros(change.size))
     if near is not None:
-        where = near.place.configuration
+        where = near.place.here
     tangent = tangent / np.linalg.norm(tangent)
-    arc = way.one.arc + arc_between(way.held, way.one, where, tangent)
+    arc = way.one.arc + arc_between(way.one, where, tangent)
     if about + share < 0.0:
         arc = 2.0 * way.one.arc - arc
     return Passing(arc, where, tangent)
@@ -328,8 +380,9 @@ def least_error(held: Held, direction: FloatArray, distance: float) -> tuple[flo
     Returns:
         Their norm, and the largest of them; lengths by the size, angles in radians.
     """
-    rank = int(np.count_nonzero(held.values(held.reference) > ZERO_AT_REFERENCE))
-    chart = Chart(held, held.reference, rank)
+    start = held.at(held.reference)
+    smallest = smallest_of(start.scaled, ZERO_AT_REFERENCE)
+    chart = Chart(start, smallest.rank(ZERO_AT_REFERENCE), smallest)
     place = least_near(chart, direction * (distance / held.reach(direction))).place
     return float(np.linalg.norm(place.error)), place.residual
 
@@ -362,11 +415,9 @@ def _in_chart(chart: Chart, ahead: FloatArray, along: FloatArray) -> FloatArray:
         near = chart.near(ahead + free @ share)
         if near is None or float(np.linalg.norm(share)) > float(np.linalg.norm(ahead)):
             return None
-        jacobian = near.place.jacobian
-        across_null = np.linalg.solve(
-            chart.left.T @ jacobian @ chart.right, chart.left.T @ jacobian @ free
-        )
-        slope = chart.rest.T @ jacobian @ (free - chart.right @ across_null)
+        # What the others do, with what is solved for as it is.
+        still = np.zeros((chart.null.shape[1], free.shape[1]))
+        slope = chart.bordered(near.place).solved(near.place.matrix @ free, still)[1]
         return chart.rest.T @ near.place.error, slope
 
     share = np.zeros(free.shape[1])
