@@ -8,6 +8,7 @@ are in full, and numpy has all that they need; large ones are sparse, and scipy 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -18,7 +19,7 @@ from ..util.loading import load
 
 #: Row, column and value of the entries of a matrix; those of one place are added.
 Entries = tuple[IndexArray, IndexArray, FloatArray]
-#: In full, or as a `coo_array` of scipy.
+#: In full, or as a `csc_array` of scipy.
 Matrix = Any
 
 #: Sparse matrices with more borders than this are factorised in full.
@@ -32,10 +33,28 @@ def in_full(entries: Entries, shape: tuple[int, int]) -> FloatArray:
     return flat.astype(np.float64, copy=False).reshape(shape)
 
 
-def of_entries(entries: Entries, shape: tuple[int, int]) -> Matrix:
-    """(m, n) the sparse matrix of some entries."""
-    row, column, value = entries
-    return load("scipy.sparse").coo_array((value, (row, column)), shape=shape)
+class Pattern:
+    """Where entries of a sparse matrix are, so that it is made of their values alone."""
+
+    def __init__(self, entries: Entries, shape: tuple[int, int]) -> None:
+        """Sort them by columns."""
+        self._row, self._column, _ = entries
+        self._shape = shape
+        places, self._slot = np.unique(self._column * shape[0] + self._row, return_inverse=True)
+        column, self._index = np.divmod(places, shape[0])
+        self._index = self._index.astype(np.int32)
+        self._first = np.searchsorted(column, np.arange(shape[1] + 1)).astype(np.int32)
+
+    def fits(self, entries: Entries) -> bool:
+        """Whether others stand at the same places in the same order."""
+        return all(map(np.array_equal, entries, (self._row, self._column)))
+
+    def matrix(self, value: FloatArray) -> Matrix:
+        """(m, n) with some values."""
+        values = np.bincount(self._slot, value, self._index.size)
+        made = load("scipy.sparse").csc_array((values, self._index, self._first), self._shape)
+        made.has_canonical_format = True
+        return made
 
 
 class Bordered:
@@ -54,7 +73,7 @@ class Bordered:
             self._whole[:m, :n] = matrix
         elif s + d > _MOST_BORDERS:
             self._whole = np.zeros((m + d, n + s))
-            np.add.at(self._whole, (matrix.row, matrix.col), matrix.data)
+            self._whole[:m, :n] = matrix.toarray()
         else:
             self._factor = _Sparse(matrix, left, right)
             return
@@ -63,15 +82,17 @@ class Bordered:
             self._factor = _Dense(self._whole)
 
     def solved(self, top: FloatArray, below: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """x (n, ...) and g (s, ...) of A x + U g = `top`, V' x = `below`.
+        """The x (n, ...) and g (s, ...) of A x + U g = `top`, V' x = `below`.
 
         Raises:
             LinAlgError: It is singular.
         """
         return self._solved(top, below, self._shape[1], is_transposed=False)
 
-    def solved_transposed(self, top: FloatArray, below: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """y (m, ...) and h (d, ...) of A' y + V h = `top`, U' y = `below`.
+    def solved_transposed(
+        self, top: FloatArray, below: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """The y (m, ...) and h (d, ...) of A' y + V h = `top`, U' y = `below`.
 
         Raises:
             LinAlgError: It is singular.
@@ -101,14 +122,20 @@ class _Sparse:
 
     def __init__(self, matrix: Matrix, left: FloatArray, right: FloatArray) -> None:
         (m, s), (n, d) = left.shape, right.shape
-        row = (matrix.row, np.repeat(np.arange(m), s), np.tile(np.arange(m, m + d), n))
-        column = (matrix.col, np.tile(np.arange(n, n + s), m), np.repeat(np.arange(n), d))
-        places = np.concatenate(row), np.concatenate(column)
-        value = np.concatenate((matrix.data, left.ravel(), right.ravel()))
+        # To each column d entries are added, and s columns.
+        first = np.concatenate((matrix.indptr + d * np.arange(n + 1), np.full(s, m)))
+        first[n + 1 :] = first[n] + m * np.arange(1, s + 1)
+        index, value = np.empty(first[-1], np.int32), np.empty(first[-1])
+        where = np.arange(matrix.nnz) + d * np.repeat(np.arange(n), np.diff(matrix.indptr))
+        index[where], value[where] = matrix.indices, matrix.data
+        below = first[1 : n + 1, None] - np.arange(d, 0, -1)
+        index[below], value[below] = np.arange(m, m + d), right
+        index[first[n] :], value[first[n] :] = np.tile(np.arange(m), s), left.T.ravel()
         if not np.isfinite(value).all():
             raise np.linalg.LinAlgError
-        sparse = load("scipy.sparse")
-        whole = sparse.coo_array((value, places), shape=(m + d, n + s)).tocsc()
+        shape = m + d, n + s
+        whole = load("scipy.sparse").csc_array((value, index, first.astype(np.int32)), shape)
+        whole.has_canonical_format = True
         try:
             self._lu = load("scipy.sparse.linalg").splu(whole)
         except RuntimeError:
@@ -166,6 +193,12 @@ class Smallest(NamedTuple):
     """(n, d + p) likewise of itself."""
     pairs: int
     """p."""
+    sign: float | None = None
+    """Of the determinant of the matrix bordered with what counts as null vectors; None where it
+    was not made."""
+    passed: float | None = None
+    """-1 where a value passed zero since the matrix that was the guess, else 1; None where the
+    numbers of null vectors differ, or it is not known."""
 
     def rank(self, zero: float) -> int:
         """How many values are larger than one that counts as zero."""
@@ -228,12 +261,13 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
     else:
         left = guess.left[:, : guess.left.shape[1] - guess.pairs]
         right, start = np.split(guess.right, [guess.right.shape[1] - guess.pairs], axis=1)
-    rows = matrix.tocsr()
+    first = True
     for _ in range(_MOST_CHANGES):
+        borders = left, right
         try:
             factor = Bordered(matrix, left, right)
-            right, strains = _null(factor.solved, rows, right.shape[1])
-            left, forces = _null(factor.solved_transposed, rows.T, left.shape[1])
+            right, strains = _null(factor.solved, matrix, right.shape[1])
+            left, forces = _null(factor.solved_transposed, matrix.T, left.shape[1])
         except np.linalg.LinAlgError:
             # There are too few.
             more = max(1, min(left.shape[1], right.shape[1]))
@@ -241,12 +275,14 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
                 np.hstack([each, random.standard_normal((each.shape[0], more))])
                 for each in (left, right)
             )
+            first = False
             continue
         over = max(int(np.count_nonzero(each > zero)) for each in (strains, forces))
         if over > min(left.shape[1], right.shape[1]):
             return None
         if over:
             left, right = left[:, : left.shape[1] - over], right[:, : right.shape[1] - over]
+            first = False
             continue
         pairs = _pairs(factor, (left, right), start, kept, random)
         if pairs is None:
@@ -254,16 +290,21 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
         values, others, start = pairs
         more = int(np.searchsorted(values, zero, "right"))
         if not more:
-            within = np.linalg.svd(left.T @ (rows @ right), compute_uv=False)[::-1]
+            within = np.linalg.svd(left.T @ (matrix @ right), compute_uv=False)[::-1]
+            # [A U; V' 0] is of other borders the determinant times two of small matrices.
+            sign, turns = factor.sign, zip(borders, (left, right), strict=True)
+            own = sign * math.prod(np.linalg.slogdet(a.T @ b)[0] for a, b in turns)
             return Smallest(
                 np.concatenate((within, values)),
                 min(m, n),
                 np.hstack([left, others]),
                 np.hstack([right, start]),
                 values.size,
+                own,
+                sign * guess.sign if guess is not None and guess.sign and first else None,
             )
         left, right = np.hstack([left, others[:, :more]]), np.hstack([right, start[:, :more]])
-        start, kept = start[:, more:], min(2 * kept, 8 * KEPT)
+        start, kept, first = start[:, more:], min(2 * kept, 8 * KEPT), False
     return None
 
 

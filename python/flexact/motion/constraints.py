@@ -20,10 +20,10 @@ from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..core.raw import RawAssembly
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from ..util.records import cached_property
 from ..util import rotations
+from ..util.records import cached_property
 from ..util.rotations import left_jacobian, vector_between
-from .bordered import Entries, Matrix, in_full, of_entries
+from .bordered import Entries, Matrix, Pattern, in_full
 
 #: Of more positions than so many not all pairs are looked at.
 _MANY = 1_500
@@ -120,10 +120,10 @@ class Place:
         """(m, n) the derivatives in full."""
         return in_full(self.entries, self.held.shape)
 
-    @property
+    @cached_property
     def matrix(self) -> Matrix:
         """(m, n) the derivatives, in full where they are few."""
-        return self.held.matrix(self.entries)
+        return self.held.matrix(self.entries, self._turned is not None)
 
     @cached_property
     def scaled(self) -> Matrix:
@@ -192,6 +192,7 @@ class Held:
         self.is_small = self.rows.size * self.columns.size <= _MOST_IN_FULL
         by_size = self.size / self.unit
         moments = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
+        self._patterns: dict[bool, Pattern] = {}
         #: Of deformations and of coordinates in the unit, to those by the size.
         self.row_factor = np.where(moments, 1.0, 1.0 / by_size)
         placed = kinds[self.columns // 3] <= NodeKind.POSITION
@@ -316,9 +317,14 @@ class Held:
     def _raw(self, here: FloatArray) -> RawAssembly:
         return calls.assemble(self._packed, here.T, np.zeros(self.arrays.element_number.size))
 
-    def matrix(self, entries: Entries) -> Matrix:
-        """(m, n) of entries, in full where they are few."""
-        return in_full(entries, self.shape) if self.is_small else of_entries(entries, self.shape)
+    def matrix(self, entries: Entries, is_turned: bool = False) -> Matrix:
+        """(m, n) of entries, in full where they are few; of turned nodes others are not zero."""
+        if self.is_small:
+            return in_full(entries, self.shape)
+        known = self._patterns.get(is_turned)
+        if known is None or not known.fits(entries):
+            known = self._patterns[is_turned] = Pattern(entries, self.shape)
+        return known.matrix(entries[2])
 
     @cached_property
     def weight(self) -> FloatArray:

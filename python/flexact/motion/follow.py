@@ -17,7 +17,7 @@ from ..analysis.limits import TRUE, ZERO_ELSEWHERE
 from ..core.arrays import FloatArray
 from ..util.records import Frozen
 from .bordered import Smallest, smallest_of
-from .constraints import Held
+from .constraints import Held, Place
 from .stations import (
     Between,
     Chart,
@@ -131,11 +131,16 @@ def signed_value(chart: Chart, smallest: Smallest) -> Callable[[Near], float]:
     def value(near: Near) -> float:
         if not chart.rank:
             return 0.0
-        place = near.place
-        found = smallest_of(place.scaled, ZERO_ELSEWHERE, smallest)
-        return chart.sign(place) * found.value(chart.rank - 1)
+        found = smallest_of(near.place.scaled, ZERO_ELSEWHERE, smallest)
+        return _sign(chart, near.place, found) * found.value(chart.rank - 1)
 
     return value
+
+
+def _sign(chart: Chart, place: Place, smallest: Smallest) -> float:
+    """-1 where a value passes zero between the middle of a chart, the guess, and a place."""
+    known = smallest.right.shape[1] - smallest.pairs == chart.null.shape[1]
+    return smallest.passed if known and smallest.passed is not None else chart.sign(place)
 
 
 def branch_between(one: Station, other: Station, zero: float) -> Station | None:
@@ -352,7 +357,7 @@ class _Walk:
                 self.failed = Stop(Ending.TURNS_BACK, step, residual)
             return None
         # Which way singular values passed zero is known where the rank is the same.
-        sign = here.chart.sign(where) if rank == here.rank else 1.0
+        sign = _sign(here.chart, where, smallest) if rank == here.rank else 1.0
         sign *= float(np.sign(here.signed) or 1.0)
         arc = here.arc + arc_between(here, where, along)
         signed = sign * smallest.value(rank - 1) if rank else 0.0

@@ -27,17 +27,23 @@ from .constraints import Held, Place
 _MOST_STEPS = 12
 #: A correction below this part of the size is rounding, where it no longer gets smaller.
 _SETTLED = 1.0e-15
-_ROUNDING = 1.0e-11
+_ROUNDING, _ROUNDING_NEAR = 1.0e-11, 2.0e-14
 #: Corrections have to get smaller by this.
 _SHRINKS = 0.6
+#: The factors of a large matrix are kept while corrections get smaller by this, and with those
+#: there may be more steps by this factor.
+_KEEPS, _OF_KEPT = 0.02, 3
 
 
-class Near(NamedTuple):
+@dataclass(eq=False)
+class Near:
     """A place near the middle of a chart."""
 
     place: Place
     across: FloatArray
     """(n,) the change of the coordinates that is not in the null space."""
+    factor: Bordered
+    """Of the derivatives there, or a little beside."""
 
 
 class Chart:
@@ -76,17 +82,44 @@ class Chart:
         """
         return self.bordered(place.here).sign * self._sign
 
-    def near(self, ahead: FloatArray) -> Near | None:
-        """The place after a change (n,) in the null space; None where Newton finds none."""
-        limits = _MOST_STEPS, _ROUNDING, _SHRINKS
-        return solved(self.middle, ahead, (self.rest, self.null), np.zeros(ahead.size), limits)
+    def near(
+        self,
+        ahead: FloatArray,
+        across: FloatArray | None = None,
+        factor: Bordered | None = None,
+    ) -> Near | None:
+        """The place after a change (n,) in the null space; None where Newton finds none.
 
-    def nulls(self, place: Place) -> FloatArray:
+        Args:
+            ahead: The change.
+            across: (n,) where it begins, not in the null space.
+            factor: Of a place near that.
+        """
+        nulls, still = (self.rest, self.null), np.zeros(ahead.size)
+        if across is not None:
+            # What begins near its end has no steps that show how small rounding is.
+            limits = _MOST_STEPS, _ROUNDING_NEAR, _SHRINKS
+            found = solved(self.middle, ahead, nulls, across, limits, factor)
+            if found is not None:
+                return found
+        return solved(self.middle, ahead, nulls, still, (_MOST_STEPS, _ROUNDING, _SHRINKS))
+
+    def nulls(self, near: Near) -> FloatArray:
         """(n, n - rank) orthonormal null vectors at a place that is near, of the same rank."""
-        if self.held.is_small:
-            return np.asarray(np.linalg.svd(place.here.jacobian)[2][self.rank :].T)
-        rows, many = self.held.shape[0], self.null.shape[1]
-        vectors = self.bordered(place.here).solved(np.zeros((rows, many)), np.eye(many))[0]
+        place, many = near.place.here, self.null.shape[1]
+        vectors, still = np.zeros((self.null.shape[0], many)), np.eye(many)
+        last = np.inf
+        for _ in range(0 if self.held.is_small else _MOST_STEPS):
+            change, _ = near.factor.solved(-(place.matrix @ vectors), still - self.null.T @ vectors)
+            now = float(np.linalg.norm(change))
+            vectors += change
+            if now <= _SETTLED * math.sqrt(many) or _SHRINKS * last < now <= _ROUNDING:
+                return np.asarray(np.linalg.qr(vectors)[0])
+            if not now <= _KEEPS * last:
+                break
+            last = now
+        rows = self.held.shape[0]
+        vectors = self.bordered(place).solved(np.zeros((rows, many)), np.eye(many))[0]
         return np.asarray(np.linalg.qr(vectors)[0])
 
 
@@ -96,6 +129,7 @@ def solved(
     nulls: tuple[FloatArray, FloatArray],
     across: FloatArray,
     limits: tuple[int, float, float],
+    factor: Bordered | None = None,
 ) -> Near | None:
     """The place, by Newton's method, at which the held deformations are zero but for a few.
 
@@ -107,26 +141,35 @@ def solved(
         across: (n,) with this of those it begins.
         limits: How many steps; up to where a correction that no longer gets smaller is rounding;
             by how much they have to.
+        factor: Of a place near where it begins, of a large matrix.
 
     Returns:
         None where it does not converge.
     """
     (most, rounding, shrinks), last = limits, np.inf
-    still = np.zeros(nulls[1].shape[1])
-    for _ in range(most):
-        place = middle.held.at(middle, ahead + across)
+    still, held = np.zeros(nulls[1].shape[1]), middle.held
+    for _ in range(most if held.is_small else _OF_KEPT * most):
+        place = held.at(middle, ahead + across)
         if not place.is_finite:
             return None
+        kept = factor
         try:
-            change, _ = Bordered(place.matrix, *nulls).solved(place.error, still)
+            factor = kept or Bordered(place.matrix, *nulls)
+            change, _ = factor.solved(place.error, still)
         except np.linalg.LinAlgError:
             return None
         now = math.sqrt(change @ change)
+        if kept and now > max(_KEEPS * last, rounding):
+            factor = Bordered(place.matrix, *nulls)
+            change, _ = factor.solved(place.error, still)
+            now, kept = math.sqrt(change @ change), None
         if now <= _SETTLED or shrinks * last < now <= rounding:
-            return Near(place, across)
+            return Near(place, across, factor)
         if not now <= max(shrinks * last, rounding):
             return None
         across, last = across - change, now
+        # Small ones are factorised as fast as they are made.
+        factor = None if held.is_small else factor
     return None
 
 
@@ -172,12 +215,23 @@ class Station(Frozen):
         return self.tangent.size - self.rank
 
 
+#: From so many known places on a way the next one is foretold.
+_OF_NEAREST = 5
+
+
 class Between:
     """The path between two stations, by the share of the way."""
 
-    def __init__(self, one: Station, other: Station) -> None:
-        """Use the chart of the end with the higher rank: there the path is regular."""
-        self.one, self.other = one, other
+    def __init__(self, one: Station, other: Station, *, is_regular: bool = False) -> None:
+        """Use the chart of the end with the higher rank: there the path is regular.
+
+        Args:
+            one: Where it begins.
+            other: Where it ends.
+            is_regular: Whether nothing between them is singular, so that what is known of some
+                places helps to find others.
+        """
+        self.one, self.other, self.is_regular = one, other, is_regular
         self.is_backward = one.rank < other.rank
         self.base, self.far = (other, one) if self.is_backward else (one, other)
         self.chart, self.held = self.base.chart, one.place.held
@@ -185,11 +239,23 @@ class Between:
         way = float(along @ self.held.way(self.base.place.value, self.far.place.value))
         self._way = way * along
         self._known: dict[float, Near | None] = {}
+        self._tangents: dict[Near, FloatArray] = {}
 
     def near(self, share: float) -> Near | None:
         """The place at a share of the way, also a little outside of it."""
         if share not in self._known:
-            self._known[share] = self.chart.near(self.ahead(share))
+            known = {s: near for s, near in self._known.items() if near is not None}
+            # At the middle nothing is across.
+            middle = float(self.is_backward)
+            known.pop(middle, None)
+            nearest = sorted(known, key=lambda each: abs(each - share))[:_OF_NEAREST]
+            shares = np.array([middle, *nearest])
+            across, factor = None, None
+            if nearest and self.is_regular and not self.held.is_small:
+                weights = _weights(shares, share)[1:]
+                across = weights @ np.array([known[each].across for each in nearest])
+                factor = known[nearest[0]].factor
+            self._known[share] = self.chart.near(self.ahead(share), across, factor)
         return self._known[share]
 
     def ahead(self, share: float) -> FloatArray:
@@ -198,9 +264,11 @@ class Between:
 
     def direction(self, near: Near) -> FloatArray:
         """(n,) the tangent at a place, of norm 1."""
-        null = self.chart.nulls(near.place)
-        along = null @ (null.T @ self.base.tangent)
-        return np.asarray(along / np.linalg.norm(along))
+        if near not in self._tangents:
+            null = self.chart.nulls(near)
+            along = null @ (null.T @ self.base.tangent)
+            self._tangents[near] = along / np.linalg.norm(along)
+        return self._tangents[near]
 
 
 def arc_between(here: Station, where: Place, along: FloatArray) -> float:
@@ -255,8 +323,9 @@ def onward(here: Place, direction: FloatArray) -> FloatArray:
     return np.asarray(along / length) if length > _FARTHEST else direction
 
 
-#: Halvings, and the points on both sides, as shares of the way from one station to the other.
-_HALVINGS = 9
+#: Parts of the way from one station to the other to which places are narrowed down; fewer where
+#: nothing is singular; and the points on both sides of one, as shares.
+_PARTS, _FEWER_PARTS = 1_000, 50
 _POINTS = 0.02 * np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
 #: Golden sections before a touch is refined.
 _SECTIONS = 12
@@ -277,23 +346,33 @@ class Passing(NamedTuple):
 
 
 def passing(way: Between, function: Function) -> Passing | None:
-    """Where a function of the place passes zero on the way; None where it cannot be found."""
-    low, high = 0.0, 1.0
-    first, last = way.near(low), way.near(high)
+    """Where a function of the place passes zero on the way; None where it cannot be found.
+
+    Where nothing is singular, places are those of a coarse grid, so that other functions that
+    pass zero near meet them again.
+    """
+    low, high = 0, _FEWER_PARTS if way.is_regular else _PARTS
+    parts = high
+    first, last = way.near(0.0), way.near(1.0)
     if first is None or last is None:
         return None
-    sign = np.sign(function(first))
-    if sign == np.sign(function(last)):
+    below, above = function(first), function(last)
+    sign = np.sign(below)
+    if sign == np.sign(above):
         return None
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        near = way.near(middle)
+    while high - low > 1:
+        middle = (low + high) // 2
+        near = way.near(middle / parts)
         value = 0.0 if near is None else function(near)
         if value == 0.0:
-            low = high = middle
+            low, below = middle, value
             break
-        low, high = (middle, high) if np.sign(value) == sign else (low, middle)
-    return _refined(way, function, 0.5 * (low + high), is_touching=False)
+        if np.sign(value) == sign:
+            low, below = middle, value
+        else:
+            high, above = middle, value
+    about = low if abs(below) < abs(above) else high
+    return _refined(way, function, about / parts, is_touching=False)
 
 
 def touching(way: Between, function: Function, low: float) -> Passing | None:
@@ -314,7 +393,8 @@ def touching(way: Between, function: Function, low: float) -> Passing | None:
 def _refined(
     way: Between, function: Function, about: float, *, is_touching: bool
 ) -> Passing | None:
-    shares = about + _POINTS
+    # Rounded, so that shares of a grid are the same however they were found.
+    shares = np.round(about + _POINTS, 12)
     places = [way.near(share) for share in shares.tolist()]
     known = [near for near in places if near is not None]
     if len(known) < len(places):
@@ -323,11 +403,7 @@ def _refined(
     share = _root(_POINTS, values, is_touching)
     if share is None:
         return None
-    # The weights of values at the points in the polynomial's value at the root.
-    apart = _POINTS[:, None] - _POINTS
-    np.fill_diagonal(apart, 1.0)
-    rest = [np.prod(np.delete(share - _POINTS, k)) for k in range(_POINTS.size)]
-    weights = np.array(rest) / apart.prod(axis=1)
+    weights = _weights(_POINTS, share)
     changes = [way.ahead(s) + near.across for s, near in zip(shares.tolist(), known, strict=True)]
     change = np.asarray(weights @ np.array(changes))
     where = way.held.at(way.chart.middle, change).here
@@ -341,6 +417,14 @@ def _refined(
     if about + share < 0.0:
         arc = 2.0 * way.one.arc - arc
     return Passing(arc, where, tangent)
+
+
+def _weights(points: FloatArray, place: float) -> FloatArray:
+    """The weights of values at some points in the value of their polynomial at a place."""
+    apart, way = points[:, None] - points, np.tile(place - points, (points.size, 1))
+    np.fill_diagonal(apart, 1.0)
+    np.fill_diagonal(way, 1.0)
+    return np.asarray(way.prod(axis=1) / apart.prod(axis=1))
 
 
 def _root(points: FloatArray, values: FloatArray, of_slope: bool) -> float | None:
@@ -399,7 +483,8 @@ def least_near(chart: Chart, ahead: FloatArray) -> Near:
 
     share = descend(errors, np.zeros(basis.shape[1]), _STATIONS_MOST_STEPS)
     correction = change + basis @ share
-    return Near(held.at(chart.middle, ahead + correction), correction)
+    place = held.at(chart.middle, ahead + correction)
+    return Near(place, correction, chart.bordered(place))
 
 
 def _in_chart(chart: Chart, ahead: FloatArray, along: FloatArray) -> FloatArray:

@@ -20,9 +20,19 @@ from ..core.elements import NodeKind
 from ..model.model import Model
 from ..model.parts.parts import natural
 from ..model.reading import read
-from ..motion import Ending, Followed, Held, Place, Station, Wishes, follow, is_followed, least_error
-from ..motion.constraints import MOST_COORDINATES
+from ..motion import (
+    Ending,
+    Followed,
+    Held,
+    Place,
+    Station,
+    Wishes,
+    follow,
+    is_followed,
+    least_error,
+)
 from ..motion.bordered import Smallest, smallest_of
+from ..motion.constraints import MOST_COORDINATES
 from ..motion.stations import Between, passing
 from ..show.drawing.movement import pose_in, poses_with_inner_nodes
 from ..show.drawing.pose import Pose
@@ -453,7 +463,7 @@ class Stroke:
         rates = (self._rate(each.place, each.tangent) for each in (one, other))
         turns = math.prod(rates) < 0.0
         if turning or turns:
-            between = Between(one, other)
+            between = Between(one, other, is_regular=not (branches or turns))
             if turns:
                 place = passing(
                     between,
