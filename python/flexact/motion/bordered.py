@@ -193,6 +193,8 @@ class Smallest(NamedTuple):
     """(n, d + p) likewise of itself."""
     pairs: int
     """p."""
+    beside: FloatArray
+    """(n, ...) where vectors of further values are sought."""
     sign: float | None = None
     """Of the determinant of the matrix bordered with what counts as null vectors; None where it
     was not made."""
@@ -219,9 +221,11 @@ class Smallest(NamedTuple):
 
 #: How many of the smallest values of a sparse matrix are found beside those that count as zero.
 KEPT = 6
-#: Vectors beside those, columns, steps, and what is left of a pair of vectors when it is found,
-#: as a part of the square of its value's inverse: of the value it is the square of that.
-_BESIDE, _MOST_VECTORS, _LEFT = 2, 160, 1.0e-7
+#: Vectors of further values, which make those converge, new ones, and columns of a space at most.
+_BESIDE, _NEW, _MOST_VECTORS = 6, 2, 160
+#: What is left of a pair of vectors when it is found, as a part of the square of its value's
+#: inverse: of the value the square of that is left.
+_LEFT = 1.0e-7
 Solved = Callable[[FloatArray, FloatArray], "tuple[FloatArray, FloatArray]"]
 #: How often borders are changed.
 _MOST_CHANGES = 40
@@ -241,7 +245,7 @@ def smallest_of(matrix: Matrix, zero: float, guess: Smallest | None = None) -> S
     if isinstance(matrix, np.ndarray):
         values = np.linalg.svd(matrix, compute_uv=False)[::-1]
         none = np.zeros((0, 0))
-        return Smallest(values, values.size, none, none, 0)
+        return Smallest(values, values.size, none, none, 0, none)
     try:
         found = _smallest_of_sparse(matrix, zero, guess)
     except np.linalg.LinAlgError:
@@ -249,7 +253,8 @@ def smallest_of(matrix: Matrix, zero: float, guess: Smallest | None = None) -> S
     if found is not None:
         return found
     left, values, right = np.linalg.svd(matrix.toarray())
-    return Smallest(values[::-1], values.size, left[:, ::-1], right[::-1].T, values.size)
+    left, right = left[:, ::-1], right[::-1].T
+    return Smallest(values[::-1], values.size, left, right, values.size, right[:, :0])
 
 
 def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> Smallest | None:
@@ -261,6 +266,7 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
     else:
         left = guess.left[:, : guess.left.shape[1] - guess.pairs]
         right, start = np.split(guess.right, [guess.right.shape[1] - guess.pairs], axis=1)
+        start = np.hstack([start[:, : KEPT + _BESIDE], guess.beside])
     first = True
     for _ in range(_MOST_CHANGES):
         borders = left, right
@@ -288,6 +294,7 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
         if pairs is None:
             return None
         values, others, start = pairs
+        start, beside = start[:, : values.size], start[:, values.size :]
         more = int(np.searchsorted(values, zero, "right"))
         if not more:
             within = np.linalg.svd(left.T @ (matrix @ right), compute_uv=False)[::-1]
@@ -300,11 +307,12 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
                 np.hstack([left, others]),
                 np.hstack([right, start]),
                 values.size,
+                beside,
                 own,
                 sign * guess.sign if guess is not None and guess.sign and first else None,
             )
         left, right = np.hstack([left, others[:, :more]]), np.hstack([right, start[:, :more]])
-        start, kept, first = start[:, more:], min(2 * kept, 8 * KEPT), False
+        start, kept, first = np.hstack([start[:, more:], beside]), min(2 * kept, 8 * KEPT), False
     return None
 
 
@@ -333,16 +341,17 @@ def _pairs(
 ) -> tuple[FloatArray, FloatArray, FloatArray] | None:
     """The smallest singular values but those of null vectors, and left and right vectors.
 
-    By the block Krylov space of the pseudoinverse and its transpose. None if it gets too large.
+    There are more of the right vectors, which may be those of further values. By the block Krylov space of the pseudoinverse and its transpose. None if it gets too large.
     """
     left, right = null
 
     def across(basis: FloatArray, vectors: FloatArray) -> FloatArray:
         return np.asarray(vectors - basis @ (basis.T @ vectors))
 
-    width = kept + _BESIDE
-    beside = random.standard_normal((right.shape[0], width))
-    beside[:, : min(start.shape[1], kept)] = start[:, :kept]
+    given = start[:, : kept + _BESIDE]
+    new = random.standard_normal((right.shape[0], max(_NEW, kept - given.shape[1])))
+    beside = np.hstack([given, new])
+    width = beside.shape[1]
     block = np.linalg.qr(across(right, across(right, beside)))[0]
     zeros = [np.zeros((each.shape[1], width)) for each in (right, left)]
     space, images = np.zeros((right.shape[0], 0)), np.zeros((left.shape[0], 0))
@@ -361,5 +370,6 @@ def _pairs(
         if np.all(left_over <= _LEFT * squares[-kept:]):
             others, inverse, turned = np.linalg.svd(images, full_matrices=False)
             with np.errstate(divide="ignore"):
-                return 1.0 / inverse[:kept], others[:, :kept], space @ turned[:kept].T
+                found = space @ turned[: kept + _BESIDE].T
+                return 1.0 / inverse[:kept], others[:, :kept], found
     return None

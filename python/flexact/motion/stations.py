@@ -406,10 +406,13 @@ def _refined(
     weights = _weights(_POINTS, share)
     changes = [way.ahead(s) + near.across for s, near in zip(shares.tolist(), known, strict=True)]
     change = np.asarray(weights @ np.array(changes))
-    where = way.held.at(way.chart.middle, change).here
     tangent = weights @ np.array([way.direction(near) for near in known])
-    smallest = smallest_of(where.scaled, _SMALL, way.base.smallest)
-    near = Chart(where, smallest.rank(_SMALL), smallest).near(np.zeros(change.size))
+    where = way.held.at(way.chart.middle, change).here
+    if way.is_regular and not way.held.is_small:
+        near = way.near(about + share)
+    else:
+        smallest = smallest_of(where.scaled, _SMALL, way.base.smallest)
+        near = Chart(where, smallest.rank(_SMALL), smallest).near(np.zeros(change.size))
     if near is not None:
         where = near.place.here
     tangent = tangent / np.linalg.norm(tangent)
