@@ -26,13 +26,6 @@ Matrix = Any
 _MOST_BORDERS = 40
 
 
-def in_full(entries: Entries, shape: tuple[int, int]) -> FloatArray:
-    """(m, n) the matrix of some entries."""
-    row, column, value = entries
-    flat = np.bincount(row * shape[1] + column, value, shape[0] * shape[1])
-    return flat.astype(np.float64, copy=False).reshape(shape)
-
-
 class Pattern:
     """Where entries of a sparse matrix are, so that it is made of their values alone."""
 

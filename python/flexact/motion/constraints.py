@@ -23,7 +23,7 @@ from ..model.data import ModelData
 from ..util import rotations
 from ..util.records import cached_property
 from ..util.rotations import left_jacobian, vector_between
-from .bordered import Entries, Matrix, Pattern, in_full
+from .bordered import Entries, Matrix, Pattern
 
 #: Of more positions than so many not all pairs are looked at.
 _MANY = 1_500
@@ -118,11 +118,22 @@ class Place:
     @property
     def jacobian(self) -> FloatArray:
         """(m, n) the derivatives in full."""
-        return in_full(self.entries, self.held.shape)
+        held, raw = self.held, self.raw
+        layout = held.layout(raw)
+        m, n = held.shape[0], held.shape[1] + held.beside
+        value = raw.value[layout.chosen] * layout.factor
+        wide = np.bincount(layout.flat, value, m * n).reshape(m, n)
+        if self._turned is not None:
+            # By rotation vectors in place of small rotations, exp(T dv) exp(v).
+            turned = wide[:, held.turned_columns].transpose(1, 0, 2) @ left_jacobian(self._turned)
+            wide[:, held.turned_columns] = turned.transpose(1, 0, 2)
+        return wide[:, : held.shape[1]]
 
     @cached_property
     def matrix(self) -> Matrix:
         """(m, n) the derivatives, in full where they are few."""
+        if self.held.is_small:
+            return self.jacobian
         return self.held.matrix(self.entries, self._turned is not None)
 
     @cached_property
@@ -132,6 +143,13 @@ class Place:
         One length, the geometric mean of all that are not zero, for all connected components.
         """
         held, raw = self.held, self.raw
+        if held.is_small:
+            layout = held.layout(raw)
+            row, value = layout.row, raw.value[layout.there] * layout.weight
+            norm = np.sqrt(np.bincount(row, value * value, held.shape[0]))
+            norm[norm == 0.0] = 1.0
+            value = (value / norm[row])[layout.known]
+            return np.bincount(layout.scaled, value, math.prod(held.shape)).reshape(held.shape)
         row = held.row_place[raw.row_of]
         there = row >= 0
         row, column = row[there], raw.column_of[there]
@@ -154,12 +172,48 @@ class Place:
     @property
     def is_finite(self) -> bool:
         """Whether all is defined here."""
-        return bool(np.isfinite(self.error).all() and np.isfinite(self.entries[2]).all())
+        value = self.raw.value[self.held.layout(self.raw).chosen]
+        return bool(np.isfinite(self.error).all() and np.isfinite(value).all())
 
     @property
     def residual(self) -> float:
         """The largest held deformation."""
         return float(np.abs(self.error).max(initial=0.0))
+
+
+#: So many of these are kept.
+_MOST_LAYOUTS = 4
+
+
+class Layout:
+    """Where the entries of an assembly stand in matrices in full."""
+
+    def __init__(self, held: Held, raw: RawAssembly) -> None:
+        """Of what is held, and an assembly."""
+        self._row_of, self._column_of = raw.row_of, raw.column_of
+        m, n = held.shape
+        row, column = held.row_place[raw.row_of], held.wide_place[raw.column_of]
+        #: Entries of the derivatives, what they are multiplied by, and their places.
+        self.chosen = np.flatnonzero((row >= 0) & (column >= 0))
+        row, column = row[self.chosen], column[self.chosen]
+        factor = np.append(held.column_factor, np.ones(held.beside))
+        turns = held.turn_of[raw.column_of[self.chosen]] >= 0
+        self.factor = held.row_factor[row] * np.where(turns, 1.0, factor[column])
+        self.flat = row * (n + held.beside) + column
+        #: Entries of rows that are held, their rows and what they are multiplied by where rank is
+        #: decided; those of coordinates that may change, and their places.
+        self.there = np.flatnonzero(held.row_place[raw.row_of] >= 0)
+        self.row = held.row_place[raw.row_of[self.there]]
+        self.weight = held.weight[raw.column_of[self.there]]
+        column = held.column_place[raw.column_of[self.there]]
+        self.known = np.flatnonzero(column >= 0)
+        self.scaled = self.row[self.known] * n + column[self.known]
+
+    def fits(self, raw: RawAssembly) -> bool:
+        """Whether the entries of another assembly stand at the same places."""
+        return np.array_equal(raw.column_of, self._column_of) and np.array_equal(
+            raw.row_of, self._row_of
+        )
 
 
 class Held:
@@ -208,6 +262,14 @@ class Held:
         self.turn_of = np.full(dependent.size, -1)
         for axis in range(3):
             self.turn_of[3 * self._turning + axis] = np.arange(self._turning.size)
+        # Columns of a matrix in full, behind which those stand that turn and are not dependent.
+        whole = (3 * self._turning[:, None] + np.arange(3)).ravel()
+        others = whole[self.column_place[whole] < 0]
+        self.beside = others.size
+        self.wide_place = self.column_place.copy()
+        self.wide_place[others] = self.columns.size + np.arange(others.size)
+        self.turned_columns = self.wide_place[whole].reshape(-1, 3)
+        self._layouts: list[Layout] = []
         # Columns that are added to, with their numbers among those of a configuration.
         self._straight = np.flatnonzero(self.turn_of[self.columns] < 0)
         node, axis = np.divmod(self.columns[self._straight], 3)
@@ -317,10 +379,18 @@ class Held:
     def _raw(self, here: FloatArray) -> RawAssembly:
         return calls.assemble(self._packed, here.T, np.zeros(self.arrays.element_number.size))
 
+    def layout(self, raw: RawAssembly) -> Layout:
+        """Where the entries of an assembly stand, which are mostly the same."""
+        for known in self._layouts:
+            if known.fits(raw):
+                return known
+        made = Layout(self, raw)
+        # Some are zero at the reference, some in a place that is passed.
+        self._layouts = [made, *self._layouts[: _MOST_LAYOUTS - 1]]
+        return made
+
     def matrix(self, entries: Entries, is_turned: bool = False) -> Matrix:
-        """(m, n) of entries, in full where they are few; of turned nodes others are not zero."""
-        if self.is_small:
-            return in_full(entries, self.shape)
+        """(m, n) of entries; of turned nodes others are not zero."""
         known = self._patterns.get(is_turned)
         if known is None or not known.fits(entries):
             known = self._patterns[is_turned] = Pattern(entries, self.shape)

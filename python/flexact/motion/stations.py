@@ -150,8 +150,6 @@ def solved(
     still, held = np.zeros(nulls[1].shape[1]), middle.held
     for _ in range(most if held.is_small else _OF_KEPT * most):
         place = held.at(middle, ahead + across)
-        if not place.is_finite:
-            return None
         kept = factor
         try:
             factor = kept or Bordered(place.matrix, *nulls)
