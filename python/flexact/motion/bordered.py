@@ -22,6 +22,8 @@ Entries = tuple[IndexArray, IndexArray, FloatArray]
 #: In full, or as a `csc_array` of scipy.
 Matrix = Any
 
+#: Scaled singular values up to here are rounding.
+_ROUNDING = 1.0e-13
 #: Sparse matrices with more borders than this are factorised in full.
 _MOST_BORDERS = 40
 
@@ -202,6 +204,10 @@ class Smallest(NamedTuple):
     def value(self, index: int) -> float:
         """One of them by its index, from 0, in descending order."""
         return float(self.values[self.many - 1 - index])
+
+    def is_clear(self, rank: int) -> bool:
+        """Whether what the rank leaves out are zeros but for rounding."""
+        return rank == self.many or self.value(rank) <= _ROUNDING
 
     def null(self, rank: int) -> tuple[FloatArray, FloatArray]:
         """(m, m - rank) and (n, n - rank), what counts as null vectors if the rank is that."""

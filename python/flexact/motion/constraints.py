@@ -58,7 +58,7 @@ def is_followed(data: ModelData, most: int = MOST_COORDINATES) -> bool:
 
 
 #: Rows times columns up to which matrices are made in full, as nothing is faster then.
-_MOST_IN_FULL = 40_000
+_MOST_IN_FULL = 20_000
 
 
 class Place:

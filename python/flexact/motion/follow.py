@@ -84,6 +84,7 @@ class Wishes:
         least: The least step; where one of it fails the path ends.
         steps: How many steps each way at most.
         through: Whether to go straight on where other paths branch off.
+        branches: Whether these places are looked for where it goes straight on.
     """
 
     length: float = 0.1
@@ -92,6 +93,7 @@ class Wishes:
     least: float = 1.0e-5
     steps: int = 2_000
     through: bool = False
+    branches: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -264,6 +266,9 @@ class _Walk:
             arc = last.arc + (there.arc - last.arc) * to_start / (to_start + past_start)
             self.stations.append(replace(start, arc=arc))
             return Stop(Ending.CLOSED)
+        if self.wishes.through and not self.wishes.branches:
+            self.stations.append(there)
+            return None
         branch = branch_between(last, there, self.zero)
         if branch is None and len(self.stations) > 1:
             before = self.stations[-2]
@@ -343,7 +348,7 @@ class _Walk:
         rank = smallest.rank(self.zero)
         if rank > here.rank and smallest.value(here.rank) <= _STILL_ZERO:
             rank = here.rank
-        chart = Chart(where, rank, smallest)
+        chart = Chart(where, rank, smallest, here.chart)
         # What came last, as it is carried along by what was done.
         last_way = here.tangent
         if here.directions > 1 and chart.null.shape[1] > 1:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.limits import ZERO_AT_REFERENCE, ZERO_ELSEWHERE
+from ..analysis.limits import ZERO_AT_REFERENCE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
 from ..util.matrices import complement
@@ -49,22 +49,36 @@ class Near:
 class Chart:
     """Coordinates of the configurations near one."""
 
-    def __init__(self, middle: Place, rank: int, smallest: Smallest | None = None) -> None:
+    def __init__(
+        self, middle: Place, rank: int, smallest: Smallest, near: Chart | None = None
+    ) -> None:
         """Find the null vectors of D(c) there, of a given rank.
 
         Args:
             middle: Where it is.
             rank: Of D(c).
-            smallest: Singular values of the scaled matrix there, where it is large.
+            smallest: Singular values of the scaled matrix there.
+            near: Of a place that is near.
         """
         self.held, self.middle, self.rank = middle.held, middle, rank
-        if self.held.is_small:
+        if not self.held.is_small:
+            nulls = middle.unscaled(*smallest.null(rank))
+        elif near is not None and near.rank == rank and smallest.is_clear(rank):
+            nulls = near.nulls_at(middle)
+        else:
             left, _, right = np.linalg.svd(middle.jacobian)
             self.rest, self.null = left[:, rank:], right[rank:].T
-        else:
-            known = smallest or smallest_of(middle.scaled, ZERO_ELSEWHERE)
-            rest, null = middle.unscaled(*known.null(rank))
-            self.rest, self.null = np.linalg.qr(rest)[0], np.linalg.qr(null)[0]
+            return
+        self.rest, self.null = (np.linalg.qr(each)[0] for each in nulls)
+
+    def nulls_at(self, place: Place) -> tuple[FloatArray, FloatArray]:
+        """(m, m - rank) and (n, n - rank), what is sent to zero at a place of the same rank."""
+        bordered, (m, n) = self.bordered(place), self.held.shape
+        rest, null = np.eye(m - self.rank), np.eye(n - self.rank)
+        return (
+            bordered.solved_transposed(np.zeros((n, m - self.rank)), rest)[0],
+            bordered.solved(np.zeros((m, n - self.rank)), null)[0],
+        )
 
     def bordered(self, place: Place) -> Bordered:
         """The derivatives at a place, bordered with the null vectors of the middle."""
