@@ -120,7 +120,7 @@ class Place:
         """(m, n) the derivatives in full."""
         held, raw = self.held, self.raw
         layout = held.layout(raw)
-        m, n = held.shape[0], held.shape[1] + held.beside
+        m, n = held.shape[0], held.wide_factor.size
         value = raw.value[layout.chosen] * layout.factor
         wide = np.bincount(layout.flat, value, m * n).reshape(m, n)
         if self._turned is not None:
@@ -144,12 +144,12 @@ class Place:
         """
         held, raw = self.held, self.raw
         if held.is_small:
-            layout = held.layout(raw)
-            row, value = layout.row, raw.value[layout.there] * layout.weight
+            there, row, weight, known, flat = held.layout(raw).scaled
+            value = raw.value[there] * weight
             norm = np.sqrt(np.bincount(row, value * value, held.shape[0]))
             norm[norm == 0.0] = 1.0
-            value = (value / norm[row])[layout.known]
-            return np.bincount(layout.scaled, value, math.prod(held.shape)).reshape(held.shape)
+            value = (value / norm[row])[known]
+            return np.bincount(flat, value, math.prod(held.shape)).reshape(held.shape)
         row = held.row_place[raw.row_of]
         there = row >= 0
         row, column = row[there], raw.column_of[there]
@@ -190,24 +190,28 @@ class Layout:
 
     def __init__(self, held: Held, raw: RawAssembly) -> None:
         """Of what is held, and an assembly."""
-        self._row_of, self._column_of = raw.row_of, raw.column_of
-        m, n = held.shape
+        self._held, self._row_of, self._column_of = held, raw.row_of, raw.column_of
         row, column = held.row_place[raw.row_of], held.wide_place[raw.column_of]
         #: Entries of the derivatives, what they are multiplied by, and their places.
         self.chosen = np.flatnonzero((row >= 0) & (column >= 0))
         row, column = row[self.chosen], column[self.chosen]
-        factor = np.append(held.column_factor, np.ones(held.beside))
-        turns = held.turn_of[raw.column_of[self.chosen]] >= 0
-        self.factor = held.row_factor[row] * np.where(turns, 1.0, factor[column])
-        self.flat = row * (n + held.beside) + column
-        #: Entries of rows that are held, their rows and what they are multiplied by where rank is
-        #: decided; those of coordinates that may change, and their places.
-        self.there = np.flatnonzero(held.row_place[raw.row_of] >= 0)
-        self.row = held.row_place[raw.row_of[self.there]]
-        self.weight = held.weight[raw.column_of[self.there]]
-        column = held.column_place[raw.column_of[self.there]]
-        self.known = np.flatnonzero(column >= 0)
-        self.scaled = self.row[self.known] * n + column[self.known]
+        self.factor = held.row_factor[row] * held.wide_factor[column]
+        self.flat = row * held.wide_factor.size + column
+
+    @cached_property
+    def scaled(self) -> tuple[IndexArray, IndexArray, FloatArray, IndexArray, IndexArray]:
+        """Entries of rows that are held, as the matrix has them on which rank is decided.
+
+        Their numbers, rows, and what they are multiplied by; which of them are of coordinates
+        that may change, and the places of these.
+        """
+        held = self._held
+        row = held.row_place[self._row_of]
+        there = np.flatnonzero(row >= 0)
+        row, column = row[there], self._column_of[there]
+        weight, column = held.weight[column], held.column_place[column]
+        known = np.flatnonzero(column >= 0)
+        return there, row, weight, known, row[known] * held.shape[1] + column[known]
 
     def fits(self, raw: RawAssembly) -> bool:
         """Whether the entries of another assembly stand at the same places."""
@@ -265,7 +269,7 @@ class Held:
         # Columns of a matrix in full, behind which those stand that turn and are not dependent.
         whole = (3 * self._turning[:, None] + np.arange(3)).ravel()
         others = whole[self.column_place[whole] < 0]
-        self.beside = others.size
+        self.wide_factor = np.append(self.column_factor, np.ones(others.size))
         self.wide_place = self.column_place.copy()
         self.wide_place[others] = self.columns.size + np.arange(others.size)
         self.turned_columns = self.wide_place[whole].reshape(-1, 3)

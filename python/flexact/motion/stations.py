@@ -316,7 +316,7 @@ def settle(start: Place, ahead: FloatArray, step: float) -> Place | None:
             return None
         # Corrections are across the motion, so that its share stays.
         across = here.jacobian - np.outer(here.jacobian @ ahead, ahead)
-        back = np.asarray(-np.linalg.lstsq(across, here.error, rcond=_CUT)[0], np.float64)
+        back = -_least_squares(across, here.error)
         correction = float(np.linalg.norm(back))
         if correction <= _SETTLE_SETTLED:
             return here
@@ -327,10 +327,24 @@ def settle(start: Place, ahead: FloatArray, step: float) -> Place | None:
     return None
 
 
+def _least_squares(matrix: FloatArray, values: FloatArray) -> FloatArray:
+    """(n,) the shortest with which a matrix (m, n) makes values (m,) best; small ones are zero."""
+    if matrix.shape[0] < matrix.shape[1]:
+        square = matrix @ matrix.T
+        try:
+            inverse = np.linalg.inv(square)
+        except np.linalg.LinAlgError:
+            inverse = np.full((1, 1), np.inf)
+        # Then none of its singular values is as small a part of the largest.
+        if np.linalg.norm(inverse) * np.linalg.norm(square) < _CUT**-2:
+            return np.asarray(matrix.T @ (inverse @ values))
+    return np.asarray(np.linalg.lstsq(matrix, values, rcond=_CUT)[0], np.float64)
+
+
 def onward(here: Place, direction: FloatArray) -> FloatArray:
     """The direction in which it goes on: the last one within the null space."""
-    back = np.linalg.lstsq(here.jacobian, here.jacobian @ direction, rcond=_CUT)[0]
-    along = direction - back
+    jacobian = here.jacobian
+    along = direction - _least_squares(jacobian, jacobian @ direction)
     length = float(np.linalg.norm(along))
     return np.asarray(along / length) if length > _FARTHEST else direction
 
