@@ -25,7 +25,7 @@ Matrix = Any
 #: Scaled singular values up to here are rounding.
 _ROUNDING = 1.0e-13
 #: Sparse matrices with more borders than this are factorised in full.
-_MOST_BORDERS = 40
+_MOST_BORDERS = 60
 
 
 class Pattern:
@@ -62,7 +62,8 @@ class Bordered:
             LinAlgError: It is singular, or not finite; of a small one where it is solved.
         """
         (m, s), (n, d) = left.shape, right.shape
-        self._shape, self._factor = (m, n), None
+        self._shape = (m, n)
+        self._factor: _Sparse | _Dense | None = None
         if isinstance(matrix, np.ndarray):
             self._whole = np.zeros((m + d, n + s))
             self._whole[:m, :n] = matrix
@@ -99,7 +100,8 @@ class Bordered:
     ) -> tuple[FloatArray, FloatArray]:
         known = np.concatenate((top, below))
         if self._factor is None:
-            made = np.linalg.solve(self._whole.T if is_transposed else self._whole, known)
+            whole = self._whole.T if is_transposed else self._whole
+            made: FloatArray = np.asarray(np.linalg.solve(whole, known), np.float64)
         else:
             made = self._factor.solved(known, is_transposed)
         return made[:first], made[first:]
@@ -131,6 +133,9 @@ class _Sparse:
         shape = m + d, n + s
         whole = load("scipy.sparse").csc_array((value, index, first.astype(np.int32)), shape)
         whole.has_canonical_format = True
+        # SuperLU does not always see that.
+        if load("scipy.sparse.csgraph").structural_rank(whole) < m + d:
+            raise np.linalg.LinAlgError
         try:
             self._lu = load("scipy.sparse.linalg").splu(whole)
         except RuntimeError:
@@ -226,6 +231,8 @@ _BESIDE, _NEW, _MOST_VECTORS = 6, 2, 160
 #: inverse: of the value the square of that is left.
 _LEFT = 1.0e-7
 Solved = Callable[[FloatArray, FloatArray], "tuple[FloatArray, FloatArray]"]
+#: Values up to here that count as zero are far below all others.
+_SURELY = 1.0e-9
 #: How often borders are changed.
 _MOST_CHANGES = 40
 
@@ -252,15 +259,17 @@ def smallest_of(matrix: Matrix, zero: float, guess: Smallest | None = None) -> S
     if found is not None:
         return found
     left, values, right = np.linalg.svd(matrix.toarray())
-    left, right = left[:, ::-1], right[::-1].T
-    return Smallest(values[::-1], values.size, left, right, values.size, right[:, :0])
+    left, values, right = left[:, ::-1], values[::-1], right[::-1].T
+    rank = int(np.count_nonzero(values > zero))
+    return Smallest(values, values.size, left, right, rank, right[:, :0])
 
 
 def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> Smallest | None:
     """By inverse iteration; None where it does not converge."""
     (m, n), random, kept = matrix.shape, np.random.default_rng(0), KEPT
     if guess is None:
-        left, right = (random.standard_normal((k, k - min(m, n))) for k in (m, n))
+        rank = load("scipy.sparse.csgraph").structural_rank(matrix)
+        left, right = (random.standard_normal((k, k - rank)) for k in (m, n))
         start = np.zeros((n, 0))
     else:
         left = guess.left[:, : guess.left.shape[1] - guess.pairs]
@@ -289,11 +298,10 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
             left, right = left[:, : left.shape[1] - over], right[:, : right.shape[1] - over]
             first = False
             continue
-        pairs = _pairs(factor, (left, right), start, kept, random)
+        pairs = _pairs(factor, (left, right), start, kept, zero, random)
         if pairs is None:
             return None
-        values, others, start = pairs
-        start, beside = start[:, : values.size], start[:, values.size :]
+        values, others, found = pairs
         more = int(np.searchsorted(values, zero, "right"))
         if not more:
             within = np.linalg.svd(left.T @ (matrix @ right), compute_uv=False)[::-1]
@@ -304,14 +312,16 @@ def _smallest_of_sparse(matrix: Matrix, zero: float, guess: Smallest | None) -> 
                 np.concatenate((within, values)),
                 min(m, n),
                 np.hstack([left, others]),
-                np.hstack([right, start]),
+                np.hstack([right, found[:, : values.size]]),
                 values.size,
-                beside,
+                found[:, values.size :],
                 own,
                 sign * guess.sign if guess is not None and guess.sign and first else None,
             )
-        left, right = np.hstack([left, others[:, :more]]), np.hstack([right, start[:, :more]])
-        start, kept, first = np.hstack([start[:, more:], beside]), min(2 * kept, 8 * KEPT), False
+        left, right = np.hstack([left, others[:, :more]]), np.hstack([right, found[:, :more]])
+        start = found[:, more:] if found.shape[1] > more else start
+        # Where all are zeros there may be many more.
+        kept, first = 2 * kept if more >= kept else KEPT, False
     return None
 
 
@@ -321,9 +331,9 @@ def _null(solved: Solved, matrix: Matrix, many: int) -> tuple[FloatArray, FloatA
     Raises:
         LinAlgError: The bordered matrix is singular.
     """
-    columns = solved(np.zeros((matrix.shape[0], many)), np.eye(many))[0]
     if not many:
-        return columns, np.zeros(0)
+        return np.zeros((matrix.shape[1], 0)), np.zeros(0)
+    columns = solved(np.zeros((matrix.shape[0], many)), np.eye(many))[0]
     if not np.isfinite(columns).all():
         raise np.linalg.LinAlgError
     basis = np.linalg.qr(columns)[0]
@@ -336,11 +346,14 @@ def _pairs(
     null: tuple[FloatArray, FloatArray],
     start: FloatArray,
     kept: int,
+    zero: float,
     random: np.random.Generator,
 ) -> tuple[FloatArray, FloatArray, FloatArray] | None:
     """The smallest singular values but those of null vectors, and left and right vectors.
 
-    There are more of the right vectors, which may be those of further values. By the block Krylov space of the pseudoinverse and its transpose. None if it gets too large.
+    There are more of the right vectors, which may be those of further values. Where some are
+    zeros, those alone, and only nearly. By the block Krylov space of the pseudoinverse and its
+    transpose. None if it gets too large.
     """
     left, right = null
 
@@ -354,17 +367,25 @@ def _pairs(
     block = np.linalg.qr(across(right, across(right, beside)))[0]
     zeros = [np.zeros((each.shape[1], width)) for each in (right, left)]
     space, images = np.zeros((right.shape[0], 0)), np.zeros((left.shape[0], 0))
-    while space.shape[1] + width <= min(_MOST_VECTORS, *(b.shape[0] - b.shape[1] for b in null)):
+    most = min(max(_MOST_VECTORS, width), *(b.shape[0] - b.shape[1] for b in null))
+    while space.shape[1] + width <= most:
         image = factor.solved_transposed(across(right, block), zeros[1])[0]
         image = across(left, image)
         space, images = np.hstack([space, block]), np.hstack([images, image])
         ahead = across(right, factor.solved(image, zeros[0])[0])
         if not np.isfinite(ahead).all():
             return None
+        squares, shares = np.linalg.eigh(images.T @ images)
+        zeros_here = int(np.count_nonzero(squares * min(zero, _SURELY) ** 2 >= 1.0))
+        if zeros_here:
+            # Beside these nothing else is seen.
+            others, inverse, _ = np.linalg.svd(images, full_matrices=False)
+            found = np.linalg.svd(ahead, full_matrices=False)[0]
+            zeros_here = min(zeros_here, found.shape[1])
+            return 1.0 / inverse[:zeros_here], others[:, :zeros_here], found[:, :zeros_here]
         block, rest = np.linalg.qr(across(space, across(space, ahead)))
         # What is left may be rounding, which need not be across.
         block = np.linalg.qr(across(right, across(space, block)))[0]
-        squares, shares = np.linalg.eigh(images.T @ images)
         left_over = np.linalg.norm(rest @ shares[-width:, -kept:], axis=0)
         if np.all(left_over <= _LEFT * squares[-kept:]):
             others, inverse, turned = np.linalg.svd(images, full_matrices=False)

@@ -40,7 +40,7 @@ def _extent(there: FloatArray) -> float:
     return float(np.sqrt((apart**2).sum(axis=0).max()))
 
 
-#: More coordinates than these are not followed: each step solves a dense system.
+#: More coordinates than these are not followed: of some thousands it would take minutes.
 MOST_COORDINATES = 1_000
 #: A length below this part of its own at first is none; a sine above this is no bending.
 _NO_LENGTH = 1.0e-6
@@ -122,7 +122,7 @@ class Place:
         layout = held.layout(raw)
         m, n = held.shape[0], held.wide_factor.size
         value = raw.value[layout.chosen] * layout.factor
-        wide = np.bincount(layout.flat, value, m * n).reshape(m, n)
+        wide = np.bincount(layout.flat, value, m * n).reshape(m, n).astype(np.float64, copy=False)
         if self._turned is not None:
             # By rotation vectors in place of small rotations, exp(T dv) exp(v).
             turned = wide[:, held.turned_columns].transpose(1, 0, 2) @ left_jacobian(self._turned)
@@ -151,14 +151,14 @@ class Place:
             value = (value / norm[row])[known]
             return np.bincount(flat, value, math.prod(held.shape)).reshape(held.shape)
         row = held.row_place[raw.row_of]
-        there = row >= 0
+        there = np.flatnonzero(row >= 0)
         row, column = row[there], raw.column_of[there]
         value = raw.value[there] * held.weight[column]
         norm = np.sqrt(np.bincount(row, value * value, held.shape[0]))
         norm[norm == 0.0] = 1.0
         self._norm = norm
         column = held.column_place[column]
-        known = column >= 0
+        known = np.flatnonzero(column >= 0)
         row = row[known]
         value = value[known] / norm[row]
         return held.matrix((row, column[known], value))
@@ -276,8 +276,8 @@ class Held:
         self._layouts: list[Layout] = []
         # Columns that are added to, with their numbers among those of a configuration.
         self._straight = np.flatnonzero(self.turn_of[self.columns] < 0)
-        node, axis = np.divmod(self.columns[self._straight], 3)
-        self._numbers = 4 * node + np.where(kinds[node] == NodeKind.ANGLE, 0, axis)
+        node, part = np.divmod(self.columns[self._straight], 3)
+        self._numbers = 4 * node + np.where(kinds[node] == NodeKind.ANGLE, 0, part)
         self._angles = np.flatnonzero(kinds[node] == NodeKind.ANGLE)
         turned = np.flatnonzero(self.turn_of[self.columns] >= 0)
         self._turned = turned
@@ -416,13 +416,14 @@ class Held:
         return math.exp(float(np.log(positive).mean())) if positive.size else 1.0
 
     @cached_property
-    def _ranges(self) -> tuple[IndexArray, IndexArray, IndexArray, FloatArray]:
+    def _ranges(self) -> tuple[IndexArray, tuple[IndexArray, ...], IndexArray, FloatArray]:
         """Elements with a length, their ends, and bendings with what they may be."""
         nodes = self.arrays.element_node - 1
         long = np.flatnonzero((self._lengths > 0.0) & (nodes[2] >= 0))
-        bends = np.isin(role_table()[self.arrays.element_kind], _BENDINGS)
-        bends = np.flatnonzero(bends.ravel())
-        return long, nodes[[0, 2]][:, long], bends, _NO_BENDING * self._lengths[bends // 6]
+        roles = role_table()[self.arrays.element_kind].ravel()
+        bends = np.flatnonzero(np.isin(roles, _BENDINGS))
+        most = np.asarray(_NO_BENDING * self._lengths[bends // 6])
+        return long, (nodes[0, long], nodes[2, long]), bends, most
 
     def beyond(self, here: Place) -> tuple[int, str] | None:
         """An element that has left its range, from 0, and why; None where all are within.

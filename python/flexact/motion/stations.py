@@ -138,7 +138,7 @@ class Chart:
 
 
 def solved(
-    middle: Configuration | Place,
+    middle: Place,
     ahead: FloatArray,
     nulls: tuple[FloatArray, FloatArray],
     across: FloatArray,

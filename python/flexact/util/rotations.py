@@ -109,7 +109,7 @@ def left_jacobian(vector: FloatArray) -> FloatArray:
         made[:, k, k] += straight
         made[:, j, i] += first[:, k]
         made[:, i, j] -= first[:, k]
-    return made
+    return np.asarray(made)
 
 
 def euler_of(matrix: FloatArray) -> FloatArray:
