@@ -6,7 +6,8 @@ import pytest
 from reference_decks import ROOT
 
 import flexact
-from flexact.motion import Ending, Followed, Held, Wishes, follow, least_error
+from flexact.motion import Ending, Followed, Held, Wishes, constraints, follow, least_error
+from flexact.motion.bordered import smallest_of
 from flexact.util.rotations import left_jacobian
 
 DECKS = ROOT / "input_decks"
@@ -160,3 +161,45 @@ def test_singular_values_that_pass_zero_together_are_found() -> None:
         values = np.linalg.svd(np.array(rows), compute_uv=False)
         assert values[-4] > 0.05 and values[-3] < 1e-9
         assert branch.directions == 3
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/sarrus", "frameworks/ring_6", "flexures/six_folded_sheets_undeclared"]
+)
+def test_large_matrices_give_the_paths_of_small_ones(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Sparse with borders, or in full: the same stations, ranks, values and branches."""
+    analysis, wishes = analysed(name), Wishes(length=0.4, through=True)
+    whole = both_ways(analysis, wishes)
+    monkeypatch.setattr(constraints, "_MOST_IN_FULL", 0)
+    for one, other in zip(whole, both_ways(analysis, wishes), strict=True):
+        assert one.stop.ending is other.stop.ending
+        assert len(one.branches) == len(other.branches)
+        for a, b in zip(one.stations, other.stations, strict=True):
+            assert (a.rank, a.arc) == (b.rank, pytest.approx(b.arc, rel=1e-11, abs=1e-14))
+            assert a.within.value == pytest.approx(b.within.value, abs=1e-10)
+            assert a.signed == pytest.approx(b.signed, abs=1e-12)
+            many = b.smallest.values.size
+            assert a.smallest.values[:many] == pytest.approx(b.smallest.values, abs=1e-12)
+
+
+def test_smallest_singular_values_of_sparse_matrices() -> None:
+    """Against LAPACK: zeros are counted, also many, and values that stand twice found twice."""
+    sparse = pytest.importorskip("scipy.sparse")
+    random = np.random.default_rng(11)
+    block = sparse.random_array((60, 60), density=0.06, rng=random) + 2.0 * sparse.eye_array(60)
+    for zeros, rows in ((0, 120), (1, 120), (9, 120), (40, 120), (3, 110), (3, 135)):
+        matrix = sparse.block_diag([block, block]).tolil()
+        matrix[:, :zeros] = 0.0
+        matrix = sparse.vstack([matrix[:rows], random.standard_normal((1, 120)) @ matrix])
+        matrix = sparse.csc_array(matrix)
+        found = smallest_of(matrix, 1e-10)
+        known = np.linalg.svd(matrix.toarray(), compute_uv=False)
+        assert found.rank(1e-10) == np.count_nonzero(known > 1e-10)
+        assert found.values == pytest.approx(known[::-1][: found.values.size], abs=1e-12)
+        again = smallest_of(matrix, 1e-10, found)
+        assert again.values == pytest.approx(found.values, abs=1e-12)
+        left, right = found.null(found.rank(1e-10))
+        assert np.abs(matrix @ right).max(initial=0.0) < 1e-12
+        assert np.abs(matrix.T @ left).max(initial=0.0) < 1e-12

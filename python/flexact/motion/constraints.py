@@ -10,7 +10,6 @@ too few digits are left for differences.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,8 +20,10 @@ from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..core.raw import RawAssembly
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from ..util.records import Frozen, cached_property
+from ..util import rotations
+from ..util.records import cached_property
 from ..util.rotations import left_jacobian, vector_between
+from .bordered import Entries, Matrix, Pattern
 
 #: Of more positions than so many not all pairs are looked at.
 _MANY = 1_500
@@ -39,7 +40,7 @@ def _extent(there: FloatArray) -> float:
     return float(np.sqrt((apart**2).sum(axis=0).max()))
 
 
-#: More coordinates than these are not followed: each step solves a dense system.
+#: More coordinates than these are not followed: of some thousands it would take minutes.
 MOST_COORDINATES = 1_000
 #: A length below this part of its own at first is none; a sine above this is no bending.
 _NO_LENGTH = 1.0e-6
@@ -56,29 +57,167 @@ def is_followed(data: ModelData, most: int = MOST_COORDINATES) -> bool:
     return 0 < int(np.count_nonzero(data.arrays.coordinate_class == Class.DEPENDENT)) <= most
 
 
-@dataclass(frozen=True, eq=False)
-class Place(Frozen):
-    """Where the nodes are, and what is held there.
+#: Rows times columns up to which matrices are made in full, as nothing is faster then.
+_MOST_IN_FULL = 20_000
 
-    Attributes:
-        configuration: Of the nodes, as `Held` has them: in its unit, about its middle.
-        error: (m,) the held deformations, lengths by the size, angles in radians.
-        jacobian: (m, n) their derivatives with respect to what led here.
-    """
 
-    configuration: Configuration
-    error: FloatArray
-    jacobian: FloatArray
+class Place:
+    """Where the nodes are, and what is held there."""
+
+    def __init__(
+        self,
+        held: Held,
+        value: FloatArray,
+        raw: RawAssembly,
+        turned: FloatArray | None = None,
+    ) -> None:
+        """Keep what was assembled.
+
+        Args:
+            held: What is held.
+            value: (nodes, 4) of a `Configuration`, as `Held` has it: in its unit, about its middle.
+            raw: All deformations there, and their derivatives.
+            turned: (k, 3) the rotation vectors of the nodes that turn, where these led here.
+        """
+        self.held, self.value, self.raw, self._turned = held, value, raw, turned
+        #: (m,) the held deformations, lengths by the size, angles in radians.
+        self.error = raw.deformation.T.ravel()[held.rows] * held.row_factor
+
+    @cached_property
+    def configuration(self) -> Configuration:
+        """Of the nodes."""
+        return Configuration(self.held.arrays.node_kind, self.value)
+
+    @property
+    def here(self) -> Place:
+        """With derivatives with respect to what leads on from here."""
+        return self if self._turned is None else Place(self.held, self.value, self.raw)
+
+    @cached_property
+    def entries(self) -> Entries:
+        """Row, column and value of the derivatives (m, n) with respect to what led here."""
+        held, raw = self.held, self.raw
+        row, value = held.row_place[raw.row_of], raw.value
+        if self._turned is None:
+            column = held.column_place[raw.column_of]
+        else:
+            # By rotation vectors in place of small rotations, exp(T dv) exp(v).
+            turn, axis = held.turn_of[raw.column_of], raw.column_of % 3
+            stays = turn < 0
+            own, turn = raw.column_of[~stays], turn[~stays]
+            after = (own - axis[~stays])[:, None] + np.arange(3)
+            of_turned = value[~stays, None] * left_jacobian(self._turned)[turn, axis[~stays]]
+            column = np.concatenate((raw.column_of[stays], after.ravel()))
+            column = held.column_place[column]
+            row = np.concatenate((row[stays], np.repeat(row[~stays], 3)))
+            value = np.concatenate((value[stays], of_turned.ravel()))
+        known = (row >= 0) & (column >= 0)
+        row, column = row[known], column[known]
+        return row, column, value[known] * held.row_factor[row] * held.column_factor[column]
+
+    @property
+    def jacobian(self) -> FloatArray:
+        """(m, n) the derivatives in full."""
+        held, raw = self.held, self.raw
+        layout = held.layout(raw)
+        m, n = held.shape[0], held.wide_factor.size
+        value = raw.value[layout.chosen] * layout.factor
+        wide = np.bincount(layout.flat, value, m * n).reshape(m, n).astype(np.float64, copy=False)
+        if self._turned is not None:
+            # By rotation vectors in place of small rotations, exp(T dv) exp(v).
+            turned = wide[:, held.turned_columns].transpose(1, 0, 2) @ left_jacobian(self._turned)
+            wide[:, held.turned_columns] = turned.transpose(1, 0, 2)
+        return wide[:, : held.shape[1]]
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """(m, n) the derivatives, in full where they are few."""
+        if self.held.is_small:
+            return self.jacobian
+        return self.held.matrix(self.entries, self._turned is not None)
+
+    @cached_property
+    def scaled(self) -> Matrix:
+        """(m, n) the matrix on which rank is decided, theory.md (2).
+
+        One length, the geometric mean of all that are not zero, for all connected components.
+        """
+        held, raw = self.held, self.raw
+        if held.is_small:
+            there, row, weight, known, flat = held.layout(raw).scaled
+            value = raw.value[there] * weight
+            norm = np.sqrt(np.bincount(row, value * value, held.shape[0]))
+            norm[norm == 0.0] = 1.0
+            value = (value / norm[row])[known]
+            return np.bincount(flat, value, math.prod(held.shape)).reshape(held.shape)
+        row = held.row_place[raw.row_of]
+        there = np.flatnonzero(row >= 0)
+        row, column = row[there], raw.column_of[there]
+        value = raw.value[there] * held.weight[column]
+        norm = np.sqrt(np.bincount(row, value * value, held.shape[0]))
+        norm[norm == 0.0] = 1.0
+        self._norm = norm
+        column = held.column_place[column]
+        known = np.flatnonzero(column >= 0)
+        row = row[known]
+        value = value[known] / norm[row]
+        return held.matrix((row, column[known], value))
+
+    def unscaled(self, left: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Null vectors of `matrix`, from those of `scaled` and its transpose, (m, s) and (n, d)."""
+        held, _ = self.held, self.scaled
+        of_columns = held.weight[held.columns] / held.column_factor
+        return left / (self._norm * held.row_factor)[:, None], of_columns[:, None] * right
 
     @property
     def is_finite(self) -> bool:
         """Whether all is defined here."""
-        return bool(np.isfinite(self.error).all() and np.isfinite(self.jacobian).all())
+        value = self.raw.value[self.held.layout(self.raw).chosen]
+        return bool(np.isfinite(self.error).all() and np.isfinite(value).all())
 
     @property
     def residual(self) -> float:
         """The largest held deformation."""
         return float(np.abs(self.error).max(initial=0.0))
+
+
+#: So many of these are kept.
+_MOST_LAYOUTS = 4
+
+
+class Layout:
+    """Where the entries of an assembly stand in matrices in full."""
+
+    def __init__(self, held: Held, raw: RawAssembly) -> None:
+        """Of what is held, and an assembly."""
+        self._held, self._row_of, self._column_of = held, raw.row_of, raw.column_of
+        row, column = held.row_place[raw.row_of], held.wide_place[raw.column_of]
+        #: Entries of the derivatives, what they are multiplied by, and their places.
+        self.chosen = np.flatnonzero((row >= 0) & (column >= 0))
+        row, column = row[self.chosen], column[self.chosen]
+        self.factor = held.row_factor[row] * held.wide_factor[column]
+        self.flat = row * held.wide_factor.size + column
+
+    @cached_property
+    def scaled(self) -> tuple[IndexArray, IndexArray, FloatArray, IndexArray, IndexArray]:
+        """Entries of rows that are held, as the matrix has them on which rank is decided.
+
+        Their numbers, rows, and what they are multiplied by; which of them are of coordinates
+        that may change, and the places of these.
+        """
+        held = self._held
+        row = held.row_place[self._row_of]
+        there = np.flatnonzero(row >= 0)
+        row, column = row[there], self._column_of[there]
+        weight, column = held.weight[column], held.column_place[column]
+        known = np.flatnonzero(column >= 0)
+        return there, row, weight, known, row[known] * held.shape[1] + column[known]
+
+    def fits(self, raw: RawAssembly) -> bool:
+        """Whether the entries of another assembly stand at the same places."""
+        return np.array_equal(raw.column_of, self._column_of) and np.array_equal(
+            raw.row_of, self._row_of
+        )
 
 
 class Held:
@@ -102,28 +241,47 @@ class Held:
             value[:3, placed] = (there - self.middle[:, None]) / self.unit
         self.arrays = data.arrays._replace(node_value=value)
         self._packed = packed(self.arrays)
-        classes = self.arrays.deformation_class
+        kinds, classes = self.arrays.node_kind, self.arrays.deformation_class
         held = np.isin(classes, (Class.FIXED, Class.INDEPENDENT))
         self.rows = np.flatnonzero(held.T.ravel())
-        self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
+        dependent = self.arrays.coordinate_class == Class.DEPENDENT
+        self.columns = np.flatnonzero(dependent.T.ravel())
+        self.shape = self.rows.size, self.columns.size
+        self.is_small = self.rows.size * self.columns.size <= _MOST_IN_FULL
         by_size = self.size / self.unit
-        turns = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
-        self._row_factor = np.where(turns, 1.0, 1.0 / by_size)
-        placed = self.arrays.node_kind[self.columns // 3] <= NodeKind.POSITION
-        self._column_factor = np.where(placed, by_size, 1.0)
-        place = np.full(classes.size, -1)
-        place[self.rows] = np.arange(self.rows.size)
-        self._row_place = place
+        moments = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
+        self._patterns: dict[bool, Pattern] = {}
+        #: Of deformations and of coordinates in the unit, to those by the size.
+        self.row_factor = np.where(moments, 1.0, 1.0 / by_size)
+        placed = kinds[self.columns // 3] <= NodeKind.POSITION
+        self.column_factor = np.where(placed, by_size, 1.0)
+        #: Where each deformation and each coordinate is among these; -1 where it is not.
+        self.row_place = np.full(classes.size, -1)
+        self.row_place[self.rows] = np.arange(self.rows.size)
+        self.column_place = np.full(dependent.size, -1)
+        self.column_place[self.columns] = np.arange(self.columns.size)
         # Of an orientation all three rotations count, even if one of them is not dependent.
-        free = (self.arrays.coordinate_class == Class.DEPENDENT).any(axis=0)
-        self._turning = np.flatnonzero(free & (self.arrays.node_kind == NodeKind.ORIENTATION))
+        self._turning = np.flatnonzero(dependent.any(axis=0) & (kinds == NodeKind.ORIENTATION))
+        #: Which of the nodes that turn a coordinate is of; -1 where it is of none.
+        self.turn_of = np.full(dependent.size, -1)
+        for axis in range(3):
+            self.turn_of[3 * self._turning + axis] = np.arange(self._turning.size)
+        # Columns of a matrix in full, behind which those stand that turn and are not dependent.
         whole = (3 * self._turning[:, None] + np.arange(3)).ravel()
-        wide = np.union1d(self.columns, whole)
-        self._narrow = np.searchsorted(wide, self.columns)
-        self._wide_size = wide.size
-        place = np.full(self.arrays.coordinate_class.size, -1)
-        place[wide] = np.arange(wide.size)
-        self._column_place = place
+        others = whole[self.column_place[whole] < 0]
+        self.wide_factor = np.append(self.column_factor, np.ones(others.size))
+        self.wide_place = self.column_place.copy()
+        self.wide_place[others] = self.columns.size + np.arange(others.size)
+        self.turned_columns = self.wide_place[whole].reshape(-1, 3)
+        self._layouts: list[Layout] = []
+        # Columns that are added to, with their numbers among those of a configuration.
+        self._straight = np.flatnonzero(self.turn_of[self.columns] < 0)
+        node, part = np.divmod(self.columns[self._straight], 3)
+        self._numbers = 4 * node + np.where(kinds[node] == NodeKind.ANGLE, 0, part)
+        self._angles = np.flatnonzero(kinds[node] == NodeKind.ANGLE)
+        turned = np.flatnonzero(self.turn_of[self.columns] >= 0)
+        self._turned = turned
+        self._turned_at = 3 * self.turn_of[self.columns[turned]] + self.columns[turned] % 3
 
     @property
     def reference(self) -> Configuration:
@@ -156,96 +314,97 @@ class Held:
 
     def difference(self, one: Configuration, other: Configuration) -> FloatArray:
         """(n,) the change that leads from a configuration to another one."""
-        delta = np.zeros((one.kinds.size, 3))
-        placed = one.kinds <= NodeKind.POSITION
-        delta[placed] = (other.value - one.value)[placed, :3]
-        plane = one.kinds == NodeKind.ANGLE
-        angle = (other.value - one.value)[plane, 0]
-        delta[plane, 2] = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
-        turned = self._turning
-        delta[turned] = vector_between(one.value[turned], other.value[turned])
-        return np.asarray(delta.ravel()[self.columns] / self._column_factor)
+        return self.way(one.value, other.value)
 
-    def at(self, here: Configuration, change: FloatArray | None = None) -> Place:
+    def way(self, one: FloatArray, other: FloatArray) -> FloatArray:
+        """(n,) `difference` of the numbers of two configurations, (nodes, 4)."""
+        made = np.empty(self.columns.size)
+        straight = other.ravel()[self._numbers] - one.ravel()[self._numbers]
+        if self._angles.size:
+            angle = straight[self._angles]
+            straight[self._angles] = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
+        made[self._straight] = straight
+        if self._turned.size:
+            turned = vector_between(one[self._turning], other[self._turning])
+            made[self._turned] = turned.ravel()[self._turned_at]
+        made /= self.column_factor
+        return made
+
+    def at(self, here: Configuration | Place, change: FloatArray | None = None) -> Place:
         """The held deformations after a change (n,) of the coordinates, as a `direction`.
 
         The derivatives are with respect to the change.
         """
-        delta, there = np.zeros((self.arrays.node_kind.size, 3)), here
+        value, turned = here.value, None
         if change is not None and change.any():
-            delta.ravel()[self.columns] = change * self._column_factor
-            there = here.moved(delta)
-        raw, row, column, value = self._entries(there)
-        m, n = self.rows.size, self._wide_size
-        wide = np.bincount(row * n + column, value, m * n).astype(np.float64).reshape(m, n)
-        if self._turning.size and delta.any():
-            # By rotation vectors in place of small rotations, exp(T dv) exp(v).
-            columns = self._column_place[3 * self._turning][:, None] + np.arange(3)
-            turns = left_jacobian(delta[self._turning])
-            wide[:, columns] = np.einsum("mkx,kxy->mky", wide[:, columns], turns)
-        error = raw.deformation.T.ravel()[self.rows] * self._row_factor
-        jacobian = self._row_factor[:, None] * wide[:, self._narrow] * self._column_factor
-        return Place(there, error, jacobian)
+            value, turned = self._moved(value, change)
+        elif isinstance(here, Place):
+            return here.here
+        return Place(self, value, self._raw(value), turned)
 
     def moved(self, here: Configuration, change: FloatArray) -> Configuration:
         """The nodes after a change (n,) of the coordinates."""
-        return here.moved(self.at_nodes(change * self._column_factor))
+        return Configuration(here.kinds, self._moved(here.value, change)[0])
+
+    def _moved(self, here: FloatArray, change: FloatArray) -> tuple[FloatArray, FloatArray | None]:
+        """The numbers (nodes, 4) after a change, and (k, 3) by what vectors nodes have turned."""
+        delta, value = change * self.column_factor, here.copy()
+        value.ravel()[self._numbers] += delta[self._straight]
+        if not self._turning.size:
+            return value, None
+        vectors = np.zeros((self._turning.size, 3))
+        vectors.ravel()[self._turned_at] = delta[self._turned]
+        value[self._turning] = rotations.turned(value[self._turning], vectors)
+        return value, vectors
 
     def pressed(self, here: Configuration, stresses: FloatArray) -> FloatArray:
         """(n, s) u' D of some stresses (m, s), without the matrix in full.
 
         They are dual to `Place.error`, and the derivatives are those there.
         """
-        _, row, column, value = self._entries(here)
-        value = value * self._row_factor[row]
-        made = np.zeros((self._wide_size, stresses.shape[1]))
+        row, column, value = self.at(here).entries
+        made = np.zeros((self.columns.size, stresses.shape[1]))
         for k, stress in enumerate(stresses.T):
-            made[:, k] = np.bincount(column, value * stress[row], self._wide_size)
-        return made[self._narrow] * self._column_factor[:, None]
+            made[:, k] = np.bincount(column, value * stress[row], self.columns.size)
+        return made
 
-    def _entries(
-        self, here: Configuration
-    ) -> tuple[RawAssembly, IndexArray, IndexArray, FloatArray]:
-        """The assembly, and rows, columns and values of its entries that are held and may move."""
-        raw = self._raw(here)
-        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
-        known = (row >= 0) & (column >= 0)
-        return raw, row[known], column[known], raw.value[known]
-
-    def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
+    def rate(self, here: Place, row: int, change: FloatArray) -> float:
         """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
-        raw = self._raw(here)
+        raw = here.raw
         mine = raw.row_of == row
         full = np.zeros(self.arrays.coordinate_class.size)
-        full[self.columns] = change * self._column_factor
+        full[self.columns] = change * self.column_factor
         return float(raw.value[mine] @ full[raw.column_of[mine]])
 
-    def deformation(self, here: Configuration, row: int) -> float:
+    def deformation(self, here: Place, row: int) -> float:
         """A deformation, held or not, by its row, in the unit if it is a length, else [rad]."""
-        return float(self._raw(here).deformation.T.ravel()[row])
+        return float(here.raw.deformation.T.ravel()[row])
 
-    def _raw(self, here: Configuration) -> RawAssembly:
-        return calls.assemble(self._packed, here.value.T, np.zeros(self.arrays.element_number.size))
+    def _raw(self, here: FloatArray) -> RawAssembly:
+        return calls.assemble(self._packed, here.T, np.zeros(self.arrays.element_number.size))
 
-    def scaled(self, here: Configuration) -> FloatArray:
-        """(m, n) the matrix on which rank is decided, theory.md (2).
+    def layout(self, raw: RawAssembly) -> Layout:
+        """Where the entries of an assembly stand, which are mostly the same."""
+        for known in self._layouts:
+            if known.fits(raw):
+                return known
+        made = Layout(self, raw)
+        # Some are zero at the reference, some in a place that is passed.
+        self._layouts = [made, *self._layouts[: _MOST_LAYOUTS - 1]]
+        return made
 
-        One length, the geometric mean of all that are not zero, for all connected components.
-        """
-        raw, many = self._raw(here), self.arrays.coordinate_class.size
-        row = self._row_place[raw.row_of]
-        there = row >= 0
-        flat = np.bincount(
-            row[there] * many + raw.column_of[there], raw.value[there], self.rows.size * many
-        )
-        full = flat.astype(np.float64).reshape(self.rows.size, many)
-        full[:, np.repeat(self.arrays.node_kind > NodeKind.POSITION, 3)] /= self._mean_length
-        norm = np.linalg.norm(full, axis=1, keepdims=True)
-        return np.asarray(full[:, self.columns] / np.where(norm > 0.0, norm, 1.0))
+    def matrix(self, entries: Entries, is_turned: bool = False) -> Matrix:
+        """(m, n) of entries; of turned nodes others are not zero."""
+        known = self._patterns.get(is_turned)
+        if known is None or not known.fits(entries):
+            known = self._patterns[is_turned] = Pattern(entries, self.shape)
+        return known.matrix(entries[2])
 
-    def values(self, here: Configuration) -> FloatArray:
-        """All singular values of the scaled matrix, descending."""
-        return np.asarray(np.linalg.svd(self.scaled(here), compute_uv=False), np.float64)
+    @cached_property
+    def weight(self) -> FloatArray:
+        """What entries of coordinates of nodes are multiplied by where rank is decided."""
+        turns = np.repeat(self.arrays.node_kind > NodeKind.POSITION, 3)
+        return np.where(turns, 1.0 / self._mean_length, 1.0)
 
     @cached_property
     def _lengths(self) -> FloatArray:
@@ -256,19 +415,26 @@ class Held:
         positive = self._lengths[self._lengths > 0.0]
         return math.exp(float(np.log(positive).mean())) if positive.size else 1.0
 
-    def beyond(self, here: Configuration) -> tuple[int, str] | None:
+    @cached_property
+    def _ranges(self) -> tuple[IndexArray, tuple[IndexArray, ...], IndexArray, FloatArray]:
+        """Elements with a length, their ends, and bendings with what they may be."""
+        nodes = self.arrays.element_node - 1
+        long = np.flatnonzero((self._lengths > 0.0) & (nodes[2] >= 0))
+        roles = role_table()[self.arrays.element_kind].ravel()
+        bends = np.flatnonzero(np.isin(roles, _BENDINGS))
+        most = np.asarray(_NO_BENDING * self._lengths[bends // 6])
+        return long, (nodes[0, long], nodes[2, long]), bends, most
+
+    def beyond(self, here: Place) -> tuple[int, str] | None:
         """An element that has left its range, from 0, and why; None where all are within.
 
         "length": its ends are at one point. "bending": an end of a beam is turned at right
         angles to the line between its ends.
         """
-        value, nodes = here.value[:, :3], self.arrays.element_node - 1
-        apart = np.linalg.norm(value[nodes[2]] - value[nodes[0]], axis=1)
-        gone = (self._lengths > 0.0) & (apart < _NO_LENGTH * self._lengths) & (nodes[2] >= 0)
+        long, (one, other), bends, most = self._ranges
+        way = here.value[other, :3] - here.value[one, :3]
+        gone = np.sqrt((way * way).sum(axis=1)) < _NO_LENGTH * self._lengths[long]
         if gone.any():
-            return int(np.argmax(gone)), "length"
-        roles = role_table()[self.arrays.element_kind]
-        bends = np.isin(roles, _BENDINGS).T
-        bent = np.abs(self._raw(here).deformation) > _NO_BENDING * self._lengths
-        over = (bends & bent).any(axis=0)
-        return (int(np.argmax(over)), "bending") if over.any() else None
+            return int(long[np.argmax(gone)]), "length"
+        over = np.abs(here.raw.deformation.T.ravel()[bends]) > most
+        return (int(bends[np.argmax(over)] // 6), "bending") if over.any() else None

@@ -15,13 +15,14 @@ import numpy as np
 
 from ..analysis.limits import TRUE, ZERO_ELSEWHERE
 from ..core.arrays import FloatArray
-from ..model.configuration import Configuration
 from ..util.records import Frozen
-from .constraints import Held
+from .bordered import Smallest, smallest_of
+from .constraints import Held, Place
 from .stations import (
     Between,
     Chart,
     Near,
+    Passing,
     Station,
     arc_between,
     least_near,
@@ -83,6 +84,7 @@ class Wishes:
         least: The least step; where one of it fails the path ends.
         steps: How many steps each way at most.
         through: Whether to go straight on where other paths branch off.
+        branches: Whether these places are looked for where it goes straight on.
     """
 
     length: float = 0.1
@@ -91,6 +93,7 @@ class Wishes:
     least: float = 1.0e-5
     steps: int = 2_000
     through: bool = False
+    branches: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,50 +127,36 @@ _ZERO_AT_BRANCH = 1.0e-7
 _MAY_REACH = 1.5
 
 
-def sign_between(one: Chart, other: Chart) -> float:
-    """-1 where a singular value passes zero between two charts, with its left or right vector.
-
-    U' D V of one chart is regular at its middle; its determinant at the other's has the sign of
-    the products below, since U' D V = (U' U2) S2 (V2' V).
-    """
-    if one.right.shape[1] != other.right.shape[1]:
-        return 1.0
-    left = np.linalg.slogdet(one.left.T @ other.left)[0]
-    right = np.linalg.slogdet(one.right.T @ other.right)[0]
-    return float(left * right) or 1.0
-
-
-def signed_value(held: Held, middle: Configuration, rank: int) -> Callable[[Near], float]:
-    """The smallest singular value that is not zero near a configuration; positive there."""
-    chart = Chart(held, middle, rank)
+def signed_value(chart: Chart, smallest: Smallest) -> Callable[[Near], float]:
+    """The smallest singular value that is not zero near the middle of a chart; positive there."""
 
     def value(near: Near) -> float:
-        where = near.place.configuration
-        if not rank:
+        if not chart.rank:
             return 0.0
-        jacobian = held.at(where).jacobian
-        sign = np.linalg.slogdet(chart.left.T @ jacobian @ chart.right)[0]
-        return float(sign * held.values(where)[rank - 1])
+        found = smallest_of(near.place.scaled, ZERO_ELSEWHERE, smallest)
+        return _sign(chart, near.place, found) * found.value(chart.rank - 1)
 
     return value
 
 
-def branch_between(held: Held, one: Station, other: Station, zero: float) -> Station | None:
+def _sign(chart: Chart, place: Place, smallest: Smallest) -> float:
+    """-1 where a value passes zero between the middle of a chart, the guess, and a place."""
+    known = smallest.right.shape[1] - smallest.pairs == chart.null.shape[1]
+    return smallest.passed if known and smallest.passed is not None else chart.sign(place)
+
+
+def branch_between(one: Station, other: Station, zero: float) -> Station | None:
     """The station between two at which other paths branch off; None without any."""
     if other.rank < one.rank:
         return other
     if one.rank != other.rank or one.signed * other.signed >= 0.0:
         return None
-    way = Between(held, one, other)
-    found = passing(way, signed_value(held, way.base.within, way.base.rank))
-    if found is None:
-        return None
-    return station_there(held, found.where, found.arc, found.tangent, zero)
+    way = Between(one, other)
+    found = passing(way, signed_value(way.chart, way.base.smallest))
+    return None if found is None else station_there(found, zero, one.smallest)
 
 
-def branch_about(
-    held: Held, one: Station, middle: Station, other: Station, zero: float
-) -> Station | None:
+def branch_about(one: Station, middle: Station, other: Station, zero: float) -> Station | None:
     """The station near the middle one of three at which singular values touch zero.
 
     So they do where two pass it together: the sign stays.
@@ -178,21 +167,20 @@ def branch_about(
     falls = max(values[0], values[2]) - values[1]
     if values[1] > min(values[0], values[2]) or values[1] > _MAY_REACH * falls:
         return None
-    way = Between(held, middle, other)
+    way = Between(middle, other)
     low = -(middle.arc - one.arc) / (other.arc - middle.arc)
-    found = touching(way, signed_value(held, middle.within, middle.rank), low)
+    found = touching(way, signed_value(middle.chart, middle.smallest), low)
     if found is None:
         return None
-    made = station_there(held, found.where, found.arc, found.tangent, zero)
+    made = station_there(found, zero, middle.smallest)
     return made if made.rank < middle.rank else None
 
 
-def station_there(
-    held: Held, where: Configuration, arc: float, along: FloatArray, zero: float
-) -> Station:
-    """The station at a singular place that was found between two others."""
-    rank = int(np.count_nonzero(held.values(where) > max(zero, _ZERO_AT_BRANCH)))
-    return Station(where, arc, held.at(where).residual, along, rank, 0.0)
+def station_there(found: Passing, zero: float, near: Smallest) -> Station:
+    """The station at a singular place that was found between two others; values of a near one."""
+    zero = max(zero, _ZERO_AT_BRANCH)
+    smallest = smallest_of(found.where.scaled, zero, near)
+    return Station(found.where, found.arc, found.tangent, smallest.rank(zero), 0.0, smallest)
 
 
 #: Where the null space is larger than the path is wide, what exceeds rounding is corrected within
@@ -248,10 +236,10 @@ class _Walk:
 
     def walk(self, direction: FloatArray, rank: int) -> Followed:
         """Step until something stops it."""
-        start, along = self.held.reference, direction / np.linalg.norm(direction)
-        chart, residual = Chart(self.held, start, rank), self.held.at(start).residual
-        smallest = float(self.held.values(start)[rank - 1]) if rank else 0.0
-        self.stations.append(Station(start, 0.0, residual, along, rank, smallest))
+        start, along = self.held.at(self.held.reference), direction / np.linalg.norm(direction)
+        smallest = smallest_of(start.scaled, self.zero)
+        signed = smallest.value(rank - 1) if rank else 0.0
+        self.stations.append(Station(start, 0.0, along, rank, signed, smallest))
         step, stop = self.wishes.first, None
         while stop is None:
             left = self.wishes.length - self.stations[-1].arc
@@ -259,10 +247,10 @@ class _Walk:
                 stop = Stop(Ending.STEPS, step)
             elif left < max(1.0e-9 * self.wishes.length, self.wishes.least):
                 stop = Stop(Ending.LENGTH, step)
-            elif (found := self._onward(chart, min(step, left))) is None:
+            elif (found := self._onward(min(step, left))) is None:
                 stop = self.failed
             else:
-                there, chart, step = found
+                there, step = found
                 stop = self._arrive(there)
                 self.on_step(self.stations[-1].arc)
         return Followed(tuple(self.stations), stop, tuple(self.branches))
@@ -273,15 +261,18 @@ class _Walk:
         if self._is_back(last, there):
             start, held = self.stations[0], self.held
             to_start, past_start = (
-                held.reach(held.difference(start.within, each.within)) for each in (last, there)
+                held.reach(held.way(start.place.value, each.place.value)) for each in (last, there)
             )
             arc = last.arc + (there.arc - last.arc) * to_start / (to_start + past_start)
             self.stations.append(replace(start, arc=arc))
             return Stop(Ending.CLOSED)
-        branch = branch_between(self.held, last, there, self.zero)
+        if self.wishes.through and not self.wishes.branches:
+            self.stations.append(there)
+            return None
+        branch = branch_between(last, there, self.zero)
         if branch is None and len(self.stations) > 1:
             before = self.stations[-2]
-            branch = branch_about(self.held, before, last, there, self.zero)
+            branch = branch_about(before, last, there, self.zero)
         if branch is not None:
             self.branches.append(branch)
             if not self.wishes.through:
@@ -295,35 +286,34 @@ class _Walk:
     def _is_back(self, last: Station, there: Station) -> bool:
         """Whether the path passes its start, the same way as it left it."""
         start, held = self.stations[0], self.held
-        before = held.difference(start.within, last.within)
-        behind = held.difference(start.within, there.within)
-        is_near = max(map(held.reach, (before, behind))) < 2.0 * (there.arc - last.arc)
-        if len(self.stations) < _FEWEST or not is_near:
+        if len(self.stations) < _FEWEST:
+            return False
+        ways = (held.way(start.place.value, each.place.value) for each in (last, there))
+        if not max(map(held.reach, ways)) < 2.0 * (there.arc - last.arc):
             return False
         passed = passing(
-            Between(held, last, there),
-            lambda near: float(
-                start.tangent @ held.difference(start.within, near.place.configuration)
-            ),
+            Between(last, there),
+            lambda near: float(start.tangent @ held.way(start.place.value, near.place.value)),
         )
         if passed is None or start.tangent @ passed.tangent < _STRAIGHT:
             return False
-        return held.reach(held.difference(start.within, passed.where)) < _CLOSED
+        return held.reach(held.way(start.place.value, passed.where.value)) < _CLOSED
 
-    def _onward(self, chart: Chart, step: float) -> tuple[Station, Chart, float] | None:
-        """The next station with its chart, and the step to try from there; None without any."""
+    def _onward(self, step: float) -> tuple[Station, float] | None:
+        """The next station, and the step to try from there; None without any."""
         here = self.stations[-1]
+        chart = here.chart
         reach = self.held.reach(here.tangent)
         while step >= self.wishes.least:
             ahead = here.tangent * (step / reach)
             near = chart.near(ahead)
             if near is None or near.place.residual > _ROUNDING:
                 near = self._among_branches(here, chart, ahead) or near
-            found = None if near is None else self._accepted(here, chart, near, step)
+            found = None if near is None else self._accepted(here, near, step)
             if near is not None and found is not None:
                 bent = float(np.linalg.norm(near.across)) / float(np.linalg.norm(ahead))
                 grown = step * (_GROWTH if bent < _EASY else 1.0)
-                return *found, min(grown, self.wishes.largest)
+                return found, min(grown, self.wishes.largest)
             step *= 0.5
         return None
 
@@ -342,29 +332,28 @@ class _Walk:
         less, more = (float(np.linalg.norm(each.across)) for each in (half, near))
         return near if half.place.residual <= TRUE and less <= _CURVED * more + 1.0e-9 else None
 
-    def _accepted(
-        self, here: Station, last: Chart, near: Near, step: float
-    ) -> tuple[Station, Chart] | None:
-        """The station there with its chart, if it is one of the path."""
-        where, residual = near.place.configuration, near.place.residual
+    def _accepted(self, here: Station, near: Near, step: float) -> Station | None:
+        """The station there, if it is one of the path."""
+        where, held = near.place.here, self.held
+        residual = where.residual
         self.failed = Stop(Ending.NOT_ZERO, step, residual)
-        way = step / self.held.reach(here.tangent)
+        way = step / held.reach(here.tangent)
         if residual > TRUE or float(np.linalg.norm(near.across)) > _FARTHEST * way:
             return None
-        beyond = self.held.beyond(where)
+        beyond = held.beyond(where)
         if beyond is not None:
             self.failed = Stop(Ending.ELEMENT, step, residual, 0, *beyond)
             return None
-        values = self.held.values(where)
-        rank = int(np.count_nonzero(values > self.zero))
-        if rank > here.rank and values[here.rank] <= _STILL_ZERO:
+        smallest = smallest_of(where.scaled, self.zero, here.smallest)
+        rank = smallest.rank(self.zero)
+        if rank > here.rank and smallest.value(here.rank) <= _STILL_ZERO:
             rank = here.rank
-        chart = Chart(self.held, where, rank)
+        chart = Chart(where, rank, smallest, here.chart)
         # What came last, as it is carried along by what was done.
         last_way = here.tangent
         if here.directions > 1 and chart.null.shape[1] > 1:
             # The null space does not say how the path is curved within it; the way so far does.
-            gone = self.held.difference(here.within, where)
+            gone = held.way(here.place.value, where.value)
             last_way = 2.0 * gone / np.linalg.norm(gone) - here.tangent
         along = chart.null @ (chart.null.T @ last_way)
         straight = float(np.linalg.norm(along))
@@ -372,7 +361,11 @@ class _Walk:
             if chart.null.shape[1]:
                 self.failed = Stop(Ending.TURNS_BACK, step, residual)
             return None
-        sign = sign_between(last, chart) * float(np.sign(here.signed) or 1.0)
-        arc = here.arc + arc_between(self.held, here, where, along)
-        signed = sign * float(values[rank - 1]) if rank else 0.0
-        return Station(where, arc, residual, along / straight, rank, signed), chart
+        # Which way singular values passed zero is known where the rank is the same.
+        sign = _sign(here.chart, where, smallest) if rank == here.rank else 1.0
+        sign *= float(np.sign(here.signed) or 1.0)
+        arc = here.arc + arc_between(here, where, along)
+        signed = sign * smallest.value(rank - 1) if rank else 0.0
+        made = Station(where, arc, along / straight, rank, signed, smallest)
+        made.__dict__["chart"] = chart
+        return made

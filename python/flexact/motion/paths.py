@@ -291,7 +291,7 @@ def _dimension_at(reduced: Reduced, here: Here, random: np.random.Generator) -> 
 
 #: Components of more coordinates are followed about the reference alone.
 _MOST_COORDINATES = 120
-_WISHES = Wishes(length=GOAL, steps=500, through=True)
+_WISHES = Wishes(length=GOAL, steps=500, through=True, branches=False)
 
 
 def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:

@@ -21,6 +21,7 @@ from ..model.data import ModelData
 from ..util.groups import least_of_groups
 from ..util.matrices import complement, null_space, span
 from ..util.records import Frozen, cached_property
+from .bordered import Bordered
 from .constraints import Held
 from .stations import solved
 
@@ -289,10 +290,9 @@ class Reduced:
     """g near the reference of a component."""
 
     def __init__(self, felt: Felt, stresses: FloatArray) -> None:
-        """Complete the null vectors to bases of all coordinates and deformations."""
+        """Take what the component is at the reference."""
         self.felt, self.stresses = felt, stresses
-        self._across = complement(felt.motions)
-        self._rest = complement(stresses)
+        self._start = felt.held.at(felt.held.reference)
         share = (_FEW_COORDINATES / max(felt.motions.shape[0], _FEW_COORDINATES)) ** 2
         self._left = _FEWEST_POSITIONS + int(_MOST_POSITIONS * share)
 
@@ -308,18 +308,19 @@ class Reduced:
             shares: Of the motions.
             guess: (n,) a change near which it is.
         """
-        felt, held, self._left = self.felt, self.felt.held, self._left - 1
+        motions, self._left = self.felt.motions, self._left - 1
         if self._left < 0:
             return None
-        start = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
-        ahead, bases = felt.motions @ shares, (self._rest, self._across)
-        near = solved(held, held.reference, ahead, bases, start, (_MOST_STEPS, _ROUNDING, _SHRINKS))
+        beside = np.zeros(motions.shape[0]) if guess is None else guess
+        beside = beside - motions @ (motions.T @ beside)
+        ahead, nulls = motions @ shares, (self.stresses, motions)
+        near = solved(self._start, ahead, nulls, beside, (_MOST_STEPS, _ROUNDING, _SHRINKS))
         if near is None:
             return None
-        by_rest = self._rest.T @ near.place.jacobian
-        back = np.linalg.solve(by_rest @ self._across, by_rest @ felt.motions)
-        along = felt.motions - self._across @ back
-        slope = self.stresses.T @ near.place.jacobian @ along
+        # What the stresses feel of the motions, with what is across these as it is.
+        matrix = near.place.matrix
+        still = np.zeros((motions.shape[1], motions.shape[1]))
+        slope = Bordered(matrix, *nulls).solved(matrix @ motions, still)[1]
         left = self.stresses.T @ near.place.error
         return Here(shares, ahead + near.across, left, slope, near.place.residual)
 

@@ -17,11 +17,21 @@ from ..analysis.limits import TRUE
 from ..analysis.result import Result, result_of
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
-from ..model.configuration import Configuration
 from ..model.model import Model
 from ..model.parts.parts import natural
 from ..model.reading import read
-from ..motion import Ending, Followed, Held, Station, Wishes, follow, is_followed, least_error
+from ..motion import (
+    Ending,
+    Followed,
+    Held,
+    Place,
+    Station,
+    Wishes,
+    follow,
+    is_followed,
+    least_error,
+)
+from ..motion.bordered import Smallest, smallest_of
 from ..motion.constraints import MOST_COORDINATES
 from ..motion.stations import Between, passing
 from ..show.drawing.movement import poses_in, poses_with_inner_nodes
@@ -139,8 +149,8 @@ def trace(
     zero = result.gap.zero_elsewhere(result.raw.noise)
     rank = result.rank
     if shown.freedom is not None:
-        values = np.linalg.svd(held.scaled(held.reference), compute_uv=False)
-        rank = int(np.count_nonzero(values > max(result.tolerance, result.raw.noise)))
+        counts = max(result.tolerance, result.raw.noise)
+        rank = smallest_of(held.at(held.reference).scaled, counts).rank(counts)
     stroke = Stroke(result, shown, held, zero)
     ways: list[Followed] = []
     for number, sense in enumerate((-1.0, 1.0)):
@@ -222,7 +232,7 @@ class Found(Frozen):
     """A place between two stations, and what is special there."""
 
     arc: float
-    where: Configuration
+    where: Place
     nodes: tuple[int, ...] = ()
     """Those that turn back there."""
     resting: tuple[int, ...] = ()
@@ -267,6 +277,7 @@ class Stroke:
         self.result, self.held, self.zero = result, held, zero
         self.judged = held if shown.freedom is None else Held(result.data)
         self.freedom = shown.freedom
+        self._smallest: Smallest | None = None
 
     def steps(self, way: Followed) -> list[Step]:
         """The steps of a path one way, the reference first, dead points among them."""
@@ -290,7 +301,7 @@ class Stroke:
             moved = np.linalg.norm(self._speeds(before), axis=1) > _RESTS
             rests = np.linalg.norm(self._speeds(last), axis=1) <= _RESTS
             names = self._turning(np.flatnonzero(rests & moved).tolist(), rests)
-            rate = self._rate(last.within, last.tangent)
+            rate = self._rate(last.place, last.tangent)
             made[-1] = replace(
                 made[-1], dead=DeadPoint(names, abs(rate) <= _RESTS, last.directions)
             )
@@ -364,13 +375,13 @@ class Stroke:
         turns = resting & moves & (np.sum(came * goes, axis=1) < 0.0)
         names = self._turning(np.flatnonzero(turns).tolist(), resting)
         rates = [
-            sense * self._rate(station.within, station.tangent)
+            sense * self._rate(station.place, station.tangent)
             for station, sense in (before, (here, 1.0), behind)
         ]
         least = _RESTS * max(abs(rate) for rate in rates)
         return names, rates[0] * rates[2] < 0.0 and abs(rates[1]) <= least
 
-    def _rate(self, where: Configuration, along: FloatArray) -> float:
+    def _rate(self, where: Place, along: FloatArray) -> float:
         """How fast what drives changes along a direction (n,); 1 where the path itself does."""
         if self.freedom is None:
             return 1.0
@@ -379,7 +390,7 @@ class Stroke:
             return float(self.held.at_nodes(along)[owner, part])
         return self.held.rate(where, 6 * owner + part, along)
 
-    def _value(self, where: Configuration, pose: Pose) -> float:
+    def _value(self, where: Place, pose: Pose) -> float:
         """By how much what drives has changed since the reference [m, rad]; of a pose as given.
 
         Of a declared rotation it is the component of the rotation vector; NaN of the path itself.
@@ -406,54 +417,57 @@ class Stroke:
             rank = station.rank
         # Where the path is a multiple zero of D(x) it is known to half as many digits.
         zero = self.zero if station.directions == 1 else max(self.zero, _ZERO_AT_DEAD)
-        return self._step(station.within, station.arc, station.residual, zero, rank)
+        return self._step(station.place, station.arc, zero, rank, station.smallest)
 
     def _of_found(self, found: Found) -> Step:
         resting = np.zeros(self.held.arrays.node_kind.size, bool)
         resting[list(found.resting)] = True
         names = self._turning(found.nodes, resting)
-        residual = self.held.at(found.where).residual
-        step = self._step(found.where, found.arc, residual, max(self.zero, _ZERO_AT_DEAD))
+        step = self._step(found.where, found.arc, max(self.zero, _ZERO_AT_DEAD))
         if not (names or found.is_drive or found.directions):
             return step
         return replace(step, dead=DeadPoint(names, found.is_drive, found.directions))
 
     def _step(
         self,
-        where: Configuration,
+        where: Place,
         arc: float,
-        residual: float,
         zero: float,
         rank: int | None = None,
+        smallest: Smallest | None = None,
     ) -> Step:
-        values = self.judged.values(where)
-        known = int(np.count_nonzero(values > zero)) if rank is None else rank
-        rows, columns = self.judged.rows.size, self.judged.columns.size
-        (pose,) = poses_with_inner_nodes(self.result.condensed, poses_in(self.held, [where]))
+        if smallest is None or self.judged is not self.held:
+            judged = self.judged.at(where.configuration)
+            smallest = smallest_of(judged.scaled, zero, self._smallest)
+        self._smallest = smallest
+        known = smallest.rank(zero) if rank is None else rank
+        rows, columns = self.judged.shape
+        here = poses_in(self.held, [where.configuration])
+        (pose,) = poses_with_inner_nodes(self.result.condensed, here)
         return Step(
             arc * self.held.size,
-            self.held.outside(where),
+            self.held.outside(where.configuration),
             pose,
-            residual,
-            values[::-1][:_KEPT].copy(),
+            where.residual,
+            smallest.values[:_KEPT].copy(),
             columns - known,
             rows - known,
             self._value(where, pose),
         )
 
     def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[Found]:
-        found = [Found(b.arc, b.within, directions=b.directions) for b in branches]
+        found = [Found(b.arc, b.place, directions=b.directions) for b in branches]
         before, behind = self._speeds(one), self._speeds(other)
         reverses = np.sum(before * behind, axis=1) < 0.0
         turning = np.flatnonzero((_least_norm(before, behind) > _MOVES) & reverses).tolist()
-        rates = (self._rate(each.within, each.tangent) for each in (one, other))
+        rates = (self._rate(each.place, each.tangent) for each in (one, other))
         turns = math.prod(rates) < 0.0
         if turning or turns:
-            between = Between(self.held, one, other)
+            between = Between(one, other, is_regular=not (branches or turns))
             if turns:
                 place = passing(
                     between,
-                    lambda near: self._rate(near.place.configuration, between.direction(near)),
+                    lambda near: self._rate(near.place, between.direction(near)),
                 )
                 found += [] if place is None else [Found(place.arc, place.where, is_drive=True)]
             while turning:

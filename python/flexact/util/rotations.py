@@ -78,37 +78,42 @@ def vector_between(one: FloatArray, other: FloatArray) -> FloatArray:
     a, u = one[:, :1], one[:, 1:]
     b, v = other[:, :1], other[:, 1:]
     scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
-    return vector_of_euler(np.hstack([scalar, v * a - b * u - np.cross(v, u)]))
+    return vector_of_euler(np.hstack([scalar, v * a - b * u - cross(v, u)]))
 
 
 def turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
     """Euler parameters (k, 4) after a further rotation by vectors (k, 3)."""
-    angle = np.linalg.norm(rotation, axis=1)[:, None]
-    scalar = np.cos(angle / 2)
-    vector = rotation * np.sinc(angle / (2 * np.pi)) / 2
+    half = 0.5 * np.sqrt(np.einsum("kx,kx->k", rotation, rotation))[:, None]
+    scalar, vector = np.cos(half), rotation * (0.5 * _sine_over(half))
     old_scalar, old_vector = euler[:, :1], euler[:, 1:]
-    # Products of vectors; numpy's own looks at their shapes for longer.
-    cross = np.empty_like(vector)
-    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
-        cross[:, k] = vector[:, i] * old_vector[:, j] - vector[:, j] * old_vector[:, i]
-    made: FloatArray = np.hstack(
-        [
-            scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
-            scalar * old_vector + old_scalar * vector + cross,
-        ]
-    )
+    made = np.empty_like(euler)
+    made[:, :1] = scalar * old_scalar - np.einsum("kx,kx->k", vector, old_vector)[:, None]
+    made[:, 1:] = scalar * old_vector + old_scalar * vector + cross(vector, old_vector)
     return made
+
+
+def _sine_over(angle: FloatArray) -> FloatArray:
+    """Sines of angles over these."""
+    safe = np.where(angle == 0.0, 1.0, angle)
+    return np.asarray(np.where(angle == 0.0, 1.0, np.sin(safe) / safe))
 
 
 def left_jacobian(vector: FloatArray) -> FloatArray:
     """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
-    angle = np.linalg.norm(vector, axis=1)[:, None, None]
-    cross = _skew(vector)
-    small = angle < 1.0e-4
-    safe = np.where(small, 1.0, angle)
-    first = np.where(small, 0.5 - angle**2 / 24, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
-    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
-    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+    square = np.einsum("kx,kx->k", vector, vector)[:, None]
+    angle = np.sqrt(square)
+    safe = np.where(angle < 1.0e-4, 1.0, angle)
+    small, half = angle < 1.0e-4, 0.5 * _sine_over(0.5 * angle) ** 2
+    third = np.where(small, 1 / 6 - square / 120, (safe - np.sin(safe)) / safe**3)
+    first = half * vector
+    # The square of the matrix of a cross product is v v' - |v|^2.
+    made = (third * vector)[:, :, None] * vector[:, None, :]
+    straight = 1.0 - third[:, 0] * square[:, 0]
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[:, k, k] += straight
+        made[:, j, i] += first[:, k]
+        made[:, i, j] -= first[:, k]
+    return np.asarray(made)
 
 
 def euler_of(matrix: FloatArray) -> FloatArray:

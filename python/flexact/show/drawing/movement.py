@@ -94,7 +94,7 @@ def follow(motion: Velocities, shares: FloatArray, size: float) -> tuple[list[Po
     here: Place | None = held.at(held.reference)
     places, deviation = [], 0.0
     for step in np.abs(np.diff(shares, prepend=0.0)).tolist():
-        here = settle(held, here, direction, step * length) if here else None
+        here = settle(here, direction, step * length) if here else None
         if here is None:
             return None
         deviation = max(deviation, here.residual)
