@@ -289,9 +289,7 @@ def fast_and_certain() -> list[str]:
     }
     times = {name: _times_of_words(model) for name, model in models.items()}
     stages = models["stages, n = 168"]
-    rank = {
-        word: certainty_word(flexact.analyse(stages, **_told(word, 168))) for word in WORDS
-    }
+    rank = {word: certainty_word(flexact.analyse(stages, **_told(word, 168))) for word in WORDS}
     errors = errors_of_smallest((("small", 168),))[0]["errors"]
     costs = beams_trade()
     heads = [*models, "smallest value, stages 1 nm apart", "rank, n = 168", "`cost`: time"]
