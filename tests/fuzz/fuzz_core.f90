@@ -178,7 +178,7 @@ contains
       real(c_double) :: node_mass(6, size(nodes, 2)), configuration(4, size(nodes, 2)), reaction(3, size(nodes, 2))
       real(c_double), dimension(3, size(nodes, 2), 2) :: force, shift, displacement, reactions
       real(c_double), dimension(6, size(elements, 2), 2) :: misfit, stresses
-      real(c_double) :: loose(3, size(nodes, 2), asked), mode(3, size(nodes, 2), asked), value(asked), pair(2), below(2), above(2)
+      real(c_double) :: loose(3, size(nodes, 2), asked), mode(3, size(nodes, 2), asked), value(asked), pair(2), below(2, 2), above(2, 2)
       real(c_double) :: gravity(3, 2), reached, residual, reduced(2, 2, 3)
       integer(c_int) :: status, iterations, steps, place, found, unheld, negative, complete, failed
       integer :: nn, ne, of_buckling
@@ -213,9 +213,9 @@ contains
       end do
       call find_matrices(2, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
                          reaction, gravity(:, 2), [0, -1], reduced(:, :, 1), reduced(:, :, 2), reduced(:, :, 3), complete, failed)
-      call find_errors(2, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
-                       reaction, gravity(:, 2), 0.0_c_double, misfit, [1.0_c_double, 2.0_c_double], below, above, unheld, &
-                       negative, failed)
+      call find_errors(2, 2, nn, ne, nodes, places, elements, vectors, stiffness, mass, notch, node_mass, configuration, stress, &
+                       reaction, gravity(:, 2), [0.0_c_double, 1.0e4_c_double], misfit, [1.0_c_double, 2.0_c_double], below, &
+                       above, unheld, negative, failed)
    end subroutine take_elastic
 
    ! Here, so that the compiler holds the calls above against them.

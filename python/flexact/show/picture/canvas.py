@@ -56,13 +56,11 @@ def painted(
     lowest, nearest = _nearest(facets, shape)
     index = nearest & ((1 << _BITS) - 1)
     palette = [np.ones((1, 3)), *(colour[:, :3] for _, colour in facets)]
-    seen, first = [], 1
-    for flat, colour in facets:
-        rows = np.flatnonzero((colour[:, 3] > 0.0) & (colour[:, 3] < 1.0))
-        for place, key in _samples(flat[rows], first + rows, shape, lowest):
+    seen = []
+    for flat, number in _numbered(facets, 0.0, 1.0):
+        for place, key in _samples(flat, number, shape, lowest):
             front = key > nearest[place]
             seen.append((place[front], key[front]))
-        first += len(colour)
     if seen:
         every = np.concatenate([colour for _, colour in facets])
         _blend(index, palette, every, *map(np.concatenate, zip(*seen, strict=True)))
@@ -117,13 +115,30 @@ def _nearest(facets: list[Facets], shape: tuple[int, int]) -> tuple[float, np.nd
     """The least depth, and (samples,) depth and number, from 1, of the nearest opaque facet."""
     nearest = np.zeros(shape[0] * shape[1], np.int64)
     lowest = min((float(flat[..., 2].min()) for flat, _ in facets if flat.size), default=0.0)
+    for flat, number in _numbered(facets, 1.0, np.inf):
+        for place, key in _samples(flat, number, shape, lowest):
+            np.maximum.at(nearest, place, key)
+    return lowest, nearest
+
+
+def _numbered(
+    facets: list[Facets], least: float, below: float
+) -> Iterator[tuple[FloatArray, np.ndarray]]:
+    """Polygons of some opacity, all with equally many corners at once, and their numbers from 1.
+
+    Opacities are from the least on, but not 0, and below the other.
+    """
+    alike: dict[int, list[tuple[FloatArray, np.ndarray]]] = {}
     first = 1
     for flat, colour in facets:
-        rows = np.flatnonzero(colour[:, 3] >= 1.0)
-        for place, key in _samples(flat[rows], first + rows, shape, lowest):
-            np.maximum.at(nearest, place, key)
+        opacity = colour[:, 3]
+        rows = np.flatnonzero((opacity > 0.0) & (opacity >= least) & (opacity < below))
+        if rows.size:
+            alike.setdefault(flat.shape[1], []).append((flat[rows], first + rows))
         first += len(colour)
-    return lowest, nearest
+    for those in alike.values():
+        flats, numbers = zip(*those, strict=True)
+        yield np.concatenate(flats), np.concatenate(numbers)
 
 
 def _repeated(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
