@@ -178,7 +178,8 @@ contains
       real(c_double) :: node_mass(6, size(nodes, 2)), configuration(4, size(nodes, 2)), reaction(3, size(nodes, 2))
       real(c_double), dimension(3, size(nodes, 2), 2) :: force, shift, displacement, reactions
       real(c_double), dimension(6, size(elements, 2), 2) :: misfit, stresses
-      real(c_double) :: loose(3, size(nodes, 2), asked), mode(3, size(nodes, 2), asked), value(asked), pair(2), below(2, 2), above(2, 2)
+      real(c_double) :: loose(3, size(nodes, 2), asked), mode(3, size(nodes, 2), asked), value(asked)
+      real(c_double) :: pair(2), below(2, 2), above(2, 2)
       real(c_double) :: gravity(3, 2), reached, residual, reduced(2, 2, 3)
       integer(c_int) :: status, iterations, steps, place, found, unheld, negative, complete, failed
       integer :: nn, ne, of_buckling
