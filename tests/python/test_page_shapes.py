@@ -86,11 +86,16 @@ def test_hinges_turn_and_nodes_go_with_their_members(browser: Browser, tmp_path:
     analysis = browser.show(ROOT / "input_decks" / "linkages" / "bennett.dat", tmp_path)
     drawing = drawing_of(analysis.given)
     pose = move(drawing, analysis.motions[0]).poses[-1]
-    browser.run("flexact.showMovement(0); flexact.movePhase(1)")
-    axis = np.reshape(browser.run("return Array.from(flexact.pose.axis)"), (-1, 3))
+    # In one call: it plays on.
+    axis, node = (
+        np.reshape(each, (-1, 3))
+        for each in browser.run(
+            "flexact.showMovement(0); flexact.movePhase(1);"
+            "return [flexact.pose.axis, flexact.pose.position].map((each) => Array.from(each))"
+        )
+    )
     turned = pose.rotation[drawing.hinges.nodes[:, 1]] @ drawing.hinges.frame
     assert np.allclose(axis, turned[..., 0], rtol=0, atol=1e-5)
-    node = np.reshape(browser.run("return Array.from(flexact.pose.position)"), (-1, 3))
     placed = analysis.data.arrays.node_kind <= NodeKind.POSITION
     there = (pose.position - drawing.centre) / drawing.size
     assert np.allclose(node[placed], there[placed], rtol=0, atol=1e-5)
@@ -102,8 +107,12 @@ def test_round_members_look_round(name: str, browser: Browser, tmp_path: Path) -
     analysis = browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
     drawing, plan = drawing_of(analysis.given), plan_of(browser)
     movement = move(drawing, moving(analysis)[0])
-    browser.run("flexact.showMovement(0); flexact.movePhase(0.5)")
-    found = np.reshape(browser.run("return Array.from(flexact.members.shape.normal)"), (-1, 3))
+    # In one call: it plays on.
+    normals = browser.run(
+        "flexact.showMovement(0); flexact.movePhase(0.5);"
+        "return Array.from(flexact.members.shape.normal)"
+    )
+    found = np.reshape(normals, (-1, 3))
     strips = list(stations(drawing.members, movement.pose(0.5), plan["segments"]))
     axes = {m: c for strip in strips for m, c in zip(strip.member, strip.centre, strict=True)}
     made = corners(drawing, movement.pose(0.5), plan)

@@ -248,6 +248,8 @@ Columns = dict[str, np.ndarray]
 _MOST_TRIED = 3
 #: So many variants at once: some milliseconds of work, and few numbers.
 _MOST_AT_ONCE = 256
+#: Variants that the core takes side by side, and parts in which all are shared out.
+_SIDE_BY_SIDE, _PARTS = 8, 64
 _VERDICTS = np.array([v.value for v in (Verdict.EXACT, Verdict.UNDER, Verdict.OVER, Verdict.BOTH)])
 #: How texts of each column are held; errors, which are few and long, as objects.
 _TEXTS = {
@@ -274,7 +276,9 @@ def swept(
     }
     made["error"] = np.full(count, "", object)
     threads = workers or processors()
-    step = max(1, min(_MOST_AT_ONCE, -(-count // (4 * threads))))
+    # The core takes so many side by side, and what a row says to the last bit depends on its
+    # neighbours: so they are shared out alike, however many workers there are.
+    step = min(_MOST_AT_ONCE, _SIDE_BY_SIDE * -(-count // (_PARTS * _SIDE_BY_SIDE)))
     room = memory.allowance() / threads
     parts = [
         _Alike(alike.which[first : first + step], alike.whole, alike.by_core)
