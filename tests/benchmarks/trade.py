@@ -61,7 +61,7 @@ _BOTH_ORDERINGS = 10_000
 _MANY_STRESSES = ("T", "O")
 _ROUNDS = 2
 #: No further round starts after so long [s].
-_PATIENCE = 5.0
+_PATIENCE = 3.0
 #: Longest time of a contestant [s].
 _LIMIT = 150.0
 #: Largest size of random removal at which the exact rank is computed.
