@@ -310,10 +310,10 @@ def _told(word: str, columns: int) -> dict[str, Any]:
     """What Python is told for a word: see `flexact.apps.cli.decks.TRADES`."""
     if word == "default":
         return {}
-    if word == "`--fast`":
-        return {"method": TRADES["--fast"]["method"][0]}
-    method, most = (TRADES["--certain"][option][0] for option in ("method", "most_columns"))
-    return {"prove": True} | ({"method": method} if columns <= most else {})
+    method, (least, most), prove = (
+        TRADES[word.strip("`")][option][0] for option in ("method", "columns_of_method", "prove")
+    )
+    return {"prove": prove} | ({"method": method} if least <= columns <= most else {})
 
 
 def _times_of_words(model: flexact.Model) -> dict[str, float]:

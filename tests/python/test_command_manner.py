@@ -191,7 +191,7 @@ def test_verbose_says_what_is_done(capsys: pytest.CaptureFixture[str]) -> None:
     ("words", "said"),
     [
         (["analyse"], "decomposed by svd in "),
-        (["analyse", "--fast"], "by sparse (--fast: --method sparse, a proof where it costs"),
+        (["analyse", "--fast"], "by svd (--fast: --method sparse from 100 columns of D(c) on, a"),
         (
             ["analyse", "--certain"],
             "by jacobi (--certain: --method jacobi up to 400 columns of D(c), --prove) in ",
@@ -213,7 +213,7 @@ def test_verbose_says_on_one_line_what_the_trade_cost_and_gives(
 
 @pytest.mark.parametrize(
     ("word", "options"),
-    [("--fast", ["--method", "sparse"]), ("--certain", ["--method", "jacobi", "--prove"])],
+    [("--fast", []), ("--certain", ["--method", "jacobi", "--prove"])],
 )
 def test_a_word_for_the_trade_is_the_options_that_it_sets(
     word: str, options: list[str], capsys: pytest.CaptureFixture[str]
@@ -224,10 +224,13 @@ def test_a_word_for_the_trade_is_the_options_that_it_sets(
     assert capsys.readouterr().out == by_word
 
 
-def test_certain_takes_another_method_for_a_large_matrix(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(
+    ("side", "word", "method"),
+    [(5, "--fast", "sparse"), (5, "--certain", "jacobi"), (16, "--certain", "sparse")],
+)
+def test_a_word_for_the_trade_takes_the_method_for_the_size(
+    side: int, word: str, method: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    side = 16
     model = flexact.Model(name="grid")
     for i in range(side):
         for j in range(side):
@@ -235,10 +238,11 @@ def test_certain_takes_another_method_for_a_large_matrix(
                 if k < side and m < side:
                     model.wire((0.1 * i, 0.1 * j, 0), (0.1 * k, 0.1 * m, 0))
     model.fix((0, 0, 0))
-    assert flexact.analyse(model).columns > 400
+    columns = flexact.analyse(model).columns
+    assert 100 < columns < 200 if side == 5 else columns > 400
     deck = write(tmp_path / "grid.dat", model.to_deck())
-    assert main(["analyse", "-v", "--certain", str(deck)]) == 0
-    assert "decomposed by sparse (--certain: " in capsys.readouterr().err
+    assert main(["analyse", "-v", word, str(deck)]) == 0
+    assert f"decomposed by {method} ({word}: " in capsys.readouterr().err
 
 
 def test_rows() -> None:

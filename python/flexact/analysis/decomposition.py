@@ -123,8 +123,8 @@ class Asked(NamedTuple):
     """Whether the rank is to be proven in exact arithmetic; None: where it costs little."""
     accuracy: Accuracy | None = None
     """To what the parts are made and put together; None: nothing is known of it."""
-    most_columns: int | None = None
-    """Of D(c) that the method is for; with more it is "auto". None: any number."""
+    columns: tuple[float, float] | None = None
+    """The least and the most of D(c) that the method is for; else it is "auto". None: any."""
 
 
 _PLAIN = Asked()
@@ -136,7 +136,7 @@ def asked_for(
     prove: bool | None = None,
     accuracy: AccuracyGiven | None = None,
     units: Units = METRES,
-    most_columns: int | None = None,
+    columns: tuple[float, float] | None = None,
 ) -> Asked:
     """What an analysis is asked for, if there is such a thing; numbers are in the units.
 
@@ -160,7 +160,7 @@ def asked_for(
     if method not in calls.METHODS:
         choices = ", ".join(calls.METHODS)
         raise ValueError(f"there is no method {method!r}; choose from {choices}")
-    return Asked(method, tolerance, prove, known, most_columns)
+    return Asked(method, tolerance, prove, known, columns)
 
 
 #: Nodes or elements, and modes, beyond which bodies and parts are not told one by one.
@@ -450,8 +450,8 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
     # Below a bound of what it may need, nobody has to look how much there is.
     room = memory.allowance(memory.dense_needed(data.count.rows, data.count.columns))
 
-    is_beyond = asked.most_columns is not None and data.count.columns > asked.most_columns
-    method = "auto" if is_beyond else asked.method
+    least, most = asked.columns or (0.0, math.inf)
+    method = asked.method if least <= data.count.columns <= most else "auto"
 
     def work(stage: IntArray | None) -> RawAnalysis:
         return calls.analyse_model(

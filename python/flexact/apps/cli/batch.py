@@ -98,7 +98,7 @@ def _head(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> dict[str, An
             "--method": chosen.method,
             "--tolerance": chosen.zero_tolerance,
             "--prove": chosen.prove,
-            "--certain": getattr(chosen, "most_columns", None) and True,
+            "--fast, --certain": chosen.trade[0] if chosen.trade else None,
             "--accuracy": chosen.accuracy and list(chosen.accuracy),
             "--mesh": chosen.mesh,
             **{f"--{name}": path and os.path.abspath(path) for name, path in folders.items()},

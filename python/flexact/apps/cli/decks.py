@@ -262,20 +262,22 @@ def tolerance(text: str) -> float:
     return value
 
 
-#: Up to so many columns the method jacobi takes a tenth of a second.
-_QUICK = 400
+#: From so many columns on the method sparse is the quickest, and up to so many jacobi takes a tenth
+#: of a second.
+_SPARSE, _QUICK = 100, 400
 #: What one word for the trade of speed for accuracy sets of each option, and how that is said. A
 #: proof costs a fifth at most, and without it zeros are judged with more digits, which may take
 #: longer (docs/benchmarks.md).
 TRADES: dict[str, dict[str, tuple[Any, str]]] = {
     "--fast": {
-        "method": ("sparse", "--method sparse"),
+        "method": ("sparse", f"--method sparse from {_SPARSE} columns of D(c) on"),
+        "columns_of_method": ((_SPARSE, math.inf), ""),
         "prove": (None, "a proof where it costs little"),
         "beams": ("4", "--beams 4"),
     },
     "--certain": {
         "method": ("jacobi", f"--method jacobi up to {_QUICK} columns of D(c)"),
-        "most_columns": (_QUICK, ""),
+        "columns_of_method": ((0, _QUICK), ""),
         "prove": (True, "--prove"),
         "beams": ("auto", "--beams auto"),
     },
@@ -338,7 +340,7 @@ DECISION = Group(
             default=None,
             help="whether to prove the rank in exact arithmetic (where it costs little)",
         ),
-        *trades("method", "most_columns", "prove"),
+        *trades("method", "columns_of_method", "prove"),
     ),
 )
 #: To what the workshop makes the parts and puts them together.
@@ -431,15 +433,15 @@ def report_problems(model: ModelData) -> None:
 
 def decision_of(chosen: argparse.Namespace, units: Units = METRES) -> tuple[Any, ...]:
     """How the rank is to be decided: arguments of `asked_for`."""
-    most = getattr(chosen, "most_columns", None)
+    columns = getattr(chosen, "columns_of_method", None)
     decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    return (*decision, units, most)
+    return (*decision, units, columns)
 
 
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
     asked = asked_for(*decision_of(chosen, model.units))
-    if asked.most_columns is None:
+    if asked.columns is None:
         announce_wait(deck, model, asked.method)
     if asked.accuracy is not None and not chosen.beyond:
         asked.accuracy.require_within(model.size, model.units)
