@@ -278,7 +278,7 @@ def swept(
     threads = workers or processors()
     # The core takes so many side by side, and what a row says to the last bit depends on its
     # neighbours: so they are shared out alike, however many workers there are.
-    step = min(_MOST_AT_ONCE, _SIDE_BY_SIDE * -(-count // (_PARTS * _SIDE_BY_SIDE)))
+    step = min(_MOST_AT_ONCE, _SIDE_BY_SIDE * -(-max(1, count) // (_PARTS * _SIDE_BY_SIDE)))
     room = memory.allowance() / threads
     parts = [
         _Alike(alike.which[first : first + step], alike.whole, alike.by_core)
