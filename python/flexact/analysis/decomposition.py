@@ -449,7 +449,6 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
     data.require_sound()
     # Below a bound of what it may need, nobody has to look how much there is.
     room = memory.allowance(memory.dense_needed(data.count.rows, data.count.columns))
-
     least, most = asked.columns or (0.0, math.inf)
     method = asked.method if least <= data.count.columns <= most else "auto"
 

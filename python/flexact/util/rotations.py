@@ -102,8 +102,8 @@ def left_jacobian(vector: FloatArray) -> FloatArray:
     """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
     square = np.einsum("kx,kx->k", vector, vector)[:, None]
     angle = np.sqrt(square)
-    safe = np.where(angle < 1.0e-4, 1.0, angle)
     small, half = angle < 1.0e-4, 0.5 * _sine_over(0.5 * angle) ** 2
+    safe = np.where(small, 1.0, angle)
     third = np.where(small, 1 / 6 - square / 120, (safe - np.sin(safe)) / safe**3)
     first = half * vector
     # The square of the matrix of a cross product is v v' - |v|^2.
