@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Orthonormal vectors: made, extended, and taken out of others.
 module flexact_orthonormal
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_blas, only: blas_share, blas_threads, blas_unshare
    use flexact_dense, only: allocate_work
@@ -10,7 +10,7 @@ module flexact_orthonormal
    use flexact_lapack, only: dgemm, dgeqrf, dorgqr
    use flexact_scaled_norm, only: length_of
    use flexact_sparse_basis, only: sparse_basis_t
-   use flexact_threads, only: run_tasks, piece, pieces_of
+   use flexact_threads, only: on_pieces, pieces_of
    implicit none
    private
    public :: orthonormalise, deflate, extend, take_out, fill_at_random
@@ -157,7 +157,7 @@ contains
       workers = blas_threads()
       call blas_share()
       do round = 1, 2
-         call run_tasks(int(pieces, c_int), int(workers, c_int), c_funloc(take_out_piece), c_loc(taking))
+         call on_pieces(size(block, 1), workers, take_out_piece, c_loc(taking))
          if (taking%is_known) exit
          do p = 2, pieces
             taking%part(:, :, 1) = taking%part(:, :, 1) + taking%part(:, :, p)
@@ -168,22 +168,18 @@ contains
       if (present(taken)) taken = taking%part(:, :, 1)
    end subroutine take_out
 
-   recursive subroutine take_out_piece(task, worker, data) bind(c)
-      integer(c_int), value :: task, worker
-      type(c_ptr), value :: data
+   recursive subroutine take_out_piece(part, first, last, data)
+      integer, intent(in) :: part, first, last
+      type(c_ptr), intent(in) :: data
       type(taking_t), pointer :: taking
-      integer :: ends(2)
 
       call c_f_pointer(data, taking)
-      ! No worker has anything of its own.
-      if (worker < 1) return
-      ends = piece(size(taking%block, 1), int(task), size(taking%part, 3))
-      associate (v => taking%orthonormal, b => taking%block, n => size(taking%block, 1), some => ends(2) - ends(1) + 1, &
+      associate (v => taking%orthonormal, b => taking%block, n => size(taking%block, 1), some => last - first + 1, &
                  m => size(taking%orthonormal, 2), k => size(taking%block, 2))
          if (taking%is_known) then
-            call dgemm('N', 'N', some, k, m, -1.0_wp, v(ends(1), 1), n, taking%part, m, 1.0_wp, b(ends(1), 1), n)
+            call dgemm('N', 'N', some, k, m, -1.0_wp, v(first, 1), n, taking%part, m, 1.0_wp, b(first, 1), n)
          else
-            call dgemm('T', 'N', m, k, some, 1.0_wp, v(ends(1), 1), n, b(ends(1), 1), n, 0.0_wp, taking%part(1, 1, task), m)
+            call dgemm('T', 'N', m, k, some, 1.0_wp, v(first, 1), n, b(first, 1), n, 0.0_wp, taking%part(1, 1, part), m)
          end if
       end associate
    end subroutine take_out_piece

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Sparse matrices, compressed column by column, and products with them.
 module flexact_sparse
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_ptr
    use flexact_blas, only: blas_threads
    use flexact_kinds, only: wp
-   use flexact_threads, only: run_tasks, piece, pieces_of
+   use flexact_threads, only: on_pieces
    implicit none
    private
    public :: sparse_t, operator_t, operator_of, compress, transposed, times, times_transposed, submatrix, norm_bound
@@ -97,20 +97,16 @@ contains
       product%matrix => matrix
       product%x => x
       product%y => y
-      call run_tasks(int(pieces_of(matrix%columns), c_int), int(blas_threads(), c_int), c_funloc(multiply_piece), c_loc(product))
+      call on_pieces(matrix%columns, blas_threads(), multiply_piece, c_loc(product))
    end subroutine times_transposed
 
-   recursive subroutine multiply_piece(task, worker, data) bind(c)
-      integer(c_int), value :: task, worker
-      type(c_ptr), value :: data
+   recursive subroutine multiply_piece(part, first, last, data)
+      integer, intent(in) :: part, first, last
+      type(c_ptr), intent(in) :: data
       type(product_t), pointer :: product
-      integer :: ends(2)
 
       call c_f_pointer(data, product)
-      ! No worker has anything of its own.
-      if (worker < 1) return
-      ends = piece(product%matrix%columns, int(task), pieces_of(product%matrix%columns))
-      call multiply_some(product%matrix, product%x, ends(1), ends(2), product%y)
+      call multiply_some(product%matrix, product%x, first, last, product%y)
    end subroutine multiply_piece
 
    pure recursive subroutine multiply_some(matrix, x, first, last, y)

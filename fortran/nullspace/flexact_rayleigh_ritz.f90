@@ -3,14 +3,14 @@
 !> those of A itself, so that they do not suffer from squaring: k orthonormal
 !> vectors with small |A v| show that k singular values are small; theory.md (35).
 module flexact_rayleigh_ritz
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_ptr
    use flexact_blas, only: blas_share, blas_threads, blas_unshare
    use flexact_decomposition, only: decompose
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgemm, dgeqrf
    use flexact_sparse, only: operator_t, sparse_t
-   use flexact_threads, only: run_tasks, piece, pieces_of
+   use flexact_threads, only: on_pieces, pieces_of
    implicit none
    private
    public :: rayleigh_ritz, take_lowest
@@ -81,25 +81,21 @@ contains
       associate (k => size(r, 1), pieces => image%pieces)
          allocate (image%triangles(k*pieces, k))
          call blas_share()
-         call run_tasks(int(pieces, c_int), int(workers, c_int), c_funloc(make_triangle), c_loc(image))
+         call on_pieces(by_row%columns, workers, make_triangle, c_loc(image))
          call blas_unshare()
          if (pieces > 1) call dgeqrf(k*pieces, k, image%triangles, k*pieces, tau, work, size(work), info)
       end associate
       call keep_triangle(image%triangles, r)
    end subroutine triangle_of_image
 
-   recursive subroutine make_triangle(task, worker, data) bind(c)
-      integer(c_int), value :: task, worker
-      type(c_ptr), value :: data
+   recursive subroutine make_triangle(part, first, last, data)
+      integer, intent(in) :: part, first, last
+      type(c_ptr), intent(in) :: data
       type(image_t), pointer :: image
-      integer :: ends(2)
 
       call c_f_pointer(data, image)
-      ! No worker has anything of its own.
-      if (worker < 1) return
-      ends = piece(image%by_row%columns, int(task), image%pieces)
       associate (k => size(image%space, 2))
-         call triangle_of_rows(image%by_row, image%space, ends(1), ends(2), image%triangles((task - 1)*k + 1:task*k, :))
+         call triangle_of_rows(image%by_row, image%space, first, last, image%triangles((part - 1)*k + 1:part*k, :))
       end associate
    end subroutine make_triangle
 
